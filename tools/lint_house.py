@@ -394,6 +394,29 @@ def words_in_names(root: Path) -> Iterator[Fault]:
             yield Fault(WORDS_IN_NAMES, line, "\n  ".join([message, *places[word]]))
 
 
+def names_of_faces(root: Path) -> Iterator[Fault]:
+    """Yield names that a package offers to others in its ``__init__.pyi`` and that none of them imports."""
+    used = {
+        (node.module, name.name)
+        for module in modules(root)
+        for node in module.nodes
+        if isinstance(node, ast.ImportFrom) and node.module
+        for name in node.names
+    }
+    attributes = {
+        (f"ehlectric.{node.value.id}", node.attr)
+        for module in modules(root)
+        for node in module.nodes
+        if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name)
+    }
+    for face in sorted((root / PACKAGE).glob("*/__init__.pyi")):
+        package = f"ehlectric.{face.parent.name}"
+        for node in ast.parse(face.read_text(encoding="utf-8")).body:
+            for name in node.names if isinstance(node, ast.ImportFrom) else ():
+                if (package, name.name) not in used | attributes:
+                    yield Fault(face.relative_to(root), name.lineno, f"no other package imports {name.name}")
+
+
 def renew(root: Path = ROOT) -> list[Fault]:
     """Lower the numbers of words in names to those of the source. Returns faults if a number is too low."""
     if broken := list(words_in_names(root)):
@@ -423,6 +446,7 @@ RULES = (
     names_that_windows_lacks,
     publications_of_reports,
     words_in_names,
+    names_of_faces,
 )
 
 

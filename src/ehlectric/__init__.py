@@ -13,16 +13,14 @@ from typing import TYPE_CHECKING, Any
 from ehlectric.version import __version__
 
 if TYPE_CHECKING:
-    from ehlectric.bearing.result import BearingResult, solve_bearing
+    from ehlectric.bearing import BearingResult, solve_bearing
     from ehlectric.cases.bearing_case import BearingCase
     from ehlectric.cases.case import Case, LineCase, PointCase
     from ehlectric.cases.case_oil import oil
     from ehlectric.cases.drive_case import DriveCase
     from ehlectric.cases.film_factors import FilmFactors
-    from ehlectric.contact.result import PointResult, Result
-    from ehlectric.drive.drive_netlist_files import write_drive_netlist
-    from ehlectric.drive.netlist_files import write_netlist
-    from ehlectric.drive.result import DriveResult, solve_drive
+    from ehlectric.contact import PointResult, Result
+    from ehlectric.drive import DriveResult, solve_drive, write_drive_netlist, write_netlist
     from ehlectric.errors import ConvergenceError, InputError, LostError
     from ehlectric.figures.result_figures import figure, figure_names, save_figures
     from ehlectric.motion.result import MotionResult
@@ -36,11 +34,7 @@ if TYPE_CHECKING:
     from ehlectric.runs.lookups import bearings, check, film, formulas, oils, surface
     from ehlectric.runs.measured_film_factors import film_factors
     from ehlectric.runs.solve import Solved, load, save, solve, solve_many, solve_motion
-    from ehlectric.sweep.evaluation import evaluate
-    from ehlectric.sweep.result import SweepResults
-    from ehlectric.sweep.run import run_sweep
-    from ehlectric.sweep.store import read_sweep
-    from ehlectric.sweep.sweep_inputs import Sweep
+    from ehlectric.sweep import Sweep, SweepResults, evaluate, read_sweep, run_sweep
 
 # In the order of their use, in which the pages of the API list them.
 __all__ = [  # noqa: RUF022

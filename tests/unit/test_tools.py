@@ -105,6 +105,18 @@ def test_an_entry_that_no_module_uses_is_found_with_its_line(tmp_path, rule, nam
     assert any(lines[place - 1].lstrip("[").startswith(entry) for place in places)
 
 
+def test_a_name_of_a_face_that_no_other_package_imports_is_found(tmp_path):
+    package(tmp_path, "film/__init__.py", "")
+    (tmp_path / lint_house.PACKAGE / "film/__init__.pyi").write_text(
+        "from .mesh import Mesh as Mesh\nfrom .newton import newton as newton, step as step\n", "utf-8"
+    )
+    (tmp_path / lint_house.PACKAGE / "a.py").write_text(
+        "from ehlectric import film\nfrom ehlectric.film import Mesh\n\nfilm.step\n", "utf-8"
+    )
+    faults = [str(fault) for fault in lint_house.names_of_faces(tmp_path)]
+    assert faults == ["src/ehlectric/film/__init__.pyi:2: no other package imports newton"]
+
+
 def test_a_publication_without_a_docstring_is_found(tmp_path):
     package(tmp_path, "a.py", '"""Film after doi:10.1/film."""')
     texts = 'references = [{citation = "A 1", doi = "10.1/film"}, {citation = "B 2", doi = "10.1/none"}]'

@@ -25,7 +25,7 @@ from ehlectric.bearing.gaps import (
     missing_gap,
     outside_capacitance,
 )
-from ehlectric.contact.film_domain import DomainRule, Ends
+from ehlectric.contact import DomainRule, Ends
 from ehlectric.formulas.capacitances import matched_offset
 from ehlectric.formulas.hertz import DryContact, axis_ratio
 from ehlectric.formulas.hertz_outside import unit_deflection

@@ -28,15 +28,9 @@ from ehlectric.cases.case_oil import Lubricant, temperature_coefficient, viscosi
 from ehlectric.cases.contact_inputs import Body as BodyTable
 from ehlectric.cases.film_inputs import thermal_properties
 from ehlectric.cases.grid_inputs import Grid
-from ehlectric.contact.conditions import Conditions, PointConditions
-from ehlectric.contact.contact_heat import hot_oil, reached_rise
-from ehlectric.contact.contact_kinds import KINDS
-from ehlectric.contact.problems import Setup
+from ehlectric.contact import KINDS, Conditions, PointConditions, Setup, hot_oil, reached_rise
 from ehlectric.errors import ConvergenceError, InputError
-from ehlectric.film.hot_oil import Body, Physics, Thermal
-from ehlectric.film.isothermal_film import Film, PointFilm
-from ehlectric.film.problem import OilSupply
-from ehlectric.film.shear_laws import Rheology
+from ehlectric.film import Body, Film, OilSupply, Physics, PointFilm, Rheology, Thermal
 from ehlectric.formulas.inlet_supply import (
     LOADING_EXPONENT,
     decay_rate,

@@ -35,7 +35,7 @@ from ehlectric.bearing.gaps import (
     roller_capacitance,
     roller_tail,
 )
-from ehlectric.contact.film_domain import Ends
+from ehlectric.contact import Ends
 from ehlectric.formulas.hertz import line_gap, reduced_radius
 from ehlectric.formulas.smooth_tables import Function, SmoothTable, smooth_table
 from ehlectric.runtime.values import read_only_property

@@ -31,10 +31,9 @@ from ehlectric.cases.bearing_kinds import has_rollers
 from ehlectric.cases.defaults import OF_CONTACTS, QUICK, quick_way
 from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.cases.grid_inputs import DEFAULT_ENDS
-from ehlectric.contact.problems import Setup
-from ehlectric.contact.warnings import case_warnings
+from ehlectric.contact import Setup, case_warnings
 from ehlectric.errors import InputError
-from ehlectric.film.atlas.atlas_films import contact_film
+from ehlectric.film import contact_film
 from ehlectric.formulas.film_line import LineContact, martin, pan_hamrock
 from ehlectric.formulas.film_point import PointContact, brewe_hamrock_taylor, chittenden
 from ehlectric.formulas.hertz import line_gap

@@ -25,19 +25,23 @@ from ehlectric.bearing.gaps import (
 from ehlectric.bearing.loads.geometry import BallBearing, ContactRadii, RollerBearing
 from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.cases.grid_inputs import DEFAULT_ENDS, Grid, Solver, point_grid
-from ehlectric.contact.conditions import (
+from ehlectric.contact import (
+    FARTHEST_LINE,
+    FARTHEST_POINT,
+    WIDEST_POINT,
     Conditions,
+    DomainRule,
+    Ends,
     PointConditions,
+    check_grid,
     check_pressure,
     check_width,
     default_side,
     least_pressure,
+    solve_contact,
 )
-from ehlectric.contact.contact_memory import check_grid
-from ehlectric.contact.film_domain import FARTHEST_LINE, FARTHEST_POINT, WIDEST_POINT, DomainRule, Ends
-from ehlectric.contact.solver import solve_contact
 from ehlectric.errors import InputError
-from ehlectric.film.atlas.atlas_groups import Ellipse
+from ehlectric.film import Ellipse
 from ehlectric.formulas.film_line import moes
 from ehlectric.formulas.film_point import nijenbanning_venner_moes
 from ehlectric.formulas.hertz import DryContact, dry_contact, line_half_width, line_max_pressure

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-def run(
+def solve_to_folder(
     case: BearingCase,
     folder: str | Path,
     progress: Progress = silent,
@@ -48,7 +48,7 @@ def run(
     ...     }
     ... )
     >>> with TemporaryDirectory() as folder:
-    ...     outcome = run(case, folder)
+    ...     outcome = solve_to_folder(case, folder)
     >>> outcome.converged, [path.name for path in outcome.files]
     (True, ['summary.json', 'contacts.csv', 'bearing.nc'])
     """

@@ -49,7 +49,7 @@ from ehlectric.discharge.discharge_laws import conductivity_of, known
 from ehlectric.quantities.result_warnings import texts_and_codes
 from ehlectric.runtime.files import plain
 
-SCHEMA = "ehlectric.bearing/1"
+SUMMARY_SCHEMA = "ehlectric.bearing/1"
 
 _PARTS_OF_FILM_FACTOR = ("heat_factor", "inlet_shear_factor", "supply_factor")
 _VOLTAGES = tuple(field.name for field in dataclasses.fields(Breakdown))
@@ -63,7 +63,7 @@ def summary_of(solution: BearingSolution) -> dict[str, Any]:
     case, duty = solution.case, duty_of(solution)
     summary: dict[str, Any] = plain(
         {
-            "schema": SCHEMA,
+            "schema": SUMMARY_SCHEMA,
             "version": solution.version,
             "title": case.title,
             "converged": solution.converged,

@@ -50,7 +50,7 @@ from ehlectric.cases.library.estimated_bearings import WITHOUT_KNOWN
 from ehlectric.cases.library.printed_ratings import printed_ratings
 from ehlectric.cases.oil_inputs import OilTemperature
 from ehlectric.cases.plausibility import PLAUSIBLE, extreme, oil_doubts, rq_flag, unusual, unusual_machine
-from ehlectric.contact.warnings import PERMANENT
+from ehlectric.contact import PERMANENT
 from ehlectric.discharge.discharge_laws import known, known_of
 from ehlectric.discharge.film_breakdown import field_flags, strength_flags
 from ehlectric.discharge.film_verdict import breakdown_flag

@@ -24,7 +24,7 @@ from ehlectric.runtime.undrawn import Drawn, kept_going
 from ehlectric.runtime.values import is_number
 
 if TYPE_CHECKING:
-    from ehlectric.sweep.result import SweepResults
+    from ehlectric.sweep import SweepResults
 
 
 def load_and_draw(
@@ -53,13 +53,13 @@ def draw_sweep(
 
 def _load_and_draw(path: Path, folder: Path, formats: Sequence[str], style: str) -> Drawn:
     """Draw the figures of a result from its NetCDF file or database."""
-    from ehlectric.bearing.result import BearingResult
-    from ehlectric.drive.result import DriveResult
+    from ehlectric.bearing import BearingResult
+    from ehlectric.drive import DriveResult
     from ehlectric.motion.stored_run import read_motion
     from ehlectric.runs.solve import load
     from ehlectric.runtime.result_names import MOTION
     from ehlectric.runtime.stored import warnings_in
-    from ehlectric.sweep.store import NAME, read_sweep
+    from ehlectric.sweep import NAME, read_sweep
 
     if path.name == NAME:
         return _draw_sweep(read_sweep(path.parent), folder, path.parent, formats, style)
@@ -96,10 +96,7 @@ def _draw(
 
 def _draw_sweep(results: SweepResults, folder: Path, home: Path, formats: Sequence[str], style: str) -> Drawn:
     """Draw the maps and lines of a sweep over one or two keys, or the sensitivity of a Sobol design."""
-    from ehlectric.sweep.sensitivity_indices import sensitivity
-    from ehlectric.sweep.slices import take
-    from ehlectric.sweep.sweep_inputs import main_value, ranked_value
-    from ehlectric.sweep.warnings import sensitivity_warnings
+    from ehlectric.sweep import main_value, ranked_value, sensitivity, sensitivity_warnings, take
 
     files: list[Path] = []
     if results.ranges:

@@ -23,8 +23,7 @@ from ehlectric.errors import InputError
 from ehlectric.readable import readable
 
 if TYPE_CHECKING:
-    from ehlectric.drive.netlist import Arc, Subcircuit
-    from ehlectric.drive.netlist_files import Netlist
+    from ehlectric.drive import Arc, Netlist, Subcircuit
     from ehlectric.quantities.rows import Row
     from ehlectric.runs.file_kinds import InputFile
     from ehlectric.runtime.progress import Progress
@@ -55,7 +54,7 @@ def spice(
     converged, the files are still written; or memory ran out.
     """
     with user_errors(), _named_as_options():
-        from ehlectric.drive.netlist_files import arc_of, check_targets, write_files
+        from ehlectric.drive import arc_of, check_targets, write_files
         from ehlectric.runs.file_kinds import expect
         from ehlectric.runtime.files import clear_left_behind
 
@@ -98,7 +97,7 @@ def _bearing(
     file: InputFile, contacts: str, arc: Arc | None, speeds: str | None, progress: Progress, *, motor: bool
 ) -> Netlist:
     """Netlist of a bearing file."""
-    from ehlectric.drive.netlist import check_strength, drive_of, solve_at_speeds, speeds_of, subcircuit_of
+    from ehlectric.drive import check_strength, drive_of, solve_at_speeds, speeds_of, subcircuit_of
     from ehlectric.runs import by_kind
 
     case = by_kind.read_bearing(file)
@@ -113,7 +112,7 @@ def _bearing(
 
 def _drive(file: InputFile, contacts: str, progress: Progress) -> Netlist:
     """Netlist of a drive file."""
-    from ehlectric.drive.drive_netlist_files import drive_netlist
+    from ehlectric.drive import drive_netlist
     from ehlectric.runs import by_kind
 
     case = by_kind.read_drive(file)

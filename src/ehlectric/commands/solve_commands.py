@@ -34,7 +34,7 @@ from ehlectric.runtime.progress import Progress
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from ehlectric.contact.result import PointResult, Result
+    from ehlectric.contact import PointResult, Result
     from ehlectric.runtime.progress import RunOutcome
 
 
@@ -130,7 +130,7 @@ def run(
         kind, case = file.kind, by_kind.RUNS[file.kind].read(file)
         data = MeasuredFile.of(measured, None, uncertainty)
         if kind == "contact":
-            from ehlectric.contact.preparation import prepare
+            from ehlectric.contact import prepare
 
             case = prepare(case)
             if not quiet:

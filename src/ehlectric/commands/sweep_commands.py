@@ -39,8 +39,7 @@ from ehlectric.runtime.progress import Progress, silent
 from ehlectric.runtime.undrawn import Drawn, Undrawn, kept_going
 
 if TYPE_CHECKING:
-    from ehlectric.sweep.result import SweepResults
-    from ehlectric.sweep.sweep_inputs import Sweep
+    from ehlectric.sweep import Sweep, SweepResults
 
 
 # Time between two lines of progress where stderr is not a terminal [s].
@@ -85,7 +84,7 @@ def sweep(
         draws = (plots or bool(formats)) and outcome.converged
         drawn, why = _drawn(outcome.result, output, look) if draws else (Drawn(()), "")
     if not quiet:
-        from ehlectric.sweep.verdict_rule import sweep_verdict
+        from ehlectric.sweep import sweep_verdict
         from ehlectric.tables.sweep_summary import sweep_rows
 
         print_rows(sweep_rows(outcome.result))
@@ -100,8 +99,7 @@ def sweep(
 def _tell_what_lacks(sweep: Sweep) -> None:
     """Warn, before points are solved, of a point of a sweep of drives that cannot be computed."""
     from ehlectric.cases.drive_case import DriveCase
-    from ehlectric.sweep.engine import lacking_point
-    from ehlectric.sweep.run import planned_points
+    from ehlectric.sweep import lacking_point, planned_points
 
     drives = isinstance(sweep.case, DriveCase)
     lacking = lacking_point(sweep, planned_points(sweep)) if drives else None
@@ -145,7 +143,7 @@ def _tell_where_it_stops(output: Path) -> Iterator[_Begun]:
     begun = _Begun()
 
     def tell(why: str) -> None:
-        from ehlectric.sweep.store import saved_points
+        from ehlectric.sweep import saved_points
 
         # Read from the file: the progress may not have been called for the last points yet.
         saved, points = saved_points(output)
@@ -231,7 +229,7 @@ def _in_short(results: SweepResults) -> Iterator[str]:
 
 def _varied_keys(ctx: typer.Context, incomplete: str) -> list[str]:
     """Varied keys of the sweep in the folder that is typed already, for the completion of a shell."""
-    from ehlectric.sweep.store import read_sweep
+    from ehlectric.sweep import read_sweep
 
     try:
         results = read_sweep(ctx.params["folder"])
@@ -262,9 +260,7 @@ def draw_maps(
 
         from ehlectric.figures.figure_names import SPEED_FIGURE_FILES, in_formats, map_files, of_cut
         from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
-        from ehlectric.sweep.slices import take
-        from ehlectric.sweep.store import read_sweep
-        from ehlectric.sweep.sweep_inputs import main_value
+        from ehlectric.sweep import main_value, read_sweep, take
 
         results, forms = read_sweep(folder), look["formats"]
         value = value or main_value(results.case)
@@ -310,9 +306,8 @@ def sensitivity(
         from ehlectric.runs.result_folders import SENSITIVITY
         from ehlectric.runtime.files import write_json
         from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
-        from ehlectric.sweep.sensitivity_indices import sensitivity as sensitivity_of
-        from ehlectric.sweep.store import read_sweep
-        from ehlectric.sweep.sweep_inputs import ranked_value
+        from ehlectric.sweep import ranked_value, read_sweep
+        from ehlectric.sweep import sensitivity as sensitivity_of
 
         results = read_sweep(folder)
         indices = sensitivity_of(results, value or ranked_value(results.case))
@@ -327,7 +322,7 @@ def sensitivity(
                 with styled(style):
                     files += save_sensitivity(results, indices, target / SENSITIVITY_FIGURE, look["formats"])
     if not quiet:
-        from ehlectric.sweep.warnings import sensitivity_warnings
+        from ehlectric.sweep import sensitivity_warnings
         from ehlectric.tables.sweep_summary import indices_table, spread_rows
 
         print_rows(spread_rows(results, indices), results.title)

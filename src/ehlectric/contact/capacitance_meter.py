@@ -16,11 +16,8 @@ from ehlectric.cases.meter_inputs import Meter, body_radii
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.discharge.film_capacitance import LEAST_RATIO, Layers, zone_capacitances
 from ehlectric.discharge.outer_gap import Bodies, Body, Outside, around_line, around_point
-from ehlectric.field.line_field import Field
-from ehlectric.field.point_field import PointField
-from ehlectric.field.poisson import ATOM
-from ehlectric.field.zones import areas_by_zone
-from ehlectric.film.isothermal_film import Film, PointFilm
+from ehlectric.field import ATOM, Field, PointField, areas_by_zone
+from ehlectric.film import Film, PointFilm
 from ehlectric.formulas.hertz import dry_contact
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable

@@ -14,7 +14,7 @@ from ehlectric.cases.case import Case
 from ehlectric.cases.contact_inputs import Contact
 from ehlectric.cases.dry_contacts import line_load, line_radius, modulus_of, point_load, point_radius
 from ehlectric.errors import InputError, within
-from ehlectric.film.problem import velocity_parameter
+from ehlectric.film import velocity_parameter
 from ehlectric.formulas import hertz
 from ehlectric.formulas.film_line import LineContact
 from ehlectric.formulas.film_point import PointContact

@@ -13,9 +13,7 @@ from ehlectric.cases.film_inputs import thermal_properties
 from ehlectric.contact.conditions import Conditions, PointConditions, surface_ratios
 from ehlectric.contact.problems import Setup
 from ehlectric.errors import InputError
-from ehlectric.film.hot_oil import Body, HeatedFilm, HotOil, Physics, Thermal
-from ehlectric.film.isothermal_film import Film, PointFilm
-from ehlectric.film.shear_laws import UNBOUNDED, Rheology
+from ehlectric.film import UNBOUNDED, Body, Film, HeatedFilm, HotOil, Physics, PointFilm, Rheology, Thermal
 from ehlectric.lubricant.oil import Oil
 from ehlectric.lubricant.python_laws import OwnLaws, SampledLaws
 from ehlectric.quantities.formats import CELSIUS

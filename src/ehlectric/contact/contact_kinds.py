@@ -27,12 +27,8 @@ from ehlectric.contact.warnings import (
     line_result_warnings,
     point_result_warnings,
 )
-from ehlectric.field.line_field import Field, solve_field
-from ehlectric.field.point_field import PointField, solve_point_field
-from ehlectric.field.poisson import FieldProblem
-from ehlectric.field.poisson_3d import PointFieldProblem
-from ehlectric.film.isothermal_film import Film, PointFilm, solve_film, solve_point_film
-from ehlectric.film.problem import FilmProblem
+from ehlectric.field import Field, FieldProblem, PointField, PointFieldProblem, solve_field, solve_point_field
+from ehlectric.film import Film, FilmProblem, PointFilm, solve_film, solve_point_film
 from ehlectric.formulas import film_line, film_point
 from ehlectric.formulas.film_line import Formula, LineContact
 from ehlectric.formulas.film_point import PointContact

@@ -7,7 +7,7 @@ import math
 from ehlectric.cases.case import Case
 from ehlectric.cases.grid_inputs import Grid, Motion
 from ehlectric.errors import MemoryLimitError
-from ehlectric.film.newton import KRYLOV_LIMIT
+from ehlectric.film import KRYLOV_LIMIT
 from ehlectric.runtime.memory import available_memory, in_bytes, least_limit
 
 # Peak memory of a line contact [bytes], measured up to a million nodes: of the film per node; of the field

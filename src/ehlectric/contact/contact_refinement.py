@@ -13,12 +13,17 @@ from ehlectric.cases.grid_inputs import Grid
 from ehlectric.contact.contact_memory import check_grid
 from ehlectric.contact.problems import Setup
 from ehlectric.errors import InputError, within
-from ehlectric.film.film_errors import MINIMUM_ORDER, expected_error, expected_nodes
-from ehlectric.film.film_solver import UNKNOWN
-from ehlectric.film.heated_solution import is_too_fine
-from ehlectric.film.isothermal_film import Film, PointFilm
-from ehlectric.film.mesh import Mesh
-from ehlectric.film.problem import FilmProblem
+from ehlectric.film import (
+    MINIMUM_ORDER,
+    UNKNOWN,
+    Film,
+    FilmProblem,
+    Mesh,
+    PointFilm,
+    expected_error,
+    expected_nodes,
+    is_too_fine,
+)
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable
 

@@ -24,10 +24,8 @@ from ehlectric.contact.touching import (
 )
 from ehlectric.discharge.assessment import Assessment, assess
 from ehlectric.discharge.film_verdict import contact_verdict
-from ehlectric.field.line_field import Field
-from ehlectric.field.point_field import PointField
-from ehlectric.field.zones import contact_zones
-from ehlectric.film.isothermal_film import Film, PointFilm
+from ehlectric.field import Field, PointField, contact_zones
+from ehlectric.film import Film, PointFilm
 from ehlectric.quantities.field_metadata import stored
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.verdict import Verdict

@@ -25,7 +25,7 @@ from ehlectric.cases.measurements import Measurement
 from ehlectric.contact.contact_kinds import KINDS
 from ehlectric.contact.solver import solve
 from ehlectric.errors import ConvergenceError, InputError
-from ehlectric.film.atlas.atlas_films import contact_film
+from ehlectric.film import contact_film
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable
 from ehlectric.runtime.progress import Progress, silent

@@ -27,10 +27,7 @@ from ehlectric.contact.summary import breakdown_by_formula
 from ehlectric.contact.warnings import case_warnings
 from ehlectric.discharge.discharge_laws import MOST_MARGIN
 from ehlectric.errors import InputError, shown
-from ehlectric.film.far_field import MOST_OUTSIDE
-from ehlectric.film.hot_oil import Physics
-from ehlectric.film.isothermal_film import Film, PointFilm
-from ehlectric.film.problem import FilmProblem
+from ehlectric.film import MOST_OUTSIDE, Film, FilmProblem, Physics, PointFilm
 from ehlectric.lubricant.python_laws import Laws, Recorder, SampledLaws
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable

@@ -20,14 +20,20 @@ from ehlectric.cases.roughness_inputs import Roughness
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.contact_memory import FIELD_BYTES, POINT_FIELD_BYTES
 from ehlectric.errors import InputError
-from ehlectric.field.line_field import columns_within, thinned
-from ehlectric.field.poisson import ATOM, FieldProblem
-from ehlectric.field.poisson_3d import PointFieldProblem
-from ehlectric.film.deflection import Geometry, point_geometry
-from ehlectric.film.face_flow import MEAN_MOBILITY, Fluid, FluidLaw
-from ehlectric.film.isothermal_film import Film, PointFilm
-from ehlectric.film.mesh import Width
-from ehlectric.film.problem import FilmProblem, OilSupply, Scales
+from ehlectric.field import ATOM, FieldProblem, PointFieldProblem, columns_within, thinned
+from ehlectric.film import (
+    MEAN_MOBILITY,
+    Film,
+    FilmProblem,
+    Fluid,
+    FluidLaw,
+    Geometry,
+    OilSupply,
+    PointFilm,
+    Scales,
+    Width,
+    point_geometry,
+)
 from ehlectric.formulas.film_line import CentralThickness, moes
 from ehlectric.formulas.film_point import load_exponent, nijenbanning_venner_moes
 from ehlectric.lubricant.law import PressureLaw

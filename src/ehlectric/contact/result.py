@@ -14,11 +14,8 @@ from ehlectric.contact.contact_kinds import KINDS
 from ehlectric.contact.contact_solution import ConditionsT, FieldT, FilmT, RoughnessStatistics, Solution
 from ehlectric.contact.stored import dataset_of
 from ehlectric.contact.summary import formulas_of, summary_of
-from ehlectric.field.line_field import Field
-from ehlectric.field.point_field import PointField
-from ehlectric.field.zones import Zone, contact_zones
-from ehlectric.film.film_errors import pressure_error_text
-from ehlectric.film.isothermal_film import Film, PointFilm
+from ehlectric.field import Field, PointField, Zone, contact_zones
+from ehlectric.film import Film, PointFilm, pressure_error_text
 from ehlectric.formulas.film_line import Thickness
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.results import CONTACT_BOOK

@@ -86,7 +86,7 @@ def result_of(dataset: xr.Dataset, path: Path) -> Result | PointResult:
         return RESULTS[geometry](case=case, conditions=conditions, **parts)
 
 
-def run(
+def solve_to_folder(
     contact: PreparedContact,
     folder: str | Path,
     progress: Progress = silent,
@@ -109,7 +109,7 @@ def run(
     >>> contact |= {"max_hertz_pressure": "1 GPa", "entrainment_speed": "4 m/s"}
     >>> case = Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}, "grid": {"nodes": 401}})
     >>> with TemporaryDirectory() as folder:
-    ...     outcome = run(prepare(case), folder)
+    ...     outcome = solve_to_folder(prepare(case), folder)
     >>> outcome.converged, [path.name for path in outcome.files]
     (True, ['summary.json', 'result.nc', 'film.csv'])
     """

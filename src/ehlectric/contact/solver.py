@@ -32,11 +32,8 @@ from ehlectric.contact.warnings import accuracy_warnings, case_warnings, film_wa
 from ehlectric.discharge.assessment import discharge_warnings, margin_warnings
 from ehlectric.discharge.film_breakdown import field_flags
 from ehlectric.errors import ConvergenceError, InputError
-from ehlectric.field.line_field import Field
-from ehlectric.field.point_field import PointField
-from ehlectric.film.far_field import with_far_field
-from ehlectric.film.newton import Progress
-from ehlectric.film.problem import FilmProblem, OnGrid
+from ehlectric.field import Field, PointField
+from ehlectric.film import FilmProblem, OnGrid, Progress, with_far_field
 from ehlectric.lubricant.oil import Oil
 from ehlectric.quantities.result_warnings import ResultWarning, raised
 from ehlectric.runtime.files import now

@@ -17,13 +17,8 @@ from ehlectric.cases.dry_contacts import hertz_pressure
 from ehlectric.contact.contact_solution import Smooth, Solution
 from ehlectric.contact.touching import Coarser
 from ehlectric.errors import InputError
-from ehlectric.field.line_field import Field
-from ehlectric.field.point_field import PointField
-from ehlectric.film.film_solver import Starvation
-from ehlectric.film.hot_oil import HeatedFilm
-from ehlectric.film.isothermal_film import Film, PointFilm
-from ehlectric.film.newton import NewtonStep
-from ehlectric.film.problem import Scales
+from ehlectric.field import Field, PointField
+from ehlectric.film import Film, HeatedFilm, NewtonStep, PointFilm, Scales, Starvation
 from ehlectric.lubricant.python_laws import SampledLaws, is_laws
 from ehlectric.runtime.file_rules import Rule, UnfitError, case_of, is_list, is_number, json_of, text_of
 from ehlectric.runtime.files import plain

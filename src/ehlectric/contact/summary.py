@@ -16,7 +16,7 @@ from ehlectric.contact.contact_solution import Solution
 from ehlectric.contact.problems import Setup
 from ehlectric.discharge.discharge_laws import conductivity_of
 from ehlectric.discharge.film_breakdown import dielectric_strength
-from ehlectric.film.film_solver import Starvation
+from ehlectric.film import Starvation
 from ehlectric.formulas.film_line import Thickness
 from ehlectric.quantities.result_warnings import texts_and_codes
 from ehlectric.quantities.sheets import BREAKDOWN_FORMULAS

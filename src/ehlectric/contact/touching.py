@@ -28,11 +28,8 @@ from ehlectric.discharge.breakdown_rule import POSSIBLE, TOUCHING_EXPECTED
 from ehlectric.discharge.discharge_laws import WeakestLink
 from ehlectric.discharge.film_breakdown import dielectric_strength
 from ehlectric.discharge.film_verdict import unusable
-from ehlectric.field.zones import areas, areas_by_zone
-from ehlectric.film.face_flow import flow
-from ehlectric.film.isothermal_film import Film, PointFilm
-from ehlectric.film.mesh import Mesh
-from ehlectric.film.reynolds import residual, wedge_stencil
+from ehlectric.field import areas, areas_by_zone
+from ehlectric.film import Film, Mesh, PointFilm, flow, residual, wedge_stencil
 from ehlectric.formulas.asperities import cluster_resistance, film_resistance, greenwood_cluster
 from ehlectric.formulas.film_line import CentralThickness, moes
 from ehlectric.formulas.film_point import nijenbanning_venner_moes

@@ -19,11 +19,8 @@ from ehlectric.cases.plausibility import PLAUSIBLE, extreme, oil_doubts, rq_flag
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.contact_heat import physics_of, unconverged_heat
 from ehlectric.contact.problems import Setup
-from ehlectric.field.line_field import Field
-from ehlectric.field.point_field import PointField
-from ehlectric.field.poisson import ATOM
-from ehlectric.film.film_errors import UNRESOLVED
-from ehlectric.film.isothermal_film import Film, PointFilm
+from ehlectric.field import ATOM, Field, PointField
+from ehlectric.film import UNRESOLVED, Film, PointFilm
 from ehlectric.formulas import film_line as film_formulas
 from ehlectric.formulas import film_point as point_formulas
 from ehlectric.lubricant.oil import Oil

@@ -28,9 +28,8 @@ from ehlectric.discharge.film_breakdown import (
 )
 from ehlectric.discharge.film_capacitance import Capacitances, capacitances
 from ehlectric.discharge.film_verdict import breakdown_flag
-from ehlectric.field.line_field import Field
-from ehlectric.field.point_field import PointField
-from ehlectric.film.isothermal_film import Film, PointFilm
+from ehlectric.field import Field, PointField
+from ehlectric.film import Film, PointFilm
 from ehlectric.lubricant.oil import Oil
 from ehlectric.quantities.result_warnings import ResultWarning, raised
 from ehlectric.readable import readable

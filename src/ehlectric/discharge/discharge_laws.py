@@ -16,8 +16,8 @@ from scipy.constants import epsilon_0
 
 from ehlectric.arrays import Array, Numbers
 from ehlectric.cases.discharge_inputs import Discharge, Pit
-from ehlectric.field.zones import areas
-from ehlectric.film.isothermal_film import Film, PointFilm
+from ehlectric.field import areas
+from ehlectric.film import Film, PointFilm
 from ehlectric.lubricant.oil import Oil
 from ehlectric.quantities.quantity import data_file
 

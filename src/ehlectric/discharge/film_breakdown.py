@@ -18,11 +18,8 @@ from ehlectric.discharge.discharge_laws import (
     breakdown_voltage,
 )
 from ehlectric.discharge.film_capacitance import at_columns
-from ehlectric.field.line_field import Field
-from ehlectric.field.point_field import PointField
-from ehlectric.field.poisson import ATOM
-from ehlectric.field.zones import areas
-from ehlectric.film.isothermal_film import Film, PointFilm
+from ehlectric.field import ATOM, Field, PointField, areas
+from ehlectric.film import Film, PointFilm
 from ehlectric.quantities.result_warnings import Flag
 
 # Field strength that no film of a liquid between rough metals carries [V/m]. By Fowler and Nordheim's law of

@@ -27,11 +27,8 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.discharge.discharge_laws import Size
 from ehlectric.errors import InputError, shown
-from ehlectric.field.line_field import Field
-from ehlectric.field.point_field import PointField
-from ehlectric.field.poisson import ATOM
-from ehlectric.field.zones import areas_by_zone
-from ehlectric.film.isothermal_film import Film, PointFilm
+from ehlectric.field import ATOM, Field, PointField, areas_by_zone
+from ehlectric.film import Film, PointFilm
 from ehlectric.lubricant.oil import Oil
 
 

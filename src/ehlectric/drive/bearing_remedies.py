@@ -6,9 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from ehlectric.bearing.bearing_discharges import voltage_ratio
-from ehlectric.bearing.impedance import shaft_capacitance
-from ehlectric.bearing.solution import BearingSolution
+from ehlectric.bearing import BearingSolution, shaft_capacitance, voltage_ratio
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.discharge.breakdown_rule import code_of, level_of, strength_interval
 from ehlectric.discharge.film_verdict import no_verdict

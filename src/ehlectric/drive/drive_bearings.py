@@ -8,12 +8,16 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.bearing_discharges import conducting_areas, oil_conductance
-from ehlectric.bearing.bearing_touching import duty_of
-from ehlectric.bearing.circuit import Path
-from ehlectric.bearing.impedance import oil_relaxation_time, shaft_path
-from ehlectric.bearing.result import BearingResult
-from ehlectric.bearing.solution import BearingSolution
+from ehlectric.bearing import (
+    BearingResult,
+    BearingSolution,
+    Path,
+    conducting_areas,
+    duty_of,
+    oil_conductance,
+    oil_relaxation_time,
+    shaft_path,
+)
 from ehlectric.cases.drive_inputs import Breakdown
 from ehlectric.errors import InputError
 from ehlectric.quantities.field_metadata import stored

@@ -17,24 +17,28 @@ import numpy as np
 from scipy.special import stdtrit
 
 from ehlectric.arrays import Array, IntArray, Mask
-from ehlectric.bearing.cycle_life import CycleLife
-from ehlectric.bearing.cycle_rows import (
+from ehlectric.bearing import (
     FULL_FILM,
     LEFT_OUT,
     MOST_STRETCHES,
     PARTIAL_FILM,
     STANDSTILL,
     TOUCHING,
+    CycleLife,
     CycleRows,
+    DutyRows,
     Written,
+    between_places,
+    check_rows,
     duty_csv,
     edges_of,
+    file_warnings,
+    life_of,
+    rows_of,
     stretches_of,
+    touching_ratio,
     written_columns,
 )
-from ehlectric.bearing.duty_cycle import DutyRows, check_rows, file_warnings, life_of, rows_of
-from ehlectric.bearing.duty_points import between_places
-from ehlectric.bearing.solution import touching_ratio
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.duty_inputs import Cycle, read_cycle
 from ehlectric.cases.measurements import CYCLE

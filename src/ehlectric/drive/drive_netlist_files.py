@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.result import BearingResult, solve_bearing
+from ehlectric.bearing import BearingResult, solve_bearing
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.drive_inputs import Source
 from ehlectric.drive.inverter import steps_of

@@ -11,7 +11,7 @@ import numpy as np
 from scipy.special import gammaincinv, stdtrit
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.result import BearingResult
+from ehlectric.bearing import BearingResult
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.drive.drive_bearings import BearingElement
 from ehlectric.quantities.field_metadata import stored

@@ -12,18 +12,22 @@ from typing import Literal
 
 import numpy as np
 
-from ehlectric.bearing.bearing_discharges import breakdown_of, oil_conductance
-from ehlectric.bearing.bearing_touching import duty_of
-from ehlectric.bearing.circuit import Path
-from ehlectric.bearing.conditions import Solid
-from ehlectric.bearing.impedance import oil_relaxation_time, rough_capacitance, shaft_path
-from ehlectric.bearing.result import BearingResult, solve_bearing
-from ehlectric.bearing.solution import (
+from ehlectric.bearing import (
+    BearingResult,
     BearingSolution,
+    Path,
+    Solid,
+    breakdown_of,
     capacitance,
     capacitance_is_bound,
+    duty_of,
     lambda_text,
     lubrication,
+    oil_conductance,
+    oil_relaxation_time,
+    rough_capacitance,
+    shaft_path,
+    solve_bearing,
 )
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.bearing_inputs import Motor

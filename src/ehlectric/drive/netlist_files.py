@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Protocol
 
-from ehlectric.bearing.result import BearingResult
+from ehlectric.bearing import BearingResult
 from ehlectric.cases.amounts import Amount
 from ehlectric.drive.netlist import SIGNATURE, Arc, Subcircuit, file_text, subcircuit_of
 from ehlectric.errors import InputError

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from ehlectric.bearing.quick_contacts import quick_case
+from ehlectric.bearing import quick_case
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.discharge.breakdown_rule import STRENGTH_UNKNOWN
 from ehlectric.discharge.film_verdict import no_verdict

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from ehlectric.drive.result import DriveResult
 
 
-def run(
+def solve_to_folder(
     case: DriveCase,
     folder: str | Path,
     progress: Progress = silent,

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ehlectric.bearing.rating_life import life_summary
-from ehlectric.bearing.result import BearingResult, solve_bearing
+from ehlectric.bearing import BearingResult, life_summary, solve_bearing
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.drive.discharges.march import Films, Segments
 from ehlectric.drive.discharges.simulation import Measuring, films_of, simulate

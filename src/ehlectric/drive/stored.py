@@ -11,11 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.circuit import Path
-from ehlectric.bearing.cycle_life import CycleLife
-from ehlectric.bearing.cycle_rows import StoredDuty
-from ehlectric.bearing.rating_life import KEYS as LIFE_KEYS
-from ehlectric.bearing.stored import with_smooth_films
+from ehlectric.bearing import KEYS as LIFE_KEYS
+from ehlectric.bearing import CycleLife, Path, StoredDuty, with_smooth_films
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.drive.drive_bearings import BearingElement
 from ehlectric.drive.drive_cycle import DriveDuty, DriveDutyRows, DriveStretch, Expected

@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ehlectric.bearing.rating_life import KEYS as LIFE_KEYS
-from ehlectric.bearing.rating_life import life_summary
-from ehlectric.bearing.solution import film_error
+from ehlectric.bearing import KEYS as LIFE_KEYS
+from ehlectric.bearing import film_error, life_summary
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.discharge.discharge_laws import CURRENT_DENSITY_LIMITS
 from ehlectric.drive.drive_bearings import BearingElement

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
-from ehlectric.bearing.quick_contacts import formula_factor
+from ehlectric.bearing import formula_factor
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.discharge.breakdown_rule import (
     STRENGTH_UNKNOWN,

@@ -8,8 +8,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.result import BearingResult
-from ehlectric.bearing.solution import lambda_text, lubrication
+from ehlectric.bearing import BearingResult, lambda_text, lubrication
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.plausibility import unusual_machine
 from ehlectric.discharge.discharge_laws import CURRENT_DENSITY_LIMITS, compared_with_limits

@@ -20,7 +20,7 @@ from matplotlib.patches import Patch
 from PIL import Image
 
 from ehlectric.arrays import Array, IntArray, Mask
-from ehlectric.contact.conditions import PointConditions
+from ehlectric.contact import PointConditions
 from ehlectric.errors import InputError, shown
 from ehlectric.figures.contact_maps import (
     Range,

@@ -13,20 +13,23 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.bearing_touching import duty_of
-from ehlectric.bearing.impedance import impedance_of, shaft_capacitance
-from ehlectric.bearing.quick_contacts import quick_case
-from ehlectric.bearing.result import BearingResult
-from ehlectric.bearing.solution import lambda_ratio, lambda_text, lubrication
-from ehlectric.bearing.speed_curves import (
+from ehlectric.bearing import (
+    BearingResult,
     Curves,
     Speed,
     Speeds,
     breaks_anywhere,
     critical_speed_of,
     curves_of,
+    duty_of,
+    impedance_of,
+    lambda_ratio,
+    lambda_text,
+    lubrication,
     opening_speed_of,
     over_speed,
+    quick_case,
+    shaft_capacitance,
     value_of,
 )
 from ehlectric.cases.defaults import HOW, OF_CONTACTS

@@ -14,12 +14,19 @@ from matplotlib.text import Text
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.bearing.bearing_discharges import shaft_leakage
-from ehlectric.bearing.circuit import shaft_first_break, shaft_through_breakdown
-from ehlectric.bearing.impedance import Impedance, impedance_of, shaft_path
-from ehlectric.bearing.loads.totals import around_in_rows
-from ehlectric.bearing.result import BearingResult
-from ehlectric.bearing.solution import PARTIAL, RingState, touching_ratio
+from ehlectric.bearing import (
+    PARTIAL,
+    BearingResult,
+    Impedance,
+    RingState,
+    around_in_rows,
+    impedance_of,
+    shaft_first_break,
+    shaft_leakage,
+    shaft_path,
+    shaft_through_breakdown,
+    touching_ratio,
+)
 from ehlectric.figures.contact_findings import with_unit
 from ehlectric.figures.data import is_wide
 from ehlectric.figures.draw import line_look

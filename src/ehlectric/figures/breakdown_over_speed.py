@@ -7,15 +7,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from ehlectric.bearing.result import BearingResult
-from ehlectric.bearing.speed_curves import (
-    Curves,
-    Speed,
-    Speeds,
-    critical_speed_of,
-    curves_of,
-    value_of,
-)
+from ehlectric.bearing import BearingResult, Curves, Speed, Speeds, critical_speed_of, curves_of, value_of
 from ehlectric.figures.bearing_figures import label_ends, volts
 from ehlectric.figures.data import Along, Panel
 from ehlectric.figures.draw import draw_panel

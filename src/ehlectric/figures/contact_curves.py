@@ -13,8 +13,7 @@ from matplotlib.patches import Patch
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.cases.case import Case
-from ehlectric.contact.capacitance_meter import Metered, meter_profile
-from ehlectric.contact.result import PointResult, Result
+from ehlectric.contact import Metered, PointResult, Result, meter_profile
 from ehlectric.discharge.discharge_laws import WeakestLink
 from ehlectric.figures import contact_profiles
 from ehlectric.figures.contact_findings import AnyContact, signed, strength_limit, with_unit

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ehlectric.contact.result import PointResult
+from ehlectric.contact import PointResult
 from ehlectric.figures import line_figures, point_figures
 from ehlectric.figures.contact_curves import breakdown, meter, probability, shear_stress, temperature
 from ehlectric.figures.contact_findings import AnyContact, finding, strength_limit

@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.contact.result import PointResult, Result
-from ehlectric.contact.touching import about_share
+from ehlectric.contact import PointResult, Result, about_share
 from ehlectric.discharge.film_breakdown import FieldUtilisation
 from ehlectric.figures.figure_names import (
     BREAKDOWN_FIGURE,

@@ -20,8 +20,7 @@ from scipy.interpolate import RectBivariateSpline
 from scipy.ndimage import gaussian_filter
 
 from ehlectric.arrays import Array
-from ehlectric.contact.conditions import PointConditions
-from ehlectric.contact.result import PointResult, Result
+from ehlectric.contact import PointConditions, PointResult, Result
 from ehlectric.figures.contact_findings import AnyContact
 from ehlectric.figures.contact_profiles import Line, film_scale, film_thickness, is_turned, shown_range
 from ehlectric.figures.draw import draw_panel

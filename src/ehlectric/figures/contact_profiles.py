@@ -11,9 +11,8 @@ from numpy.typing import NDArray
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.cases.case import Case
-from ehlectric.contact.conditions import PointConditions
-from ehlectric.contact.result import PointResult, Result
-from ehlectric.field.point_field import PointField
+from ehlectric.contact import PointConditions, PointResult, Result
+from ehlectric.field import PointField
 from ehlectric.figures.contact_findings import AnyContact, strength_limit
 from ehlectric.figures.data import WIDTH, Curve, Panel
 from ehlectric.formulas.hertz import line_pressure, point_pressure

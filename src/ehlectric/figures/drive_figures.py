@@ -18,9 +18,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, NullLocator
 
 from ehlectric.arrays import Array
-from ehlectric.drive.drive_record import CHARGE, ENERGY, FILM, ON, PEAK, VOLTAGE
-from ehlectric.drive.result import DriveResult
-from ehlectric.drive.summary import both_summary, end_summary
+from ehlectric.drive import CHARGE, ENERGY, FILM, ON, PEAK, VOLTAGE, DriveResult, both_summary, end_summary
 from ehlectric.figures.bearing_figures import prefixed
 from ehlectric.figures.data import Along, Curve, Panel, is_wide
 from ehlectric.figures.draw import draw_panel

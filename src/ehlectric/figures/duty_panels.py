@@ -9,10 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.cycle_rows import PARTIAL_FILM, STANDSTILL, TOUCHING, edges_of
-from ehlectric.bearing.duty_cycle import DutyResult, DutyRows
-from ehlectric.bearing.solution import PARTIAL
-from ehlectric.drive.drive_cycle import DriveDuty, DriveDutyRows
+from ehlectric.bearing import PARTIAL, PARTIAL_FILM, STANDSTILL, TOUCHING, DutyResult, DutyRows, edges_of
+from ehlectric.drive import DriveDuty, DriveDutyRows
 from ehlectric.figures.data import Along, Area, Curve, Panel, is_wide
 from ehlectric.figures.figure_names import literal
 from ehlectric.quantities.palette import BLACK, BLUE, GREY, MIDDLE_GREY, OCHRE, ORANGE

@@ -12,7 +12,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
 from ehlectric.arrays import Array
-from ehlectric.contact.result import Result
+from ehlectric.contact import Result
 from ehlectric.figures.contact_curves import (
     enlarged_below,
     limit_line,

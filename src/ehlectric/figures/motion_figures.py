@@ -16,7 +16,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.contact.touching import share_text
+from ehlectric.contact import share_text
 from ehlectric.figures.contact_maps import round_levels
 from ehlectric.figures.contact_profiles import shown_range
 from ehlectric.figures.motion_panels import (

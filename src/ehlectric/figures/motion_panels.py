@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ehlectric.arrays import Array
-from ehlectric.contact.conditions import surface_ratios
+from ehlectric.contact import surface_ratios
 from ehlectric.figures.style import label_position, name_over
 from ehlectric.motion.stored_run import MotionRun
 from ehlectric.quantities.units import unit_for

@@ -13,8 +13,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.contact.result import PointResult
-from ehlectric.field.zones import HIGH_FIELD
+from ehlectric.contact import PointResult
+from ehlectric.field import HIGH_FIELD
 from ehlectric.figures.contact_curves import limit_line
 from ehlectric.figures.contact_findings import has_spike, strength_limit
 from ehlectric.figures.contact_maps import (

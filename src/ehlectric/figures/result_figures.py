@@ -27,12 +27,12 @@ from ehlectric.runtime.undrawn import Drawn
 if TYPE_CHECKING:
     import xarray as xr
 
-    from ehlectric.bearing.result import BearingResult
+    from ehlectric.bearing import BearingResult
     from ehlectric.cases.film_factors import FilmFactors
-    from ehlectric.contact.result import PointResult, Result
-    from ehlectric.drive.result import DriveResult
+    from ehlectric.contact import PointResult, Result
+    from ehlectric.drive import DriveResult
     from ehlectric.motion.stored_run import MotionRun
-    from ehlectric.sweep.result import SweepResults
+    from ehlectric.sweep import SweepResults
 
     AnyResult = (
         Result

@@ -8,17 +8,19 @@ from typing import NamedTuple
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.solution import CONDUCTING, PARTIAL, touching_ratio
-from ehlectric.bearing.speed_curves import (
+from ehlectric.bearing import (
+    CONDUCTING,
+    PARTIAL,
     Curves,
+    MarginBand,
     Speed,
     Speeds,
     critical_speed_of,
     is_coated,
     nearly_equal,
+    touching_ratio,
     value_of,
 )
-from ehlectric.bearing.uncertainty import MarginBand
 from ehlectric.figures.data import Along, Area, Curve, Panel, Upright, is_wide
 from ehlectric.quantities.formats import speed_text
 from ehlectric.quantities.palette import AMBER, BLACK, BLUE, GREEN, MIDDLE_GREY, OCHRE, ORANGE

@@ -37,7 +37,7 @@ from matplotlib.ticker import (
 from matplotlib.transforms import Bbox, offset_copy
 
 from ehlectric.arrays import Array
-from ehlectric.contact.conditions import Conditions, PointConditions
+from ehlectric.contact import Conditions, PointConditions
 from ehlectric.errors import InputError, printable, shown
 from ehlectric.figures.fallback_fonts import give_fonts
 from ehlectric.figures.figure_names import STYLES, in_formats, with_units_kept

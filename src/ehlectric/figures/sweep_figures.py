@@ -44,11 +44,21 @@ from ehlectric.quantities.formats import OF_TIME, Scale, time_share_text
 from ehlectric.quantities.inputs import SPEED
 from ehlectric.quantities.palette import BLUE, GREY, ORANGE
 from ehlectric.readable import ratio_text, readable
-from ehlectric.sweep.axis_labels import label_of
-from ehlectric.sweep.result import SweepResults
-from ehlectric.sweep.sensitivity_indices import LEVEL, Sensitivity, sensitivity
-from ehlectric.sweep.slices import Slice, known_values, numbers_of, spaced_log, take
-from ehlectric.sweep.sweep_inputs import breakdown_of, main_value, ranked_value
+from ehlectric.sweep import (
+    LEVEL,
+    Sensitivity,
+    Slice,
+    SweepResults,
+    breakdown_of,
+    known_values,
+    label_of,
+    main_value,
+    numbers_of,
+    ranked_value,
+    sensitivity,
+    spaced_log,
+    take,
+)
 
 
 def of_slice(results: SweepResults, selection: Slice) -> str:

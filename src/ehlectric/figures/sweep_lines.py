@@ -34,8 +34,7 @@ from ehlectric.figures.sweep_points import mark, mark_handles
 from ehlectric.quantities.formats import Scale
 from ehlectric.quantities.palette import GREY
 from ehlectric.readable import readable
-from ehlectric.sweep.result import SweepResults
-from ehlectric.sweep.slices import Slice, take
+from ehlectric.sweep import Slice, SweepResults, take
 
 # Points without a value are marked in a strip below the values. As fractions of the height of the axes: the
 # smallest height of the strip, the height of one mark if several have nearly the same x, and the largest

@@ -37,8 +37,7 @@ from ehlectric.figures.sweep_points import (
 )
 from ehlectric.quantities.palette import GREY, ON_MAP, ORANGE
 from ehlectric.readable import readable
-from ehlectric.sweep.result import SweepResults
-from ehlectric.sweep.slices import take
+from ehlectric.sweep import SweepResults, take
 
 # Hatches where the film breaks down, and where contacts open and close.
 _BREAKS, _OPENING = "////", "xxx"

@@ -11,7 +11,7 @@ import numpy as np
 from scipy.special import ndtr, ndtri
 
 from ehlectric.arrays import Array, IntArray, Mask
-from ehlectric.bearing.bearing_touching import CAPACITIVE, RESISTIVE
+from ehlectric.bearing import CAPACITIVE, RESISTIVE
 from ehlectric.figures.data import (
     WIDTH,
     Along,
@@ -28,10 +28,18 @@ from ehlectric.quantities.formats import Scale
 from ehlectric.quantities.palette import AMBER, BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, SKY
 from ehlectric.quantities.result_warnings import CODES
 from ehlectric.readable import readable
-from ehlectric.sweep.axis_labels import Label, label_of
-from ehlectric.sweep.computed_lines import computed_line
-from ehlectric.sweep.result import SweepResults
-from ehlectric.sweep.slices import Slice, Surface, applied_at, curve_of, spaced_log, surface_of
+from ehlectric.sweep import (
+    Label,
+    Slice,
+    Surface,
+    SweepResults,
+    applied_at,
+    computed_line,
+    curve_of,
+    label_of,
+    spaced_log,
+    surface_of,
+)
 
 # Keys of a bearing's summary that are shares of time, and lines of equal share on their maps.
 TIME_SHARES = ("bearing.contact_time_share", "bearing.touching_time_share", "bearing.clarke_time_share")

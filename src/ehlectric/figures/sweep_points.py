@@ -27,9 +27,7 @@ from ehlectric.figures.draw import marker_look
 from ehlectric.figures.style import figure_of, name_over, outlined
 from ehlectric.figures.sweep_panels import SHARE_LEVELS, labelled, quantile_of
 from ehlectric.quantities.palette import BLUE, GREY, MAP_EDGE, ON_MAP, ORANGE
-from ehlectric.sweep.axis_labels import label_of
-from ehlectric.sweep.result import SweepResults
-from ehlectric.sweep.slices import Slice
+from ehlectric.sweep import Slice, SweepResults, label_of
 
 # Looks of labels: dark on a white box, and white with a dark edge on colours.
 ON_BOX: dict[str, Any] = {

@@ -13,10 +13,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from ehlectric.errors import ConvergenceError
-from ehlectric.film.film_errors import lowest
-from ehlectric.film.mesh import Mesh, at_centre
-from ehlectric.film.moving_patch import MovingFilm
-from ehlectric.film.unsteady import History, Instant
+from ehlectric.film import History, Instant, Mesh, MovingFilm, at_centre, lowest
 from ehlectric.motion.motion_touching import Toucher
 from ehlectric.motion.moving_contact import TransientContact
 from ehlectric.runtime.threads import quiet_solution

@@ -9,10 +9,9 @@ from functools import cached_property
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.contact.touching import Spots, load_share_of
-from ehlectric.field.zones import areas_by_zone
-from ehlectric.film.mesh import Mesh
-from ehlectric.film.newton import State
+from ehlectric.contact import Spots, load_share_of
+from ehlectric.field import areas_by_zone
+from ehlectric.film import Mesh, State
 from ehlectric.motion.moving_contact import TransientContact
 from ehlectric.motion.stored import AREA_SHARE, COARSE_SHARE, LOAD_SHARE, SPOTS
 from ehlectric.motion.stored_run import MotionRun

@@ -24,18 +24,12 @@ from scipy.interpolate import RegularGridInterpolator
 
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
-from ehlectric.contact import contact_kinds
-from ehlectric.contact.conditions import Conditions, PointConditions, surface_ratios
-from ehlectric.contact.contact_heat import physics_of
-from ehlectric.contact.problems import domain_of
+from ehlectric.contact import LINE as LINE_CONTACT
+from ehlectric.contact import POINT as POINT_CONTACT
+from ehlectric.contact import AnyKind, Conditions, PointConditions, domain_of, physics_of, surface_ratios
 from ehlectric.errors import InputError
-from ehlectric.field.line_field import Field
-from ehlectric.field.point_field import PointField
-from ehlectric.film.film_solution import FilmSolution
-from ehlectric.film.isothermal_film import Film, PointFilm, semi_axis_across
-from ehlectric.film.mesh import Mesh
-from ehlectric.film.problem import FilmProblem
-from ehlectric.film.unsteady import MOST_COURANT
+from ehlectric.field import Field, PointField
+from ehlectric.film import MOST_COURANT, Film, FilmProblem, FilmSolution, Mesh, PointFilm, semi_axis_across
 from ehlectric.surfaces.rough_surfaces import RoughMap, RoughSurface
 
 # A surface is at rest below this speed divided by the entrainment speed. It is also the relative tolerance of
@@ -262,7 +256,7 @@ class Kind:
     # Names of the axes of a map: x along entrainment and, for a point contact, y across it.
     axes: tuple[str, ...]
     capacitance_unit: str
-    contact: contact_kinds.AnyKind  # functions of the stationary contact of the same kind
+    contact: AnyKind  # functions of the stationary contact of the same kind
     # Values on the solver's mesh, shape (nx, ny), in the shape of the arrays of a film.
     shaped: Callable[[Mesh, NDArray[Any]], NDArray[Any]]
     # Film from its solution, the film equations and the mesh.
@@ -290,7 +284,7 @@ LINE = Kind(
     name="line",
     axes=("x",),
     capacitance_unit="F/m",
-    contact=contact_kinds.LINE,
+    contact=LINE_CONTACT,
     shaped=lambda _mesh, values: values[:, 0],
     film=lambda solution, _problem, _mesh: Film.of(solution),
     column_strength=_line_column_strength,
@@ -299,7 +293,7 @@ POINT = Kind(
     name="point",
     axes=("x", "y"),
     capacitance_unit="F",
-    contact=contact_kinds.POINT,
+    contact=POINT_CONTACT,
     shaped=lambda mesh, values: mesh.mirrored(values),
     film=_point_film,
     column_strength=_point_column_strength,

@@ -10,11 +10,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ehlectric.cases.case import Case
-from ehlectric.contact.preparation import PreparedContact, prepare
-from ehlectric.contact.result import PointResult, Result
-from ehlectric.contact.solver import solve
+from ehlectric.contact import PointResult, PreparedContact, Result, prepare, solve
 from ehlectric.errors import ConvergenceError, InputError
-from ehlectric.film.unsteady import History
+from ehlectric.film import History
 from ehlectric.motion.companion import Companion
 from ehlectric.motion.moving_contact import TransientContact
 from ehlectric.motion.solver import TransientSolver

@@ -13,14 +13,18 @@ from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
 from ehlectric.errors import ConvergenceError
-from ehlectric.field.line_field import Field
-from ehlectric.field.point_field import PointField
-from ehlectric.film.film_solution import FilmSolution, pressure_of
-from ehlectric.film.film_solver import meniscus_of
-from ehlectric.film.gap import Gap
-from ehlectric.film.isothermal_film import Film, PointFilm
-from ehlectric.film.moving_patch import MovingFilm
-from ehlectric.film.unsteady import History, Instant
+from ehlectric.field import Field, PointField
+from ehlectric.film import (
+    Film,
+    FilmSolution,
+    Gap,
+    History,
+    Instant,
+    MovingFilm,
+    PointFilm,
+    meniscus_of,
+    pressure_of,
+)
 from ehlectric.motion.companion import KeyFilms
 from ehlectric.motion.motion_touching import Touch, Toucher
 from ehlectric.motion.moving_contact import TransientContact

@@ -20,8 +20,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.errors import DamagedError, UnreadableError
-from ehlectric.film.newton import State
-from ehlectric.film.unsteady import History, Instant
+from ehlectric.film import History, Instant, State
 from ehlectric.motion.companion import KeyFilms
 from ehlectric.motion.moving_contact import TransientContact
 from ehlectric.motion.solver import Snapshot, TransientSolver

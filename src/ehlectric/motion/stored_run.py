@@ -14,7 +14,7 @@ import numpy as np
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.cases.case import Case
-from ehlectric.contact.conditions import Conditions, PointConditions, surface_ratios
+from ehlectric.contact import Conditions, PointConditions, surface_ratios
 from ehlectric.errors import InputError, WriteError
 from ehlectric.motion.moving_contact import KINDS, Kind, Schedule, schedule_of
 from ehlectric.motion.stored import FORM, SCHEMA, attributes_in, layout_of, solved_part

@@ -13,10 +13,9 @@ import numpy as np
 from scipy.ndimage import maximum_filter
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.contact.problems import oil_supply
-from ehlectric.contact.warnings import FIELD_ERROR, inaccurate_field, unknown_error
+from ehlectric.contact import FIELD_ERROR, inaccurate_field, oil_supply, unknown_error
 from ehlectric.discharge.film_breakdown import dielectric_strength
-from ehlectric.film.film_errors import MINIMUM_ORDER
+from ehlectric.film import MINIMUM_ORDER
 from ehlectric.motion.motion_touching import TouchHistory
 from ehlectric.motion.stored_run import MotionRun
 from ehlectric.motion.warnings import touch_warnings

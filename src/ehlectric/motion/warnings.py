@@ -7,12 +7,18 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ehlectric.contact.problems import domain_of, spacings_of
-from ehlectric.contact.result import PointResult, Result
-from ehlectric.contact.starvation import starvation_warnings
-from ehlectric.contact.touching import about_share, changed_share, unknown_share
-from ehlectric.contact.warnings import case_warnings
-from ehlectric.field.poisson import ATOM
+from ehlectric.contact import (
+    PointResult,
+    Result,
+    about_share,
+    case_warnings,
+    changed_share,
+    domain_of,
+    spacings_of,
+    starvation_warnings,
+    unknown_share,
+)
+from ehlectric.field import ATOM
 from ehlectric.motion.motion_touching import TouchHistory
 from ehlectric.motion.moving_contact import TransientContact
 from ehlectric.quantities.result_warnings import ResultWarning

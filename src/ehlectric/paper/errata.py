@@ -7,12 +7,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ehlectric.contact.conditions import resolve
-from ehlectric.contact.problems import field_problem, film_problem
+from ehlectric.contact import field_problem, film_problem, resolve
 from ehlectric.errors import ConvergenceError
-from ehlectric.field.line_field import solve_field
-from ehlectric.film.mesh import trapezoidal_weights
-from ehlectric.film.problem import FilmProblem
+from ehlectric.field import solve_field
+from ehlectric.film import FilmProblem, trapezoidal_weights
 from ehlectric.lubricant.viscosity import roelands_exponent
 from ehlectric.paper import fas, paper_relaxation
 from ehlectric.paper.film_equations import FilmEquations, Iterate

@@ -12,15 +12,22 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ehlectric.errors import InputError
-from ehlectric.film.deflection import LINE
-from ehlectric.film.film_errors import film_error, upstream_deficits
-from ehlectric.film.film_solution import film_status
-from ehlectric.film.film_solver import UNKNOWN
-from ehlectric.film.isothermal_film import Film
-from ehlectric.film.mesh import Mesh
-from ehlectric.film.nested import NESTED_TOLERANCE
-from ehlectric.film.newton import ROUNDING, NewtonStep, Progress, State, Status
-from ehlectric.film.problem import FilmProblem
+from ehlectric.film import (
+    LINE,
+    NESTED_TOLERANCE,
+    ROUNDING,
+    UNKNOWN,
+    Film,
+    FilmProblem,
+    Mesh,
+    NewtonStep,
+    Progress,
+    State,
+    Status,
+    film_error,
+    film_status,
+    upstream_deficits,
+)
 from ehlectric.formulas.hertz import line_pressure
 from ehlectric.paper.film_equations import FilmEquations, Iterate
 from ehlectric.paper.paper_relaxation import relax, solve_coarsest

@@ -21,7 +21,7 @@ import numpy as np
 from scipy.linalg import matmul_toeplitz, toeplitz
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.film.face_flow import Fluid
+from ehlectric.film import Fluid
 
 # Nodes coupled by eq. (7) at node i, as offsets from i.
 NEIGHBOURS = (-2, -1, 0, 1)

@@ -12,8 +12,7 @@ from importlib import resources
 from pathlib import Path
 
 from ehlectric.cases.case import Case
-from ehlectric.contact.result import Result
-from ehlectric.contact.solver import DEFAULT_SOLVERS, Solvers
+from ehlectric.contact import DEFAULT_SOLVERS, Result, Solvers
 from ehlectric.errors import InputError, shown
 from ehlectric.formulas.film_line import LineContact
 from ehlectric.paper import fas, sor

@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ehlectric.arrays import Array
-from ehlectric.contact.result import Result
+from ehlectric.contact import Result
 from ehlectric.figures import line_figures as plot
 from ehlectric.figures.style import figure_of, new_panels, outlined, page_width
 from ehlectric.paper.paper_contacts import CONTACTS, PaperContact

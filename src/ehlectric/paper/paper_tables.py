@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ehlectric.contact.result import Result
+from ehlectric.contact import Result
 from ehlectric.paper.paper_contacts import PaperContact, of_paper, table_3
 from ehlectric.paper.study import Study
 from ehlectric.runtime.files import csv_of, write

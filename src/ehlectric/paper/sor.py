@@ -14,8 +14,7 @@ from scipy.interpolate import CubicSpline
 
 from ehlectric.arrays import Array
 from ehlectric.errors import ConvergenceError
-from ehlectric.field.line_field import Field, field_from_potential
-from ehlectric.field.poisson import FieldProblem
+from ehlectric.field import Field, FieldProblem, field_from_potential
 from ehlectric.formulas.polynomials import lobatto_nodes
 from ehlectric.paper.cartesian import EAST, NORTH, SOUTH, WEST, CartesianGrid, Stencil, stencil
 

@@ -15,12 +15,9 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
-from ehlectric.contact.conditions import resolve
-from ehlectric.contact.problems import field_problem, film_problem
-from ehlectric.contact.result import Result
-from ehlectric.contact.solver import solve
-from ehlectric.field.line_field import solve_field
-from ehlectric.film.isothermal_film import solve_film
+from ehlectric.contact import Result, field_problem, film_problem, resolve, solve
+from ehlectric.field import solve_field
+from ehlectric.film import solve_film
 from ehlectric.paper import fas, sor
 from ehlectric.paper.paper_contacts import CONTACTS, ROUGH_NODES, SMOOTH_NODES, PaperContact, measured_profile
 from ehlectric.runtime.tasks import run_all

@@ -7,10 +7,10 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from ehlectric.bearing.result import BearingResult
+from ehlectric.bearing import BearingResult
 from ehlectric.cases.defaults import HOW
-from ehlectric.contact.result import ContactResult
-from ehlectric.drive.result import DriveResult
+from ehlectric.contact import ContactResult
+from ehlectric.drive import DriveResult
 from ehlectric.errors import printable
 from ehlectric.motion.result import MotionResult
 from ehlectric.quantities.rows import placed
@@ -39,9 +39,8 @@ from ehlectric.report.report_texts import SENTENCES, TEXTS
 from ehlectric.report.sweep_report import sweep_part
 from ehlectric.runs.result_folders import stored_result
 from ehlectric.runs.solve import load
-from ehlectric.sweep.result import SweepResults
-from ehlectric.sweep.store import NAME as SWEEP
-from ehlectric.sweep.store import read_sweep
+from ehlectric.sweep import NAME as SWEEP
+from ehlectric.sweep import SweepResults, read_sweep
 from ehlectric.tables.bearing_tables import films_table, loads_table, total_rows
 from ehlectric.tables.contact_tables import result_rows
 from ehlectric.tables.motion_tables import run_rows

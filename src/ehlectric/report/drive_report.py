@@ -13,8 +13,7 @@ import numpy as np
 from ehlectric.cases.changes import flattened
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.input_keys import of_both_ends
-from ehlectric.drive.result import DriveResult
-from ehlectric.drive.verdict_rule import drive_verdict
+from ehlectric.drive import DriveResult, drive_verdict
 from ehlectric.errors import printable
 from ehlectric.figures.figure_names import with_units_kept
 from ehlectric.quantities.formats import amount, operating_point
@@ -32,7 +31,7 @@ from ehlectric.report.first_page import life_texts, machine_of, measure_first_ta
 from ehlectric.report.report_content import Block, Named, Numbers, Part, Section, Table, Text
 from ehlectric.report.report_facts import density_tables, part_of, row_tables
 from ehlectric.report.report_texts import SENTENCES, TEXTS
-from ehlectric.sweep.result import SweepResults
+from ehlectric.sweep import SweepResults
 from ehlectric.tables.drive_tables import (
     AS_IT_IS,
     RATES,

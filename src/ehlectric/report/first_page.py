@@ -8,8 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from ehlectric.bearing.input_changes import MOTOR, OF_TABLE, changes_of
-from ehlectric.bearing.uncertainty import FILMS
+from ehlectric.bearing import FILMS, MOTOR, OF_TABLE, changes_of
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.changes import flattened
 from ehlectric.cases.defaults import HOW

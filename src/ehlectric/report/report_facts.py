@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from matplotlib.figure import Figure
 
-from ehlectric.bearing.result import BearingResult
+from ehlectric.bearing import BearingResult
 from ehlectric.discharge.discharge_laws import CURRENT_DENSITY_LIMITS
 from ehlectric.errors import InputError, printable
 from ehlectric.figures.figure_names import with_units_kept

@@ -22,13 +22,17 @@ from ehlectric.report.report_content import Block, Cell, Named, Part, Section, T
 from ehlectric.report.report_facts import cell_table, lead_of, row_tables, swept_names
 from ehlectric.report.report_texts import SENTENCES
 from ehlectric.runtime.values import is_number
-from ehlectric.sweep.axis_labels import label_of
-from ehlectric.sweep.drive_sweep_verdict import swept_verdict
-from ehlectric.sweep.points import Point
-from ehlectric.sweep.result import SweepResults
-from ehlectric.sweep.sensitivity_indices import sensitivity
-from ehlectric.sweep.sweep_inputs import breakdown_of, main_value, ranked_value
-from ehlectric.sweep.warnings import sweep_warnings
+from ehlectric.sweep import (
+    Point,
+    SweepResults,
+    breakdown_of,
+    label_of,
+    main_value,
+    ranked_value,
+    sensitivity,
+    sweep_warnings,
+    swept_verdict,
+)
 from ehlectric.tables.sweep_summary import indices_table, spread_rows, sweep_rows
 
 # Largest number of points that a report lists.

@@ -21,18 +21,15 @@ from ehlectric.runtime.undrawn import Drawn, kept_going
 if TYPE_CHECKING:
     import xarray as xr
 
-    from ehlectric.bearing.result import BearingResult
+    from ehlectric.bearing import BearingResult
     from ehlectric.cases.bearing_case import BearingCase
     from ehlectric.cases.case import Case
     from ehlectric.cases.drive_case import DriveCase
     from ehlectric.cases.film_factors import FilmFactors
-    from ehlectric.contact.preparation import PreparedContact
-    from ehlectric.contact.result import PointResult, Result
-    from ehlectric.contact.solver import Solvers
-    from ehlectric.drive.result import DriveResult
+    from ehlectric.contact import PointResult, PreparedContact, Result, Solvers
+    from ehlectric.drive import DriveResult
     from ehlectric.runs.measured_film_factors import MeasuredFile
-    from ehlectric.sweep.result import SweepResults
-    from ehlectric.sweep.sweep_inputs import Sweep
+    from ehlectric.sweep import Sweep, SweepResults
 
 
 R = TypeVar("R")
@@ -110,7 +107,7 @@ def read_drive(file: InputFile) -> DriveCase:
 
 def read_sweep(file: InputFile) -> Sweep:
     """Sweep of a sweep file."""
-    from ehlectric.sweep.sweep_inputs import Sweep
+    from ehlectric.sweep import Sweep
 
     return Sweep.of_file(file.table, file.path)
 
@@ -129,8 +126,7 @@ def run_contact(
     results.
     """
     from ehlectric.cases.case import Case
-    from ehlectric.contact.preparation import PreparedContact, prepare
-    from ehlectric.contact.run import run
+    from ehlectric.contact import PreparedContact, prepare, solve_to_folder
 
     solvers = solvers_of(solver, "--solver")
     contact = case if isinstance(case, PreparedContact) else prepare(case)
@@ -138,7 +134,7 @@ def run_contact(
     with alone_in(folder, locks=[RESULT_LOCK]) as folder:
         protect(folder)
         factors = None if measured is None else measured.factors(contact.case, progress)
-        outcome = run(
+        outcome = solve_to_folder(
             contact,
             folder,
             progress,
@@ -175,7 +171,7 @@ def solvers_of(given: str | Solvers, key: str = "solvers") -> Solvers:
     """Solvers by their name, "ehlectric" or "paper". Raises InputError, which names the ``key``, for another
     name.
     """
-    from ehlectric.contact.solver import DEFAULT_SOLVERS, Solvers
+    from ehlectric.contact import DEFAULT_SOLVERS, Solvers
 
     if isinstance(given, Solvers):
         return given
@@ -201,13 +197,13 @@ def run_bearing(
 
     With a measurement, its film factors are written together with them.
     """
-    from ehlectric.bearing.run import run
+    from ehlectric.bearing import solve_to_folder
 
     case = case.replace({"contacts": contacts}) if contacts else case
     with alone_in(folder, locks=[RESULT_LOCK]) as folder:
         protect(folder)
         factors = None if measured is None else measured.factors(case, progress, workers)
-        outcome = run(
+        outcome = solve_to_folder(
             case,
             folder,
             progress,
@@ -227,12 +223,12 @@ def run_drive(
     workers: int | None = None,
 ) -> RunOutcome[DriveResult]:
     """Solve a drive, and write its results; ``contacts`` replaces the key of both bearings."""
-    from ehlectric.drive.run import run
+    from ehlectric.drive import solve_to_folder
 
     case = case.replace({"drive.contacts": contacts}) if contacts else case
     with alone_in(folder, locks=[RESULT_LOCK]) as folder:
         protect(folder)
-        return run(case, folder, progress, workers=workers, others=files_of_results(folder))
+        return solve_to_folder(case, folder, progress, workers=workers, others=files_of_results(folder))
 
 
 def _with_factors(outcome: RunOutcome[R], factors: FilmFactors | None) -> RunOutcome[R]:
@@ -256,16 +252,16 @@ def run_sweep(
     scheduler: str | None = None,
 ) -> RunOutcome[SweepResults]:
     """Solve a sweep in processes of this machine, or on the Dask cluster of a scheduler's address."""
-    from ehlectric.sweep.run import crew, run
+    from ehlectric.sweep import crew, solve_to_folder
 
     solvers = crew(None, workers)
     if scheduler is not None:
-        from ehlectric.sweep.engine import cluster
+        from ehlectric.sweep import cluster
 
         solvers = cluster(scheduler)
     with alone_in(folder, locks=[RESULT_LOCK]) as folder:
         protect(folder, sweep=True)
-        return run(sweep, folder, progress, solvers=solvers, others=files_of_results(folder))
+        return solve_to_folder(sweep, folder, progress, solvers=solvers, others=files_of_results(folder))
 
 
 RUNS: Mapping[FileKind, Kind] = MappingProxyType(

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, cast
 import numpy as np
 
 from ehlectric.arrays import Array, IntArray
-from ehlectric.contact.result import PointResult, Result
+from ehlectric.contact import PointResult, Result
 from ehlectric.errors import InputError, shown
 from ehlectric.motion.result import MotionResult
 from ehlectric.readable import readable
@@ -21,9 +21,8 @@ from ehlectric.runs.solve import AnyResult, load
 from ehlectric.runs.workbooks import workbook
 from ehlectric.runtime.files import refuse_special, write
 from ehlectric.runtime.netcdf import load_library
-from ehlectric.sweep.result import SweepResults
-from ehlectric.sweep.store import NAME as SWEEP
-from ehlectric.sweep.store import read_sweep
+from ehlectric.sweep import NAME as SWEEP
+from ehlectric.sweep import SweepResults, read_sweep
 from ehlectric.version import __version__
 
 if TYPE_CHECKING:

@@ -19,7 +19,7 @@ from ehlectric.errors import InputError, shown
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.runs.example_files import examples_folder
 from ehlectric.runs.file_kinds import kind_of_tables
-from ehlectric.sweep.sweep_inputs import Sweep
+from ehlectric.sweep import Sweep
 
 # Tables of each kind of file; a case of a contact may have motion or not.
 SCHEMAS: Mapping[str, type[Table]] = MappingProxyType(

@@ -20,11 +20,10 @@ if TYPE_CHECKING:
     from ehlectric.cases.case import Case
     from ehlectric.cases.drive_case import DriveCase
     from ehlectric.cases.keywords import Value
-    from ehlectric.film.atlas.atlas_films import AtlasFilm, ContactFilm
-    from ehlectric.film.atlas.atlas_groups import Groups
+    from ehlectric.film import AtlasFilm, ContactFilm, Groups
     from ehlectric.formulas.film_line import Thickness
     from ehlectric.runs.preview import Preview
-    from ehlectric.sweep.sweep_inputs import Sweep
+    from ehlectric.sweep import Sweep
 
 # Films of the atlas, and arguments for Moes' groups.
 _FILMS, _GROUPS = ("central", "minimum", "mean"), ("m", "l", "k")
@@ -62,7 +61,7 @@ def check(case: Case | BearingCase | DriveCase | Sweep | Mapping[str, Any] | str
     from ehlectric.runs.file_kinds import kind_of_tables, read_input
     from ehlectric.runs.preview import preview_of
     from ehlectric.runs.solve import case_of
-    from ehlectric.sweep.sweep_inputs import Sweep
+    from ehlectric.sweep import Sweep
 
     if isinstance(case, Sweep):
         return preview_of(case)
@@ -104,8 +103,7 @@ def formulas(case: Case | Mapping[str, Any] | str | Path) -> dict[str, Thickness
     422
     """
     from ehlectric.cases.case import Case
-    from ehlectric.contact.preparation import prepare
-    from ehlectric.contact.summary import formulas_of
+    from ehlectric.contact import formulas_of, prepare
     from ehlectric.runs.solve import case_of
 
     contact_case = case_of(case)
@@ -221,8 +219,7 @@ def film_of(given: Mapping[str, Any], *, options: bool = False) -> LookedUp:
             continue
         if not is_number(value) or not 0.0 < value < math.inf:
             raise InputError(name, got="nothing" if value is None else shown(value), takes="a number above 0")
-    from ehlectric.film.atlas.atlas_films import atlas_film
-    from ehlectric.film.atlas.atlas_groups import Groups
+    from ehlectric.film import Groups, atlas_film
 
     of_groups = Groups(*groups)
     return LookedUp(of_groups, atlas_film(of_groups))
@@ -240,7 +237,7 @@ _UNITS = {"radius": "m", "radius_across": "m", "modulus": "Pa", "speed": "m/s"}
 def _by_numbers(given: Mapping[str, Any], *, options: bool) -> LookedUp:
     """Film of a contact in SI units and an oil."""
     from ehlectric.cases import case_oil
-    from ehlectric.film.atlas.atlas_films import contact_film
+    from ehlectric.film import contact_film
     from ehlectric.formulas.film_line import LineContact
     from ehlectric.formulas.film_point import PointContact
 

@@ -126,10 +126,10 @@ def film_factors(
     >>> round(factors.mean.value, 2), factors.mean.rows
     (0.9, 2)
     """
-    from ehlectric.bearing.measured_capacitance import bearing_factors
+    from ehlectric.bearing import bearing_factors
     from ehlectric.cases.bearing_case import BearingCase
     from ehlectric.cases.measurements import Measurement, read_measurement
-    from ehlectric.contact.measured_film import contact_factors
+    from ehlectric.contact import contact_factors
 
     if contacts not in (None, "atlas", "formula", "solved"):
         raise InputError("contacts", got=shown(contacts), takes="'atlas', 'formula' or 'solved'")

@@ -25,12 +25,12 @@ from ehlectric.quantities.results import CONTACT_BOOK
 from ehlectric.quantities.rows import Row, Words, row_of
 from ehlectric.readable import readable
 from ehlectric.runtime.values import headline
-from ehlectric.sweep.sweep_inputs import Sweep
+from ehlectric.sweep import Sweep
 
 if TYPE_CHECKING:
-    from ehlectric.contact.preparation import PreparedContact
+    from ehlectric.contact import PreparedContact
     from ehlectric.quantities.verdict import Verdict
-    from ehlectric.sweep.engine import Planned
+    from ehlectric.sweep import Planned
 
 # Largest number of points of a sweep that are checked one by one.
 _MOST_CHECKED = 2000
@@ -73,8 +73,7 @@ def preview_of(case: Case | BearingCase | DriveCase | Sweep) -> Preview:
 
 @preview_of.register
 def _preview_contact(case: Case) -> Preview:
-    from ehlectric.contact.preparation import prepare
-    from ehlectric.contact.summary import breakdown_by_formula, case_summary
+    from ehlectric.contact import breakdown_by_formula, case_summary, prepare
     from ehlectric.motion.moving_contact import TransientContact
     from ehlectric.tables.contact_tables import case_rows
     from ehlectric.tables.motion_tables import schedule_rows
@@ -102,7 +101,7 @@ def _lambda_by_formula(contact: PreparedContact, case: Case) -> dict[str, Any] |
     """Minimum film of smooth surfaces by a formula, divided by the undeformed composite Rq; None without a
     stated roughness. It is the Rq of the rough surfaces, or ``meter.rq``.
     """
-    from ehlectric.contact.summary import minimum_by_formula
+    from ehlectric.contact import minimum_by_formula
     from ehlectric.surfaces.profiles import FLAT
 
     rq = contact.composite_roughness()
@@ -141,9 +140,7 @@ def _row(key: str, value: float, note: str) -> Row:
 
 @preview_of.register
 def _preview_bearing(case: BearingCase) -> Preview:
-    from ehlectric.bearing.quick_contacts import quick_case
-    from ehlectric.bearing.result import check_bearing, solve_bearing
-    from ehlectric.bearing.solution import error_text
+    from ehlectric.bearing import check_bearing, error_text, quick_case, solve_bearing
     from ehlectric.tables.bearing_tables import check_rows
 
     check_bearing(case)
@@ -177,10 +174,7 @@ def _preview_bearing(case: BearingCase) -> Preview:
 
 @preview_of.register
 def _preview_drive(case: DriveCase) -> Preview:
-    from ehlectric.drive.quick_estimate import quick_drive
-    from ehlectric.drive.solver import prepare
-    from ehlectric.drive.summary import checked_summary
-    from ehlectric.drive.warnings import bearing_warnings, machine_warnings
+    from ehlectric.drive import bearing_warnings, checked_summary, machine_warnings, prepare, quick_drive
     from ehlectric.tables.drive_tables import prepared_rows
 
     case.variants()
@@ -200,8 +194,7 @@ def _preview_drive(case: DriveCase) -> Preview:
 
 def _without_films(case: BearingCase, reason: str) -> Preview:
     """Preview of a bearing whose contacts neither the atlas nor a formula describes: its inputs alone."""
-    from ehlectric.bearing.preparation import resolve_bearing
-    from ehlectric.bearing.summary import clearances_of
+    from ehlectric.bearing import clearances_of, resolve_bearing
     from ehlectric.tables.bearing_tables import input_rows
 
     conditions = resolve_bearing(case)
@@ -220,7 +213,7 @@ def _without_films(case: BearingCase, reason: str) -> Preview:
 
 @preview_of.register
 def _preview_sweep(sweep: Sweep) -> Preview:
-    from ehlectric.sweep.engine import lacking_point, plan
+    from ehlectric.sweep import lacking_point, plan
 
     started = time.perf_counter()
     planned = list(islice(plan(sweep), _MOST_CHECKED))
@@ -299,7 +292,7 @@ def _shown(key: str, value: Mapping[str, Any], sweep: Sweep) -> tuple[str, str, 
 
 def _in_units(key: str, values: list[Any], sweep: Sweep) -> tuple[list[str], str]:
     """Values as texts in the unit that an engineer uses; other values than numbers as they are."""
-    from ehlectric.sweep.axis_labels import label_of
+    from ehlectric.sweep import label_of
 
     if not all(isinstance(value, float) for value in values):
         return [str(value) for value in values], ""

@@ -126,7 +126,7 @@ def _points(path: Path) -> tuple[int, int] | None:
     if not path.is_file():
         return None
 
-    from ehlectric.sweep.store import saved_points
+    from ehlectric.sweep import saved_points
 
     try:
         return saved_points(path.parent)

@@ -11,24 +11,26 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeAlias, TypedDict, TypeVar, Unpack, overload
 
-from ehlectric.bearing import run as of_bearings
-from ehlectric.bearing.result import BearingResult, solve_bearing
-from ehlectric.bearing.stored import SCHEMA as BEARING
+from ehlectric import bearing, contact, drive
+from ehlectric.bearing import BearingResult, solve_bearing
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case, LineCase, PointCase
 from ehlectric.cases.drive_case import DriveCase, case_of_dict
-from ehlectric.contact import run as of_contacts
-from ehlectric.contact.contact_refinement import FilmProgress
-from ehlectric.contact.preparation import PreparedContact, case_with_laws, portable, prepare
-from ehlectric.contact.result import PointResult, Result
-from ehlectric.contact.solver import DEFAULT_SOLVERS, Solvers
-from ehlectric.contact.solver import solve as solve_stationary
-from ehlectric.contact.stored import SCHEMA as CONTACT
-from ehlectric.drive import run as of_drives
-from ehlectric.drive.result import DriveResult, solve_drive
-from ehlectric.drive.stored import SCHEMA as DRIVE
+from ehlectric.contact import (
+    DEFAULT_SOLVERS,
+    FilmProgress,
+    PointResult,
+    PreparedContact,
+    Result,
+    Solvers,
+    case_with_laws,
+    portable,
+    prepare,
+)
+from ehlectric.contact import solve as solve_stationary
+from ehlectric.drive import DriveResult, solve_drive
 from ehlectric.errors import ConvergenceError, InputError, LostError, printable, shown
-from ehlectric.film.mesh import Mesh
+from ehlectric.film import Mesh
 from ehlectric.lubricant.python_laws import Laws
 from ehlectric.motion.result import MotionResult
 from ehlectric.motion.run import run_motion
@@ -44,7 +46,7 @@ from ehlectric.runtime.progress import LOGGER, Progress, log_warnings, progress_
 from ehlectric.runtime.result_names import MOTION
 from ehlectric.runtime.tasks import finished_tasks
 from ehlectric.runtime.worker_processes import cores, processes
-from ehlectric.sweep.store import NAME as SWEEP
+from ehlectric.sweep import NAME as SWEEP
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -62,9 +64,9 @@ def _moving(dataset: xr.Dataset, path: Path) -> MotionResult:
 _OF_KINDS: Mapping[str, Callable[[xr.Dataset, Path], AnyResult]] = {
     format_of(schema)[0]: result_of
     for schema, result_of in (
-        (CONTACT, of_contacts.result_of),
-        (BEARING, of_bearings.result_of),
-        (DRIVE, of_drives.result_of),
+        (contact.SCHEMA, contact.result_of),
+        (bearing.SCHEMA, bearing.result_of),
+        (drive.SCHEMA, drive.result_of),
         (MOVING, _moving),
     )
 }
@@ -136,11 +138,11 @@ def save(result: Result | PointResult | BearingResult | DriveResult, folder: str
         If ``load`` would refuse the file, for a reason in the message. All files are written.
     """
     if isinstance(result, BearingResult):
-        return of_bearings.save(result, folder)
+        return bearing.save(result, folder)
     if isinstance(result, DriveResult):
-        return of_drives.save(result, folder)
+        return drive.save(result, folder)
     if isinstance(result, Result | PointResult):
-        return of_contacts.save(result, folder)
+        return contact.save(result, folder)
     raise InputError(
         "result", got=shown(type(result).__name__), takes="a result of a contact, a bearing or a drive"
     )

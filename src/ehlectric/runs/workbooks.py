@@ -10,11 +10,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.result import BearingResult
-from ehlectric.bearing.speed_curves import ON_SHAFT, scaled_curves
+from ehlectric.bearing import ON_SHAFT, BearingResult, scaled_curves
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.contact.problems import Setup
-from ehlectric.drive.result import DriveResult
+from ehlectric.contact import Setup
+from ehlectric.drive import DriveResult
 from ehlectric.errors import InputError, printable
 from ehlectric.quantities.formats import UNITS, USUAL, Scale, scale_for, scale_of
 from ehlectric.quantities.inputs import SPEED, end_and_key
@@ -23,9 +22,7 @@ from ehlectric.quantities.results import ELEMENT_KEYS, EVENT_KEYS
 from ehlectric.quantities.units import printed
 from ehlectric.runs.solve import AnyResult
 from ehlectric.runtime.values import is_number
-from ehlectric.sweep.axis_labels import label_of, result_keys
-from ehlectric.sweep.points import flat, flat_summary
-from ehlectric.sweep.result import SweepResults
+from ehlectric.sweep import SweepResults, flat, flat_summary, label_of, result_keys
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -12,12 +12,19 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.many_points import TOGETHER, SolvedPart, single_tables, solved_parts
-from ehlectric.bearing.many_uncertainties import spreads_of, tables_of_spread, warnings_of_spread
-from ehlectric.bearing.quick_contacts import is_quick
-from ehlectric.bearing.summary import SCHEMA
-from ehlectric.bearing.uncertainty import SEED
-from ehlectric.bearing.warnings import codes_of
+from ehlectric.bearing import (
+    SEED,
+    SUMMARY_SCHEMA,
+    TOGETHER,
+    SolvedPart,
+    codes_of,
+    is_quick,
+    single_tables,
+    solved_parts,
+    spreads_of,
+    tables_of_spread,
+    warnings_of_spread,
+)
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.table import by_table
 from ehlectric.quantities.result_warnings import CODES, CODES_OF_TEXTS, TEXTS
@@ -201,7 +208,7 @@ def _summaries(batch: Batch, part: SolvedPart) -> Iterator[dict[str, Any]]:
             of_point |= {warning.code: CODES[warning.code].meaning for warning in warnings_of_spread(spread)}
     for place, (point, tables) in enumerate(zip(part.points.tolist(), single_tables(part), strict=True)):
         yield {
-            "schema": SCHEMA,
+            "schema": SUMMARY_SCHEMA,
             "version": solution.version,
             "title": solution.case.title,
             "converged": True,

@@ -8,9 +8,7 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array, IntArray
-from ehlectric.bearing.curve_nodes import where_it_bends
-from ehlectric.bearing.many_points import columns_of
-from ehlectric.bearing.quick_contacts import is_quick
+from ehlectric.bearing import columns_of, is_quick, where_it_bends
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.input_keys import is_quantity
 from ehlectric.errors import InputError

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.discharge.breakdown_rule import TOUCHING_AT_TIMES
-from ehlectric.drive.verdict_rule import drive_verdict
+from ehlectric.drive import drive_verdict
 from ehlectric.quantities.statement import Level, Statement
 from ehlectric.quantities.verdict import Verdict
 from ehlectric.sweep.points import SweepPoints

@@ -23,16 +23,19 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ehlectric.bearing.many_uncertainties import spread_alone, tables_of_spread, warnings_of_spread
-from ehlectric.bearing.result import solve_bearing
-from ehlectric.bearing.summary import summary_of
-from ehlectric.bearing.uncertainty import SEED
+from ehlectric.bearing import (
+    SEED,
+    solve_bearing,
+    spread_alone,
+    summary_of,
+    tables_of_spread,
+    warnings_of_spread,
+)
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.drive_case import DriveCase, SweptCase, swept_case_of_dict
-from ehlectric.contact.preparation import portable
-from ehlectric.contact.solver import solve
-from ehlectric.drive.quick_estimate import quick_drive
+from ehlectric.contact import portable, solve
+from ehlectric.drive import quick_drive
 from ehlectric.errors import ConvergenceError, InputError, LostError, MemoryLimitError, shown
 from ehlectric.lubricant.python_laws import SampledLaws
 from ehlectric.quantities.inputs import SPEED, TEMPERATURE, end_and_replaced
@@ -180,7 +183,7 @@ def lacking_point(sweep: Sweep, planned: Sequence[Planned]) -> Lacking | None:
     if not isinstance(sweep.case, DriveCase) or not valid:
         return None
     # Loads the compiler of the simulation, which other sweeps do not need.
-    from ehlectric.drive.solver import prepare
+    from ehlectric.drive import prepare
 
     point = min(valid, key=_films)
     case: Any = sweep.case.replace(point.inputs)
@@ -259,7 +262,7 @@ def _solve_bearing(case: BearingCase, samples: int | None) -> tuple[bool, dict[s
 
 def _solve_drive(case: DriveCase, _: int | None) -> tuple[bool, dict[str, Any], str]:
     # Imported here because it loads the compiler of the simulation, which other sweeps do not need.
-    from ehlectric.drive.result import solve_drive
+    from ehlectric.drive import solve_drive
 
     drive = solve_drive(case, workers=1)
     summary = drive.summary()

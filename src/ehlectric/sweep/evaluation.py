@@ -8,12 +8,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ehlectric.arrays import IntArray
-from ehlectric.bearing.many_points import Columns, columns_of, many_of
-from ehlectric.bearing.quick_contacts import required_quick_case
+from ehlectric.bearing import Columns, columns_of, many_of, required_quick_case
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.input_keys import is_quantity, key_of_names
-from ehlectric.contact.preparation import case_with_laws
+from ehlectric.contact import case_with_laws
 from ehlectric.errors import InputError, shown
 from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED, end_and_replaced
 from ehlectric.quantities.results import TEXTS_OF_POINTS

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from itertools import product
 from typing import Any
 
-from ehlectric.bearing.quick_contacts import is_quick
+from ehlectric.bearing import is_quick
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.changes import set_keys
 from ehlectric.cases.input_keys import is_quantity

@@ -10,7 +10,7 @@ from itertools import chain
 from pathlib import Path
 from typing import Any
 
-from ehlectric.contact.preparation import case_with_laws
+from ehlectric.contact import case_with_laws
 from ehlectric.errors import InputError, shown
 from ehlectric.lubricant.python_laws import Laws
 from ehlectric.runtime.files import clear
@@ -78,7 +78,7 @@ def run_sweep(
     was killed or ran out of memory.
     """
     given, report = _with_laws(_sweep_of(sweep), laws), progress_or_silent(progress)
-    return run(given, folder, report, solvers=crew(executor, workers)).result
+    return solve_to_folder(given, folder, report, solvers=crew(executor, workers)).result
 
 
 def _sweep_of(given: object) -> Sweep:
@@ -107,7 +107,7 @@ def crew(executor: Executor | None, workers: int | None) -> AbstractContextManag
     return processes(workers or cores()) if executor is None else nullcontext(crew_of(executor))
 
 
-def run(
+def solve_to_folder(
     sweep: Sweep,
     folder: str | Path,
     progress: Progress = silent,

@@ -18,7 +18,7 @@ from ehlectric.cases.case import Case
 from ehlectric.cases.drive_case import SweptCase, swept_case_of_dict
 from ehlectric.cases.input_keys import input_field, kind_of
 from ehlectric.cases.table import number_of
-from ehlectric.contact.stored import case_with_stored_laws
+from ehlectric.contact import case_with_stored_laws
 from ehlectric.errors import InputError
 from ehlectric.lubricant.python_laws import SampledLaws, is_laws
 from ehlectric.quantities.result_warnings import (

@@ -16,7 +16,7 @@ from pydantic import ValidationInfo, field_validator, model_validator
 from pydantic.fields import FieldInfo
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.uncertainty import LEAST_SAMPLES, MOST_SAMPLES
+from ehlectric.bearing import LEAST_SAMPLES, MOST_SAMPLES
 from ehlectric.cases.amounts import INFINITE, WRITTEN, Amount, Count
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case, check_changes

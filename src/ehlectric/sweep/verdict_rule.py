@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.quick_contacts import formula_factor
-from ehlectric.bearing.verdict_rule import equal_bearings
+from ehlectric.bearing import equal_bearings, formula_factor
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.defaults import ISOTHERMAL, QUICK
 from ehlectric.cases.drive_case import DriveCase, SweptCase

@@ -7,8 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from ehlectric.bearing.input_changes import OF_TABLE
-from ehlectric.bearing.uncertainty import FILMS
+from ehlectric.bearing import FILMS, OF_TABLE
 from ehlectric.cases.defaults import HOW
 from ehlectric.cases.input_keys import unit_of
 from ehlectric.cases.mean_heights import GAUSSIAN

@@ -10,13 +10,17 @@ from functools import partial
 from typing import Any
 
 from ehlectric.cases.case import Case
-from ehlectric.contact.conditions import Conditions, PointConditions
-from ehlectric.contact.contact_kinds import KINDS
-from ehlectric.contact.result import PointResult, Result
-from ehlectric.contact.summary import case_summary
-from ehlectric.contact.touching import share_text
+from ehlectric.contact import (
+    KINDS,
+    Conditions,
+    PointConditions,
+    PointResult,
+    Result,
+    case_summary,
+    share_text,
+)
 from ehlectric.discharge.discharge_laws import LARGEST_PIT, MEAN_PIT
-from ehlectric.film.film_errors import pressure_error_text
+from ehlectric.film import pressure_error_text
 from ehlectric.quantities.formats import CELSIUS, amount, scale_of
 from ehlectric.quantities.result_bounds import bound_words, contact_bounds
 from ehlectric.quantities.results import CONTACT_BOOK

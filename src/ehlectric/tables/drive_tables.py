@@ -8,7 +8,7 @@ from dataclasses import replace
 from itertools import groupby, pairwise
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from ehlectric.bearing.solution import percent
+from ehlectric.bearing import percent
 from ehlectric.cases.defaults import HOW
 from ehlectric.errors import printable
 from ehlectric.quantities.formats import amount, speed_text

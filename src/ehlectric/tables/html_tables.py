@@ -7,14 +7,14 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from html import escape as escaped
 from typing import Any
 
-from ehlectric.bearing.result import BearingResult
+from ehlectric.bearing import BearingResult
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.changes import flattened
 from ehlectric.cases.drive_case import DriveCase, SweptCase
 from ehlectric.cases.film_factors import FilmFactors
-from ehlectric.contact.result import ContactResult
-from ehlectric.drive.result import DriveResult
+from ehlectric.contact import ContactResult
+from ehlectric.drive import DriveResult
 from ehlectric.errors import printable
 from ehlectric.motion.result import MotionResult
 from ehlectric.quantities.formats import CELSIUS, Scale, scale_for, suited
@@ -23,11 +23,7 @@ from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.rows import Row
 from ehlectric.readable import readable
 from ehlectric.runtime.values import is_number
-from ehlectric.sweep.axis_labels import label_of
-from ehlectric.sweep.points import Range
-from ehlectric.sweep.result import SweepResults
-from ehlectric.sweep.sweep_inputs import Sweep
-from ehlectric.sweep.warnings import sweep_warnings
+from ehlectric.sweep import Range, Sweep, SweepResults, label_of, sweep_warnings
 from ehlectric.tables.bearing_tables import total_rows
 from ehlectric.tables.contact_tables import result_rows
 from ehlectric.tables.drive_tables import drive_rows

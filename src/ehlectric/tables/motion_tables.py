@@ -6,8 +6,7 @@ from collections.abc import Callable, Iterator
 from functools import partial
 
 from ehlectric.cases.case import Case
-from ehlectric.contact.contact_kinds import KINDS
-from ehlectric.contact.touching import share_text
+from ehlectric.contact import KINDS, share_text
 from ehlectric.quantities.result_bounds import moving_bounds
 from ehlectric.quantities.results import MOTION_BOOK
 from ehlectric.quantities.rows import Noted, Row, Summary, Words, sheet_rows, value_at

@@ -11,10 +11,7 @@ import numpy as np
 from ehlectric.quantities.formats import scale_of
 from ehlectric.quantities.rows import Row
 from ehlectric.readable import SAME_NUMBER, readable
-from ehlectric.sweep.axis_labels import label_of
-from ehlectric.sweep.result import SweepResults
-from ehlectric.sweep.sensitivity_indices import Sensitivity
-from ehlectric.sweep.sweep_inputs import breakdown_of
+from ehlectric.sweep import Sensitivity, SweepResults, breakdown_of, label_of
 from ehlectric.tables.measured_tables import columns_table
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ import pytest
 from ehlectric import Case
 from ehlectric.contact.contact_refinement import ExpectedGrid, FilmProgress, Reach
 from ehlectric.contact.preparation import prepare
-from ehlectric.contact.run import run
+from ehlectric.contact.run import solve_to_folder
 from ehlectric.film.isothermal_film import solve_point_film
 
 BALL = {"geometry": "point", "radius_x": 10e-3, "radius_y": 10e-3, "reduced_modulus": 226e9}
@@ -104,7 +104,7 @@ def test_a_run_tells_its_grids(tmp_path):
     grid = {"nodes": 101, "refine": 0.01, "most_nodes": 801}
     case = Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}, "grid": grid})
     texts = []
-    outcome = run(prepare(case), tmp_path, lambda _done, _of, text: texts.append(text))
+    outcome = solve_to_folder(prepare(case), tmp_path, lambda _done, _of, text: texts.append(text))
     grids = [int(found[1]) for text in texts if (found := re.search(r"grid (\d+)", text))]
     assert grids == sorted(grids)
     assert grids[0] == 1

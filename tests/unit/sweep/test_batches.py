@@ -13,7 +13,7 @@ from ehlectric.runtime.worker_processes import Crew, processes, this_process
 from ehlectric.sweep.batches import Batch, batches_of, run_batches, seconds_of, solve_batch
 from ehlectric.sweep.engine import plan, solve_point
 from ehlectric.sweep.point_groups import plan_together
-from ehlectric.sweep.run import run
+from ehlectric.sweep.run import solve_to_folder
 from ehlectric.sweep.sweep_inputs import Sweep
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
 from tests.helpers.each import each
@@ -138,12 +138,12 @@ def speeds(count, **keys):
 @pytest.mark.slow
 def test_what_a_batch_stores_is_read_as_that_of_single_points(tmp_path):
     """The texts of warnings are the meanings of their codes; tables have the columns of a point alone."""
-    results = run(speeds(3), tmp_path, solvers=nullcontext(this_process())).result
+    results = solve_to_folder(speeds(3), tmp_path, solvers=nullcontext(this_process())).result
     assert [point.status for point in results.points] == ["solved"] * 3
     for point in results.points:
         assert [one.text for one in point.warnings] == [CODES[one.code].meaning for one in point.warnings]
         assert point.seconds > 0.0
-    alone = run(speeds(1), tmp_path / "alone", solvers=nullcontext(this_process())).result
+    alone = solve_to_folder(speeds(1), tmp_path / "alone", solvers=nullcontext(this_process())).result
     assert list(results.to_dataframe()) == list(alone.to_dataframe())
     assert results.values("bearing.margin")[0] == pytest.approx(alone.values("bearing.margin")[0], rel=1e-8)
     assert (results.verdict.level, read_sweep(tmp_path)) == (alone.verdict.level, results)
@@ -162,19 +162,21 @@ def test_an_interrupted_sweep_keeps_the_batches_that_are_done(tmp_path, monkeypa
 
     here = this_process()
     with pytest.raises(KeyboardInterrupt):
-        run(speeds(12), tmp_path, solvers=nullcontext(Crew(submit, here.width)))
+        solve_to_folder(speeds(12), tmp_path, solvers=nullcontext(Crew(submit, here.width)))
     kept = {point.number for point in read_sweep(tmp_path).points if point.solved}
     assert len(kept) == 8
     solved.clear()
     told = []
     resumed = Crew(lambda call, batch: solved.append(batch.keys) or here.submit(call, batch), here.width)
-    results = run(speeds(12), tmp_path, lambda *values: told.append(values[:2]), solvers=nullcontext(resumed))
+    results = solve_to_folder(
+        speeds(12), tmp_path, lambda *values: told.append(values[:2]), solvers=nullcontext(resumed)
+    )
     assert [len(keys) for keys in solved] == [4]
     assert told[0] == (8, 12)
     assert told[-1] == (12, 12)
     assert all(point.solved for point in results.result.points)
     solved.clear()
-    run(speeds(12), tmp_path, solvers=nullcontext(resumed))
+    solve_to_folder(speeds(12), tmp_path, solvers=nullcontext(resumed))
     assert solved == []
 
 
@@ -192,7 +194,7 @@ def test_points_of_a_batch_whose_process_dies_are_solved_one_by_one(tmp_path):
             shares_memory=False,
             submit=lambda call, *values: crew.submit(kill if values else call, *values),
         )
-        results = run(speeds(3), tmp_path, solvers=nullcontext(deadly)).result
+        results = solve_to_folder(speeds(3), tmp_path, solvers=nullcontext(deadly)).result
     assert [point.status for point in results.points] == ["solved"] * 3
 
 

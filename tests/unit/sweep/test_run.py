@@ -11,7 +11,7 @@ from ehlectric import InputError, read_sweep, run_sweep, solve
 from ehlectric.errors import LostError
 from ehlectric.runtime.worker_processes import Crew, crew_of
 from ehlectric.sweep.engine import solve_point
-from ehlectric.sweep.run import run
+from ehlectric.sweep.run import solve_to_folder
 from tests.helpers.sweeps import CASE, LOAD, NODES, PRESSURE, SPEED, speeds, sweep_over
 
 
@@ -132,7 +132,7 @@ def test_two_sweeps_in_one_folder(tmp_path):
         return threads.submit(call, *values)
 
     with ThreadPoolExecutor(1) as threads:
-        results = run(speeds(2), tmp_path, solvers=nullcontext(Crew(submit, lambda: 2))).result
+        results = solve_to_folder(speeds(2), tmp_path, solvers=nullcontext(Crew(submit, lambda: 2))).result
     assert refused
     assert [point.status for point in results.points] == ["solved", "solved"]
 
@@ -142,7 +142,9 @@ def test_what_holds_the_crew_up_is_told(tmp_path):
     with ThreadPoolExecutor(1) as threads:
         crew = Crew(crew_of(threads).submit, lambda: 2, waiting=lambda: "no workers yet")
         vary = {"solver.max_iterations": [1, 30]}
-        run(sweep_over(vary), tmp_path, lambda *values: told.append(values), solvers=nullcontext(crew))
+        solve_to_folder(
+            sweep_over(vary), tmp_path, lambda *values: told.append(values), solvers=nullcontext(crew)
+        )
     assert told[0] == (0, 2, "no workers yet")
     assert told[-1] == (2, 2, "1 not converged, no workers yet")
 
@@ -162,7 +164,7 @@ def test_progress_while_nothing_finishes(tmp_path, monkeypatch):
 
     with ThreadPoolExecutor(1) as threads:
         progress = lambda *values: told.append(values)  # noqa: E731
-        run(speeds(1), tmp_path, progress, solvers=nullcontext(Crew(submit, lambda: 2)))
+        solve_to_folder(speeds(1), tmp_path, progress, solvers=nullcontext(Crew(submit, lambda: 2)))
     assert told[:5] == [(0, 1, "")] * 5
     assert told[-1] == (1, 1, "")
 
@@ -194,7 +196,7 @@ def test_solve_point_is_what_is_submitted(tmp_path):
         return threads.submit(call, *values)
 
     with ThreadPoolExecutor(1) as threads:
-        run(speeds(1), tmp_path, solvers=nullcontext(Crew(submit, lambda: 1)))
+        solve_to_folder(speeds(1), tmp_path, solvers=nullcontext(Crew(submit, lambda: 1)))
     assert calls == [(solve_point, CASE.replace({SPEED: 1.0}).to_dict())]
 
 

@@ -10,8 +10,18 @@ from typing import Any
 import numpy as np
 
 from ehlectric.app.charts.plotly_panels import Plot, axis, log_ticks, plot, scatter, stack
-from ehlectric.bearing.solution import CONDUCTING, PARTIAL, regime, touches, touching_ratio
-from ehlectric.bearing.speed_curves import Curves, Speed, Speeds, curves_of, listed
+from ehlectric.bearing import (
+    CONDUCTING,
+    PARTIAL,
+    Curves,
+    Speed,
+    Speeds,
+    curves_of,
+    listed,
+    regime,
+    touches,
+    touching_ratio,
+)
 from ehlectric.cases.defaults import OF_CONTACTS
 from ehlectric.figures.data import Panel, Upright, is_wide
 from ehlectric.figures.speed_panels import breakdown_panel, capacitance_panel, speed_axis

@@ -16,9 +16,7 @@ from ehlectric.app.charts.duty_charts import cycle_plot
 from ehlectric.app.charts.plotly_panels import Plot, axis, log_ticks, plot, scatter, stack, vertical
 from ehlectric.app.view_models import Figure, Table
 from ehlectric.arrays import Array
-from ehlectric.drive.drive_cycle import DriveDuty
-from ehlectric.drive.result import DriveResult
-from ehlectric.drive.summary import end_summary
+from ehlectric.drive import DriveDuty, DriveResult, end_summary
 from ehlectric.figures import drive_figures as findings
 from ehlectric.figures.drive_figures import (
     COLOURS,

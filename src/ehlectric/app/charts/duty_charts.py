@@ -6,8 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from ehlectric.app.charts.plotly_panels import Plot, kept_nodes, stack
-from ehlectric.bearing.cycle_rows import STATES
-from ehlectric.bearing.duty_cycle import DutyResult
+from ehlectric.bearing import STATES, DutyResult
 from ehlectric.figures.data import Along, Panel
 from ehlectric.figures.duty_panels import duty_panels, time_axis
 from ehlectric.quantities.formats import rpm_text, scale_of

@@ -23,7 +23,7 @@ from ehlectric.app.charts.plotly_panels import (
 from ehlectric.app.charts.plotly_panels import axis as plot_axis
 from ehlectric.app.view_models import Figure
 from ehlectric.arrays import Array
-from ehlectric.contact.result import PointResult, Result
+from ehlectric.contact import PointResult, Result
 from ehlectric.figures.contact_profiles import (
     BEFORE,
     BEHIND,
@@ -38,7 +38,7 @@ from ehlectric.figures.contact_profiles import (
     touches,
 )
 from ehlectric.figures.data import Along
-from ehlectric.film.film_errors import pressure_error_text
+from ehlectric.film import pressure_error_text
 from ehlectric.quantities.palette import ORANGE
 from ehlectric.quantities.units import unit_for
 from ehlectric.readable import readable

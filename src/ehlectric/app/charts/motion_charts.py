@@ -23,7 +23,7 @@ from ehlectric.app.charts.plotly_panels import (
 from ehlectric.app.charts.plotly_panels import axis as plot_axis
 from ehlectric.app.charts.plotly_panels import values as listed
 from ehlectric.arrays import Array, IntArray
-from ehlectric.contact.conditions import PointConditions
+from ehlectric.contact import PointConditions
 from ehlectric.figures.contact_profiles import BEFORE, BEHIND
 from ehlectric.motion.motion_touching import TouchHistory
 from ehlectric.motion.stored_run import MotionRun

@@ -34,7 +34,7 @@ from ehlectric.app.charts.plotly_panels import (
 )
 from ehlectric.app.view_models import Figure, Reach
 from ehlectric.arrays import Array
-from ehlectric.contact.result import PointResult
+from ehlectric.contact import PointResult
 from ehlectric.figures.contact_profiles import (
     BEFORE,
     BEHIND,
@@ -49,7 +49,7 @@ from ehlectric.figures.contact_profiles import (
     touches,
 )
 from ehlectric.figures.data import Along
-from ehlectric.film.film_errors import pressure_error_text
+from ehlectric.film import pressure_error_text
 from ehlectric.quantities.palette import ORANGE
 from ehlectric.quantities.units import unit_for
 from ehlectric.readable import readable

@@ -22,7 +22,7 @@ from ehlectric.quantities.result_warnings import CODES, ResultWarning
 from ehlectric.quantities.rows import Row, row_of
 from ehlectric.readable import ratio_text
 from ehlectric.runs.file_kinds import FileKind, kind_of_tables
-from ehlectric.sweep.sweep_inputs import Sweep
+from ehlectric.sweep import Sweep
 
 # Note of a number of films that are not converged.
 UNUSABLE = "not converged: do not use this value"

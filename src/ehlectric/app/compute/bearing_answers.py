@@ -45,17 +45,23 @@ from ehlectric.app.view_models import (
     concerning,
     limited_to,
 )
-from ehlectric.bearing.duty_cycle import run_duty
-from ehlectric.bearing.loads.totals import around_in_rows
-from ehlectric.bearing.margin import MarginAnalysis
-from ehlectric.bearing.quick_contacts import heat_by_formula
-from ehlectric.bearing.result import BearingResult, solve_bearing
-from ehlectric.bearing.solution import BearingSolution, capacitance_is_bound, error_text
-from ehlectric.bearing.solving import CaseKey, key_of
-from ehlectric.bearing.speed_curves import over_speed
-from ehlectric.bearing.summary import summary_of
-from ehlectric.bearing.uncertainty import quick_chance
-from ehlectric.bearing.verdict_rule import bearing_verdict
+from ehlectric.bearing import (
+    BearingResult,
+    BearingSolution,
+    CaseKey,
+    MarginAnalysis,
+    around_in_rows,
+    bearing_verdict,
+    capacitance_is_bound,
+    error_text,
+    heat_by_formula,
+    key_of,
+    over_speed,
+    quick_chance,
+    run_duty,
+    solve_bearing,
+    summary_of,
+)
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.defaults import HOW, Contacts, quick_way
 from ehlectric.errors import InputError

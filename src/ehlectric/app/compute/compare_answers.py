@@ -12,9 +12,7 @@ from ehlectric.app.compute import bearing_answers, contact_answers
 from ehlectric.app.compute.answer_parts import card, case_of, page_warnings_of
 from ehlectric.app.compute.bearing_answers import quick_verdict, solved_quickly
 from ehlectric.app.view_models import Film, Number, OverSpeed, Result, Side
-from ehlectric.bearing.solution import error_text
-from ehlectric.bearing.speed_curves import scaled_curves
-from ehlectric.bearing.summary import summary_of
+from ehlectric.bearing import error_text, scaled_curves, summary_of
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.defaults import OF_CONTACTS

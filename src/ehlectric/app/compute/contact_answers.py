@@ -20,8 +20,7 @@ from ehlectric.app.compute.answer_parts import (
 )
 from ehlectric.app.view_models import ContactAnswer, Deciding, Figure, Gauge
 from ehlectric.cases.case import Case
-from ehlectric.contact.result import PointResult, Result
-from ehlectric.contact.solver import solve
+from ehlectric.contact import PointResult, Result, solve
 from ehlectric.discharge.breakdown_rule import STRENGTH_UNKNOWN, code_of, doubted, level_of
 from ehlectric.discharge.film_verdict import doubts_of, ideal_films, no_verdict
 from ehlectric.errors import ConvergenceError, InputError

@@ -24,14 +24,19 @@ from ehlectric.app.view_models import (
     concerning,
     limited_to,
 )
-from ehlectric.bearing.solution import percent
+from ehlectric.bearing import percent
 from ehlectric.cases.defaults import HOW
 from ehlectric.cases.drive_case import DriveCase
-from ehlectric.drive.quick_estimate import expected, quick_drive
-from ehlectric.drive.solver import SIMULATING, prepare
-from ehlectric.drive.summary import checked_summary
-from ehlectric.drive.verdict_rule import drive_verdict
-from ehlectric.drive.warnings import bearing_warnings, machine_warnings
+from ehlectric.drive import (
+    SIMULATING,
+    bearing_warnings,
+    checked_summary,
+    drive_verdict,
+    expected,
+    machine_warnings,
+    prepare,
+    quick_drive,
+)
 from ehlectric.errors import InputError
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.results import DRIVE_BOOK, NAMES_OF_ENDS

@@ -9,7 +9,7 @@ from typing import Any
 from ehlectric.app.charts.duty_charts import DUTY_HEADS, MOST_DUTY_ROWS, duty_figure, duty_rows
 from ehlectric.app.compute.answer_parts import lines_of, page_warnings_of, with_session_files
 from ehlectric.app.view_models import DutyAnswer, Figure, Table
-from ehlectric.bearing.duty_cycle import DutyResult
+from ehlectric.bearing import DutyResult
 from ehlectric.cases.duty_inputs import read_cycle
 from ehlectric.cases.measurements import void_rows
 from ehlectric.quantities.quantity import Quantity

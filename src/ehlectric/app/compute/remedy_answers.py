@@ -9,10 +9,9 @@ from typing import Any
 from ehlectric.app.compute.answer_parts import drive_of
 from ehlectric.app.compute.bearing_answers import quick_verdict, solved_quickly, without_cycle
 from ehlectric.app.view_models import PENDING, RemedyAnswer, Table
-from ehlectric.bearing.result import BearingResult
-from ehlectric.bearing.summary import summary_of
+from ehlectric.bearing import BearingResult, summary_of
 from ehlectric.cases.defaults import HOW
-from ehlectric.drive.bearing_remedies import at_shaft_voltage, grounded_verdict, grounded_voltage, with_remedy
+from ehlectric.drive import at_shaft_voltage, grounded_verdict, grounded_voltage, with_remedy
 from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.rows import Summary
 from ehlectric.quantities.sheets import REMEDIED

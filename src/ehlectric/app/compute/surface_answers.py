@@ -17,10 +17,7 @@ from ehlectric.app.view_models import PageWarning, StepFigure, SummitsTable, Sur
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
 from ehlectric.cases.roughness_inputs import Roughness, check_geometry
-from ehlectric.contact.contact_kinds import KINDS
-from ehlectric.contact.measured_film import FORMULA
-from ehlectric.contact.problems import domain_of, spacings_of
-from ehlectric.contact.summary import formulas_of
+from ehlectric.contact import FORMULA, KINDS, domain_of, formulas_of, spacings_of
 from ehlectric.errors import InputError
 from ehlectric.formulas.film_line import Thickness
 from ehlectric.quantities.units import to_si, unit_for

@@ -34,8 +34,7 @@ from ehlectric.app.view_models import (
     SweepView,
     Variable,
 )
-from ehlectric.bearing.quick_contacts import is_quick
-from ehlectric.bearing.solution import percent
+from ehlectric.bearing import is_quick, percent
 from ehlectric.cases.amounts import Amount, Count
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.changes import flattened, set_keys
@@ -57,17 +56,27 @@ from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import ratio_text, readable
 from ehlectric.runs.by_kind import run_sweep
 from ehlectric.runtime.values import is_number
-from ehlectric.sweep.axis_labels import label_of, result_keys
-from ehlectric.sweep.batches import seconds_of
-from ehlectric.sweep.drive_sweep_verdict import swept_verdict
-from ehlectric.sweep.engine import case_key
-from ehlectric.sweep.points import Point
-from ehlectric.sweep.result import FILES, SweepResults, write_tables
-from ehlectric.sweep.run import planned_points
-from ehlectric.sweep.slices import known_values, whole
-from ehlectric.sweep.store import NAME, read_sweep
-from ehlectric.sweep.sweep_inputs import Sweep, breakdown_of, check_varied, ranked_value
-from ehlectric.sweep.warnings import sweep_warnings
+from ehlectric.sweep import (
+    FILES,
+    NAME,
+    Point,
+    Sweep,
+    SweepResults,
+    breakdown_of,
+    case_key,
+    check_varied,
+    known_values,
+    label_of,
+    planned_points,
+    ranked_value,
+    read_sweep,
+    result_keys,
+    seconds_of,
+    sweep_warnings,
+    swept_verdict,
+    whole,
+    write_tables,
+)
 from ehlectric.tables.sweep_summary import grouped_reasons
 
 # Number of points whose summaries say what may be shown.

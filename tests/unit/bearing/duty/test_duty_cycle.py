@@ -14,7 +14,7 @@ from ehlectric.bearing.duty_cycle import SAMPLES_OF_ROW, check_duty, run_duty
 from ehlectric.bearing.duty_points import values_at
 from ehlectric.bearing.many_points import solved_parts
 from ehlectric.bearing.many_uncertainties import spreads_of
-from ehlectric.bearing.run import run
+from ehlectric.bearing.run import solve_to_folder
 from ehlectric.bearing.solution import lambda_ratio
 from ehlectric.bearing.uncertainty import SEED, spread_of_result
 from ehlectric.cases.bearing_case import BearingCase
@@ -309,7 +309,7 @@ def test_ceramic_elements_have_states_and_no_margin(tmp_path):
 
 @pytest.mark.slow
 def test_files_of_a_cycle(case, duty, tmp_path):
-    outcome = run(case, tmp_path / "out")
+    outcome = solve_to_folder(case, tmp_path / "out")
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     assert summary["duty"] == json.loads(json.dumps(duty.summary()))
     assert 0.0 < summary["duty"]["breakdown_probability"] < 1.0
