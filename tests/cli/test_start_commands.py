@@ -35,13 +35,14 @@ def test_a_template_of_each_kind_is_written_checked_and_solved_as_it_is(ehlectri
     """In a folder of its own: it needs no other file."""
     done = ehlectric("init", "new.toml", "--kind", kind)
     assert done.returncode == 0, done.stderr
-    found = read_input(tmp_path / "new.toml").kind
+    file = read_input(tmp_path / "new.toml")
+    found = file.kind
     assert found == KINDS.get(kind, "contact")
     command = COMMANDS.get(found, "run")
     schema = f"ehlectric-{found.replace('motion', 'contact')}.schema.json"
     for part in ("new.toml", schema, "ehlectric check new.toml", f"ehlectric {command} new.toml"):
         assert part in done.stdout
-    assert preview_of(RUNS[found].read(tmp_path / "new.toml")).rows
+    assert preview_of(RUNS[found].read(file)).rows
     text = (tmp_path / "new.toml").read_text(encoding="utf-8")
     assert text.startswith(f"#:schema ./{schema}\n# ")
     # What is not published is marked; a line and a point have assumptions in their alternatives.
