@@ -334,7 +334,7 @@ class OverSpeed:
     name: str
     speed: tuple[float, ...]
     voltage: tuple[float | None, ...]
-    own: tuple[float, float | None]  # at the speed of the case
+    at_case: tuple[float, float | None]  # at the speed of the case
 
 
 @dataclass(frozen=True)

@@ -418,13 +418,15 @@ def test_fields_of_a_contact_are_keys_of_a_case(geometry):
 @pytest.mark.parametrize("geometry", ["line", "point"])
 def test_every_way_of_a_field_is_a_valid_case(geometry, tmp_path):
     inputs = Inputs(table_of("line_contact" if geometry == "line" else "ball_contact"))
-    fields = [field for group in groups_of(geometry) for field in group.fields if field.kind == "ways"]
+    fields = [
+        field for group in groups_of(geometry) for field in group.fields if field.kind == "alternatives"
+    ]
     for field in fields:
         if not field.when(inputs):
             continue
-        for place, way in enumerate(field.ways):
+        for place, way in enumerate(field.alternatives):
             inputs = changed(inputs, way.changes)
-            assert field.way(inputs) == place
+            assert field.alternative(inputs) == place
             check_contact(dict(inputs.table), str(tmp_path))
     assert len(fields) > 3
 

@@ -16,7 +16,7 @@ from ehlectric.app.form_fields.drive_fields import (
     without_remedy,
 )
 from ehlectric.app.form_fields.field_defaults import bearing_at, default_of, end_and_key
-from ehlectric.app.form_fields.field_rules import Memory, changed, is_own, own_values
+from ehlectric.app.form_fields.field_rules import Memory, changed, custom_values, is_custom
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.frame import BEARING, DRIVE, drive_with
 from ehlectric.bearing.bearing_discharges import shaft_voltage
@@ -34,7 +34,7 @@ from ehlectric.quantities.units import in_unit, si_unit
 from tests.helpers.each import each
 
 FIELDS = {field.key: field for group in DRIVE_GROUPS for field in group.fields}
-KEYS = [key for key, field in FIELDS.items() if field.kind != "ways" and key != "title"]
+KEYS = [key for key, field in FIELDS.items() if field.kind != "alternatives" and key != "title"]
 NUMBERS = [key for key in KEYS if FIELDS[key].kind in ("number", "count")]
 
 
@@ -80,15 +80,15 @@ def test_the_start_is_the_example_and_has_fields_for_all_of_it():
     assert drive().title == "Drive of a pump"
 
 
-@each("key", [key for key, field in FIELDS.items() if field.kind == "ways"])
+@each("key", [key for key, field in FIELDS.items() if field.kind == "alternatives"])
 def test_every_way_of_the_example_makes_a_case(key):
-    for place, way in enumerate(FIELDS[key].ways):
+    for place, way in enumerate(FIELDS[key].alternatives):
         if not way.listed:
             continue
         start = DRIVE if not key.startswith(ENDS[1]) else DRIVE.changed({ENDS[1]: DRIVE.value(ENDS[0])})
-        found = changed(start, Memory(DRIVE_GROUPS).way(FIELDS[key], place, start))
+        found = changed(start, Memory(DRIVE_GROUPS).alternative(FIELDS[key], place, start))
         DriveCase.from_written(found.table)
-        assert FIELDS[key].way(found) == place or not way.key
+        assert FIELDS[key].alternative(found) == place or not way.key
 
 
 def test_six_step_modulation_takes_the_keys_of_the_carrier_away_and_back():
@@ -103,8 +103,8 @@ def test_a_measured_waveform_displaces_the_described_source_and_comes_back():
     file = changed(DRIVE, {"source.file": "surfaces/surface-1.csv"})
     assert dict(file.value("source")) == {"file": "surfaces/surface-1.csv"}
     way = FIELDS["source.way"]
-    assert way.way(file) == 0
-    back = changed(file, Memory(DRIVE_GROUPS).way(way, 1, file))
+    assert way.alternative(file) == 0
+    back = changed(file, Memory(DRIVE_GROUPS).alternative(way, 1, file))
     assert back.value("source.file") is None
     DriveCase.from_written(back.table)
 
@@ -124,12 +124,12 @@ def test_a_bearing_of_a_drive_follows_the_rules_of_a_bearing():
 
 
 def test_own_values_and_defaults_of_a_bearing_of_a_drive():
-    own = own_values(DRIVE, "drive_end.bearing.base")
+    own = custom_values(DRIVE, "drive_end.bearing.base")
     assert own["drive_end.bearing.bore"] == "40 mm"
     assert default_of(DRIVE, "drive_end.bearing.bore") == "40 mm"
-    assert not is_own(DRIVE, "drive_end.bearing.base")
+    assert not is_custom(DRIVE, "drive_end.bearing.base")
     found = changed(DRIVE, own)
-    assert is_own(found, "drive_end.bearing.base")
+    assert is_custom(found, "drive_end.bearing.base")
     DriveCase.from_written(found.table)
 
 

@@ -25,7 +25,7 @@ FIELDS = {
     for groups in GROUPS
     for group in groups
     for field in group.fields
-    if field.kind != "ways"
+    if field.kind != "alternatives"
 }
 NUMBERS = {key: field for key, field in FIELDS.items() if field.kind in ("number", "count")}
 CLAIMS = {key: help_at(key) for key in NUMBERS if help_at(key).rises or help_at(key).falls}

@@ -19,7 +19,7 @@ from ehlectric.quantities.units import in_unit, si_unit
 from ehlectric.runs.example_files import example_text
 from tests.helpers.each import each
 
-FIELDS = [field for group in BEARING_GROUPS for field in group.fields if field.kind != "ways"]
+FIELDS = [field for group in BEARING_GROUPS for field in group.fields if field.kind != "alternatives"]
 NUMBERS = [field for field in FIELDS if field.kind in ("number", "count")]
 EXAMPLE = Inputs(tomllib.loads(example_text("bearing_6208")))
 
@@ -152,7 +152,7 @@ def test_starts_of_groups_and_ways_have_known_keys():
         for key in group.start:
             input_field(f"{group.table}.{key}")
         for field in group.fields:
-            for way in field.ways:
+            for way in field.alternatives:
                 for key in way.changes:
                     if key != "bearing.fits":
                         input_field(key)

@@ -2,7 +2,7 @@
 
 import tomllib
 
-from ehlectric.app.form_fields.field_rules import changed, own_values
+from ehlectric.app.form_fields.field_rules import changed, custom_values
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.form import _sent
 from ehlectric.runs.example_files import example_text
@@ -21,7 +21,7 @@ EXAMPLE = Inputs(tomllib.loads(example_text("bearing_6208")))
         {"lubricant.base": "fva-3"},
         {"motor": None},
         {"bearing.coating": {"base": "schaeffler-j20aa", "relative_permittivity": 9.0}},
-        own_values(EXAMPLE, "bearing.base"),
+        custom_values(EXAMPLE, "bearing.base"),
     ],
 )
 def test_what_is_sent_makes_the_inputs_of_the_form(changes):

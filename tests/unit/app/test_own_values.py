@@ -94,7 +94,7 @@ def test_an_own_oil_comes_back_after_one_of_the_library():
     memory.note(typed)
     other = changed(typed, {"lubricant.base": "fva-3"})
     memory.note(other)
-    back = changed(other, memory.own(FIELDS["lubricant.base"], other))
+    back = changed(other, memory.custom(FIELDS["lubricant.base"], other))
     assert back == typed
 
 
@@ -102,12 +102,12 @@ def test_an_own_oil_comes_back_after_one_of_the_library():
 def test_an_own_bearing_comes_back_after_one_of_the_library(base):
     memory = Memory(BEARING_GROUPS)
     field = FIELDS["bearing.base"]
-    own = changed(EXAMPLE, memory.own(field, EXAMPLE))
+    own = changed(EXAMPLE, memory.custom(field, EXAMPLE))
     typed = own.changed({"bearing.elements": 8, "bearing.pitch_diameter": "61 mm"})
     memory.note(typed)
     other = changed(typed, {"bearing.base": base})
     memory.note(other)
-    back = changed(other, memory.own(field, other))
+    back = changed(other, memory.custom(field, other))
     assert case_of_dict(back.table, written=True).bearing.elements == 8
     names = (*("elements", "pitch_diameter", "kind", "inner_groove", "bore"),)
     assert {name: back.value(f"bearing.{name}") for name in names} == {
@@ -122,21 +122,21 @@ def test_a_way_comes_back_with_its_last_values():
     grade, viscosity = 0, 3
     typed = EXAMPLE.changed({"lubricant.temperature.kinematic_viscosity_40": "52 mm^2/s"})
     memory.note(typed)
-    other = changed(typed, memory.way(field, grade, typed))
-    assert field.way(other) == grade
+    other = changed(typed, memory.alternative(field, grade, typed))
+    assert field.alternative(other) == grade
     memory.note(other)
-    assert changed(other, memory.way(field, viscosity, other)) == typed
+    assert changed(other, memory.alternative(field, viscosity, other)) == typed
 
 
-@each("field", [field for field in FIELDS.values() if field.ways], ids=lambda one: one.key)
+@each("field", [field for field in FIELDS.values() if field.alternatives], ids=lambda one: one.key)
 def test_every_way_is_taken_whatever_was_before(field):
     memory, inputs = Memory(BEARING_GROUPS), EXAMPLE
-    for place, way in enumerate(field.ways):
+    for place, way in enumerate(field.alternatives):
         memory.note(inputs)
-        inputs = changed(inputs, memory.way(field, place, inputs))
+        inputs = changed(inputs, memory.alternative(field, place, inputs))
         assert way.taken(inputs)
-    for place, way in reversed(list(enumerate(field.ways))):
+    for place, way in reversed(list(enumerate(field.alternatives))):
         memory.note(inputs)
-        inputs = changed(inputs, memory.way(field, place, inputs))
+        inputs = changed(inputs, memory.alternative(field, place, inputs))
         assert way.taken(inputs)
         case_of_dict(inputs.table, written=True)

@@ -7,7 +7,7 @@ import pytest
 from ehlectric.app.catalogue import choices
 from ehlectric.app.form_fields import BEARING_GROUPS
 from ehlectric.app.form_fields.field import form_data, kind_of
-from ehlectric.app.form_fields.field_rules import Memory, changed, own_values
+from ehlectric.app.form_fields.field_rules import Memory, changed, custom_values
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.drive_case import case_of_dict
 from ehlectric.errors import InputError
@@ -160,7 +160,7 @@ def test_every_bearing_can_be_picked_after_every_kind(choice):
 @pytest.mark.parametrize("base", ["6208", "7208-b", "nu-208"])
 def test_own_geometry_begins_with_that_of_the_base(base):
     inputs = changed(EXAMPLE, {"bearing.base": base})
-    own = changed(inputs, own_values(inputs, "bearing.base"))
+    own = changed(inputs, custom_values(inputs, "bearing.base"))
     assert own.value("bearing.base") is None
     same = {"bearing": {**case(inputs).to_dict()["bearing"], "base": None}}
     assert case(own).bearing == case(inputs).replace(same).bearing
@@ -170,7 +170,7 @@ def test_own_geometry_begins_with_that_of_the_base(base):
 
 @pytest.mark.parametrize("kind", ["deep-groove ball", "angular-contact ball", "cylindrical roller"])
 def test_own_geometry_of_another_kind(kind):
-    own = changed(EXAMPLE, own_values(EXAMPLE, "bearing.base"))
+    own = changed(EXAMPLE, custom_values(EXAMPLE, "bearing.base"))
     assert case(changed(own, {"bearing.kind": kind})).bearing.kind == kind
 
 
@@ -178,7 +178,7 @@ def test_own_geometry_of_another_kind(kind):
 def test_oils_and_data_sheets_take_turns(name):
     inputs = changed(EXAMPLE, {"lubricant.base": name})
     assert inputs.value("lubricant") == {"base": name}
-    sheet = changed(inputs, own_values(inputs, "lubricant.base"))
+    sheet = changed(inputs, custom_values(inputs, "lubricant.base"))
     assert case(sheet).lubricant == case(EXAMPLE).lubricant
 
 
@@ -199,7 +199,7 @@ def test_groups_switched_on_make_a_case():
 
 @each(
     "way",
-    [way for group in BEARING_GROUPS for field in group.fields for way in field.ways],
+    [way for group in BEARING_GROUPS for field in group.fields for way in field.alternatives],
     ids=lambda way: way.label,
 )
 def test_ways_begin_with_values_that_make_a_case(way):
@@ -210,7 +210,7 @@ def test_ways_begin_with_values_that_make_a_case(way):
 
 def test_own_coating_begins_with_that_of_the_library():
     start = changed(EXAMPLE, {"bearing.coating": {"base": "schaeffler-j20aa", "relative_permittivity": 9.0}})
-    own = changed(start, own_values(start, "bearing.coating.base"))
+    own = changed(start, custom_values(start, "bearing.coating.base"))
     assert case(own).bearing.coating.thickness == case(start).bearing.coating.thickness
     assert (
         case(changed(own, {"bearing.coating.strength": "10 V/um"})).bearing.coating.breakdown_voltage is None

@@ -11,7 +11,7 @@ import ehlectric
 from ehlectric import BearingCase, DriveCase, InputError, Sweep, check, evaluate, load, run_sweep, save, solve
 from ehlectric.app.catalogue import designated
 from ehlectric.app.form_fields import BEARING_GROUPS
-from ehlectric.app.form_fields.field_rules import changed, own_values
+from ehlectric.app.form_fields.field_rules import changed, custom_values
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.library.designations import as_typed, parts_of
 from ehlectric.cases.table import opened_names
@@ -255,7 +255,7 @@ def test_a_form_drops_the_designation_of_another_bearing(changes):
 
 def test_a_form_with_an_own_geometry_has_no_designation():
     inputs = changed(EXAMPLE, {"bearing.base": TYPED})
-    own = changed(inputs, own_values(inputs, "bearing.base"))
+    own = changed(inputs, custom_values(inputs, "bearing.base"))
     assert own.value("bearing.designation") is None
 
 

@@ -38,7 +38,7 @@ FIELDS = {
     for name, groups in FORMS.items()
     for group in groups
     for field in group.fields
-    if field.kind != "ways"
+    if field.kind != "alternatives"
 }
 KEYS = sorted({key for _, key in FIELDS} - {"title"})
 CASE = case_of_dict({name: table for name, table in CONTACTS["line"].items() if name != "motion"})
@@ -82,7 +82,7 @@ def test_phrases_begin_with_the_label(table):
 @pytest.mark.parametrize("name", FORMS)
 def test_fields_are_the_keys_of_the_form_in_their_order(name):
     listed = [key for keys in form(name).values() for key in keys]
-    shown = [field.key for group in FORMS[name] for field in group.fields if field.kind != "ways"]
+    shown = [field.key for group in FORMS[name] for field in group.fields if field.kind != "alternatives"]
     # A drive has the title of its report in the group of a bearing.
     assert shown == [*listed, *(["title"] if name == "drive" else [])]
     assert len(set(listed)) == len(listed)

@@ -162,9 +162,9 @@ def _line(name: str, angle: Sequence[float], values: Sequence[float], rows: int 
     look: Plot = {"line": {"color": color, "width": width}, "showlegend": False}
     theta: list[float] = []
     radius: list[float] = []
-    for part, own in zip(np.split(np.degrees(angle), rows), np.split(np.asarray(values), rows), strict=True):
+    for part, row in zip(np.split(np.degrees(angle), rows), np.split(np.asarray(values), rows), strict=True):
         theta += [*part.tolist(), part[0] + 360.0, math.nan]
-        radius += [*own.tolist(), own[0], math.nan]
+        radius += [*row.tolist(), row[0], math.nan]
     return scatter(theta[:-1], radius[:-1], polar=True, **look)
 
 
@@ -202,13 +202,13 @@ class OverSpeed:
     """Bearing over its speed: quick points, the bearing itself, and curves scaled to it."""
 
     points: Speeds
-    own: Speed
+    at_case: Speed
     curves: Curves
 
     @classmethod
-    def of(cls, points: Speeds, own: Speed) -> OverSpeed:
+    def of(cls, points: Speeds, at_case: Speed) -> OverSpeed:
         """Curves through points, scaled to the bearing itself."""
-        return cls(points, own, curves_of(points, own))
+        return cls(points, at_case, curves_of(points, at_case))
 
     @property
     def contacts(self) -> str:
@@ -218,25 +218,25 @@ class OverSpeed:
 
 def breakdown_figure(over: OverSpeed) -> Plot:
     """First and ring-to-ring breakdown over the speed, with the shaft voltage."""
-    return _figure(over, breakdown_panel(over.points, over.curves, over.own))
+    return _figure(over, breakdown_panel(over.points, over.curves, over.at_case))
 
 
 def capacitance_figure(over: OverSpeed) -> Plot:
     """Capacitance over the speed, with its range from air to oil around the films."""
-    return _figure(over, capacitance_panel(over.points, over.curves, over.own))
+    return _figure(over, capacitance_panel(over.points, over.curves, over.at_case))
 
 
 def _figure(over: OverSpeed, panel: Panel) -> Plot:
     """Panel with a line at the speed of the bearing itself."""
-    at = over.own[0]
-    own = Upright(f"speed of this case, {speed_text(at)}", rpm(at), MIDDLE_GREY)
-    return stack(speed_axis(over.curves), [replace(panel, uprights=(*panel.uprights, own))], **_LAYOUT)
+    at = over.at_case[0]
+    case_line = Upright(f"speed of this case, {speed_text(at)}", rpm(at), MIDDLE_GREY)
+    return stack(speed_axis(over.curves), [replace(panel, uprights=(*panel.uprights, case_line))], **_LAYOUT)
 
 
 def speed_rows(over: OverSpeed) -> list[tuple[str, ...]]:
     """Cells of the table over the speed, a row for each speed that is listed."""
     rows = []
-    for speed, summary in listed(over.points, over.own[0]):
+    for speed, summary in listed(over.points, over.at_case[0]):
         place = int(np.searchsorted(over.curves.speed, speed))
         first, shaft, lambda_ratio, *capacitances = (
             float(over.curves[key][place])

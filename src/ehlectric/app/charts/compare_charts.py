@@ -30,7 +30,7 @@ def over_speed(sides: Sequence[Side]) -> dict[str, Any]:
             line = {"color": colour, "width": width, "dash": dash}
             hover = f"{whole}<br>%{{x:.0f}} rpm: %{{y:,.3~r}} V<extra></extra>"
             traces.append({"type": "scatter", **over, "line": line, "hovertemplate": hover})
-            at = {"x": [curve.own[0]], "y": [curve.own[1]], "mode": "markers+text", "text": [name]}
+            at = {"x": [curve.at_case[0]], "y": [curve.at_case[1]], "mode": "markers+text", "text": [name]}
             look = {"marker": {"color": colour, "size": 11}, "textposition": "top left", "showlegend": False}
             traces.append({"type": "scatter", **at, **look, "hovertemplate": hover})
     log = _log_axis()
@@ -90,7 +90,7 @@ _LIGHT, _WIDE = 0.02, 10.0
 
 def _is_loaded(side: Side, load: float) -> bool:
     """Whether an element has at least a share ``_LIGHT`` of the largest load of its case."""
-    return load > 0.0 and load >= _LIGHT * max(one for film in side.films for one in film.load)
+    return load > 0.0 and load >= _LIGHT * max(value for film in side.films for value in film.load)
 
 
 def _radius(values: Sequence[float]) -> tuple[float, float, bool]:

@@ -111,12 +111,12 @@ def cycle_figure(result: DriveResult, duty: DriveDuty) -> Figure:
     heads = ("begin [s]", "end [s]", "discharges", "energy [mJ]", "mean speed [rpm]", "least λ")
     rows = tuple(
         (
-            *(readable(value, 6) for value in (one.start, one.end)),
-            *(readable(value) for value in (one.discharges, 1e3 * one.energy)),
-            rpm_text(one.speed),
-            readable(one.lambda_ratio),
+            *(readable(value, 6) for value in (stretch.start, stretch.end)),
+            *(readable(value) for value in (stretch.discharges, 1e3 * stretch.energy)),
+            rpm_text(stretch.speed),
+            readable(stretch.lambda_ratio),
         )
-        for one in duty.stretches
+        for stretch in duty.stretches
     )
     return Figure(
         "Discharges over the duty cycle",

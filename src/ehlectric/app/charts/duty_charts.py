@@ -52,7 +52,10 @@ def duty_rows(duty: DutyResult) -> list[tuple[str, ...]]:
             readable(rows.time[k], 6),
             rpm_text(rows.speed[k]),
             readable(celsius.of(float(rows.temperature[k])), 4),
-            *(readable(one[k]) if one[k] == one[k] else "none" for one in (rows.lambda_ratio, rows.margin)),
+            *(
+                readable(column[k]) if column[k] == column[k] else "none"
+                for column in (rows.lambda_ratio, rows.margin)
+            ),
             STATES[int(rows.state[k])],
         )
         for k in kept_nodes(rows.time.size, MOST_DUTY_ROWS).tolist()

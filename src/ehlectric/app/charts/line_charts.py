@@ -152,7 +152,7 @@ def _profiles(result: Result) -> Figure:
     panels = [pressure(line), film_thickness(line)]
     if result.converged:
         panels += [field_strength(line), *heat(line)]
-    told = f"Over x in {unit}: {', '.join(names_of(panels))}."
+    sentence = f"Over x in {unit}: {', '.join(names_of(panels))}."
     notes = (
         f"Oil enters on the left. Dashed lines: edges of the dry contact, x = ±{readable(b, 4)} {unit}.",
         spots_text(result),
@@ -160,7 +160,9 @@ def _profiles(result: Result) -> Figure:
     )
     return Figure(
         "Pressure, film and field along entrainment",
-        f"{told} {main_numbers(result)}" if result.converged else f"{told} The film did not converge.",
+        f"{sentence} {main_numbers(result)}"
+        if result.converged
+        else f"{sentence} The film did not converge.",
         stack(along, panels, converged=result.converged, **_BELOW),
         caption=" ".join(filter(None, notes)),
     )

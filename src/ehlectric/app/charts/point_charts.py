@@ -68,7 +68,7 @@ def film_surface(result: PointResult) -> Figure:
     to_e, unit = unit_for(field_scale(result), "V/m")
     gap, most = field.z[:, :, -1] - field.z[:, :, 0], np.max(field.strength, axis=-1)
     extremes = [np.unravel_index(np.argmin(gap), gap.shape), np.unravel_index(np.argmax(most), most.shape)]
-    kept = [kept_nodes(size, _MOST, [int(one[k]) for one in extremes]) for k, size in enumerate(gap.shape)]
+    kept = [kept_nodes(size, _MOST, [int(node[k]) for node in extremes]) for k, size in enumerate(gap.shape)]
     x, y = lengths.factor * field.x[kept[0]], lengths.factor * field.y[kept[1]]
     height, colour = to_h * gap[np.ix_(*kept)].T, to_e * most[np.ix_(*kept)].T
     surface = {
@@ -227,7 +227,7 @@ def point_figures(result: PointResult) -> dict[str, Figure]:
     if result.converged:
         maps["field-map"] = _field_map(result)
     surface = {"surface": film_surface(result)} if result.converged else {}
-    return surface | {name: _drawn(result, one) for name, one in maps.items()}
+    return surface | {name: _drawn(result, shown_map) for name, shown_map in maps.items()}
 
 
 @dataclass(frozen=True)
@@ -306,7 +306,7 @@ def _drawn(result: PointResult, what: _Map) -> Figure:
     """Map with lines of equal values, the edge of the dry contact, its extreme and the lines of the cuts."""
     lengths, turned = Lengths.of(result), is_turned(result.conditions)
     kept = [_window(result, axis_, k, what.mark[k]) for k, axis_ in enumerate(what.axes)]
-    x, y = (lengths.factor * axis_[one] for axis_, one in zip(what.axes, kept, strict=True))
+    x, y = (lengths.factor * axis_[nodes] for axis_, nodes in zip(what.axes, kept, strict=True))
     inside = what.values[np.ix_(*kept)]
     low, high = what.limits
     across, down, drawn = (y, x, inside) if turned else (x, y, inside.T)

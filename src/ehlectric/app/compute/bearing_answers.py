@@ -506,7 +506,7 @@ def _speed_figures(over: OverSpeed, *, bound: bool) -> dict[str, Figure]:
     figures = {}
     if drawn:
         breaks = "first breakdown" in drawn
-        ideal = "bearing.first_break" in bearing_bounds(BEARING_BOOK, over.own[1])
+        ideal = "bearing.first_break" in bearing_bounds(BEARING_BOOK, over.at_case[1])
         label = " and ".join(name.replace("breakdown", "breakdown voltage") for name in drawn)
         figures["breakdown"] = Figure(
             "Breakdown voltage over speed" if breaks else "Shaft voltage over speed",
@@ -528,7 +528,7 @@ def _speed_figures(over: OverSpeed, *, bound: bool) -> dict[str, Figure]:
 
 
 def _is_solved(over: OverSpeed) -> bool:
-    return bool(over.own[1]["bearing"]["contacts"] == "solved")
+    return bool(over.at_case[1]["bearing"]["contacts"] == "solved")
 
 
 def _scaled(over: OverSpeed, keys: Mapping[str, str]) -> str:

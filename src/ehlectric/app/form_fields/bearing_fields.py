@@ -17,12 +17,17 @@ from ehlectric.app.form_fields.field import (
 from ehlectric.app.form_fields.oil_fields import oil
 from ehlectric.quantities.inputs import attributes, form
 
-_own = equal("bearing.base", None)
+_custom_geometry = equal("bearing.base", None)
 
 
 def _number_in_place_of(key: str) -> dict[str, Any]:
     """Condition of a field that holds a number where its list has no word for the value."""
-    words = [way["value"] for entry in attributes("lists")[key] for way in entry["ways"] if "value" in way]
+    words = [
+        alternative["value"]
+        for entry in attributes("lists")[key]
+        for alternative in entry["alternatives"]
+        if "value" in alternative
+    ]
     return {"when": unequal(key, None, *words), "strict": True}
 
 
@@ -32,8 +37,8 @@ _OF_KINDS = ("inner_groove", "outer_groove", "shoulder_height", "roller_length")
 
 # When fields are shown.
 _SHOWN: dict[str, dict[str, Any]] = {
-    **{f"bearing.{name}": {"when": _own} for name in _DIMENSIONS},
-    **{f"bearing.{name}": {"when": both(_own, of_kind(name))} for name in _OF_KINDS},
+    **{f"bearing.{name}": {"when": _custom_geometry} for name in _DIMENSIONS},
+    **{f"bearing.{name}": {"when": both(_custom_geometry, of_kind(name))} for name in _OF_KINDS},
     "bearing.profile": {"when": of_kind("profile")},
     "bearing.contact_angle": {"when": of_kind("contact_angle")},
     "bearing.element_capacitance": {"when": equal("bearing.element_material", "silicon-nitride")},

@@ -47,7 +47,7 @@ _SHOWN: dict[str, dict[str, Any]] = {
         "high": 3000.0,
         "note": "needs a density",
     },
-    **{f"contact.{key}": {"when": given(*(f"contact.{one}" for one in _ELASTIC))} for key in _ELASTIC},
+    **{f"contact.{key}": {"when": given(*(f"contact.{name}" for name in _ELASTIC))} for key in _ELASTIC},
     "contact.slide_to_roll_ratio": {"when": given("contact.entrainment_speed")},
     "discharge.dielectric_strength": {"note": "an assumption; none is published for films"},
     "grid.error": {"when": both(equal("grid.nodes", None), equal("motion", None))},
@@ -63,7 +63,7 @@ def _groups(name: str) -> tuple[Group, ...]:
     shown = _SHOWN | ({"grid.nodes": _NODES_OF_POINT} if name == "point" else {})
     of_oil = oil_fields(
         name,
-        base={"own": "Own values"},
+        base={"custom_label": "Own values"},
         viscosity={"when": equal("lubricant.temperature", None)},
         pressure_viscosity_coefficient={"when": always, "note": ""},
         relative_permittivity={"when": always, "high": 8.0},
@@ -101,9 +101,9 @@ def switched(inputs: Inputs, start: Inputs) -> Inputs:
     left = (*_SHARED, "title", "roughness", "motion")
     table = {key: value for key, value in start.table.items() if key not in left}
     table |= {key: inputs.table[key] for key in _SHARED if key in inputs.table}
-    found = Inputs({**table, "title": f"{geometry_of(start).capitalize()} contact"})
+    result = Inputs({**table, "title": f"{geometry_of(start).capitalize()} contact"})
     # A point contact has no length, and a line contact gets back the one it had before.
-    if found.value("discharge") is not None:
-        found = found.changed({"discharge.length": start.value("discharge.length")})
+    if result.value("discharge") is not None:
+        result = result.changed({"discharge.length": start.value("discharge.length")})
     values = {key: inputs.value(key) for key in _KEPT}
-    return changed(found, {key: value for key, value in values.items() if value is not None})
+    return changed(result, {key: value for key, value in values.items() if value is not None})

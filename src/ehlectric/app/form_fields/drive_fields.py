@@ -89,8 +89,8 @@ def remedy_at_bearing(inputs: Inputs, name: str, oil: str = "") -> Mapping[str, 
         return None
     if title in PRESETS:
         return {"title": title, "changes": PRESETS[title], "assumed": assumed}
-    own = None if inputs.value("lubricant.temperature") else inputs.value("lubricant.base")
-    oil = oil or next(one for one in _OILS if one != own)
+    present_oil = None if inputs.value("lubricant.temperature") else inputs.value("lubricant.base")
+    oil = oil or next(candidate for candidate in _OILS if candidate != present_oil)
     changes = {"bearings.lubricant.base": oil}
     return {"title": f"{title} {oil}", "changes": changes, "assumed": f"{assumed} {oil_title(oil)}."}
 
@@ -103,22 +103,24 @@ def times(value: object, factor: float) -> str | None:
     >>> times("10 kHz", 0.5), times("fast", 0.5), times(None, 2.0)
     ('5 kHz', None, None)
     """
-    found = split(str(value))
-    return f"{rounded(factor * found[0], 12)} {found[1]}" if found is not None and found[1] else None
+    amount = split(str(value))
+    return f"{rounded(factor * amount[0], 12)} {amount[1]}" if amount is not None and amount[1] else None
 
 
 def remedies_of(inputs: Inputs) -> dict[str, Mapping[str, Any]]:
     """Changes of the remedies of a drive by their titles; what is no remedy is left out."""
-    tables = [one for one in _remedies(inputs) if isinstance(one, Mapping)]
+    tables = [table for table in _remedies(inputs) if isinstance(table, Mapping)]
     return {
-        str(one.get("title", "")): one["changes"] for one in tables if isinstance(one.get("changes"), Mapping)
+        str(table.get("title", "")): table["changes"]
+        for table in tables
+        if isinstance(table.get("changes"), Mapping)
     }
 
 
 def _remedies(inputs: Inputs) -> list[Any]:
     """Entries of the list of remedies; none where the inputs have no list."""
-    found = inputs.value("remedies")
-    return found if isinstance(found, list) else []
+    remedies = inputs.value("remedies")
+    return remedies if isinstance(remedies, list) else []
 
 
 def changes_of(inputs: Inputs, title: str) -> Mapping[str, Any] | None:
@@ -143,7 +145,9 @@ def with_remedy(inputs: Inputs, title: str, changes: Mapping[str, Any]) -> list[
 def without_remedy(inputs: Inputs, title: str) -> list[Any]:
     """List of the remedies without those of a title."""
     return [
-        one for one in _remedies(inputs) if not isinstance(one, Mapping) or str(one.get("title", "")) != title
+        remedy
+        for remedy in _remedies(inputs)
+        if not isinstance(remedy, Mapping) or str(remedy.get("title", "")) != title
     ]
 
 
@@ -153,13 +157,15 @@ def with_fitted_remedies(before: Inputs, after: Inputs) -> Inputs:
     remedies = _remedies(after)
     if old == new or not remedies:
         return after
-    return after.changed({"remedies": [_fitted(one, times(old, 0.5), times(new, 0.5)) for one in remedies]})
+    return after.changed(
+        {"remedies": [_fitted(remedy, times(old, 0.5), times(new, 0.5)) for remedy in remedies]}
+    )
 
 
 def _fitted(remedy: Any, old: str | None, new: str | None) -> Any:
     """Remedy with another frequency where it had half the old one and nothing else."""
-    own = remedy.get("changes") if isinstance(remedy, Mapping) else None
-    if not isinstance(own, Mapping) or old is None or new is None or dict(own) != {SWITCHING: old}:
+    changes = remedy.get("changes") if isinstance(remedy, Mapping) else None
+    if not isinstance(changes, Mapping) or old is None or new is None or dict(changes) != {SWITCHING: old}:
         return remedy
     return {**remedy, "changes": {SWITCHING: new}}
 
@@ -228,11 +234,11 @@ def _bearing(end: str, name: str) -> Iterator[Group]:
         group = _OF_BEARING[bearing_title]
         title, fields = f"{name}: {words}", tuple(_fields_at(group, end))
         opened = group.title in _OPENED and end == DRIVE_END
-        found = group_at(group, end, title, fields, opened=opened)
+        placed = group_at(group, end, title, fields, opened=opened)
         if group.title == "Breakdown":
-            found = Group(title, fields, note=group.note, opened=False)
+            placed = Group(title, fields, note=group.note, opened=False)
         # The other end has these groups only where it has a bearing of its own.
-        yield found if end == DRIVE_END else replace(found, when=given(NON_DRIVE_END))
+        yield placed if end == DRIVE_END else replace(placed, when=given(NON_DRIVE_END))
 
 
 def _which(inputs: Inputs) -> str:

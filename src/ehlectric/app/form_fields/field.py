@@ -119,8 +119,8 @@ def _clearance(inputs: Inputs, first: str, normal: str) -> tuple[str, str]:
 
 def first_of_kind(inputs: Inputs) -> dict[str, Any]:
     """First values of the kind of bearing by dotted key; none if the inputs do not name a kind."""
-    own = form_data("kinds").get(kind_of(inputs), {})
-    return {f"bearing.{name}": value for name, value in own.items()}
+    first_values = form_data("kinds").get(kind_of(inputs), {})
+    return {f"bearing.{name}": value for name, value in first_values.items()}
 
 
 When = Callable[[Inputs], bool]
@@ -157,22 +157,24 @@ def both(first: When, second: When) -> When:
 
 
 @dataclass(frozen=True)
-class Way:
-    """Way to give a quantity, one of several that exclude each other."""
+class Alternative:
+    """Alternative input of a quantity, one of several that exclude each other."""
 
     label: str
-    # Values by dotted key with which the way begins; None removes a key.
+    # Values by dotted key with which the alternative begins; None removes a key.
     changes: Mapping[str, Any] = field(default_factory=dict)
-    key: str = ""  # key whose presence shows that the inputs take this way; empty for the last of the list
-    value: Any = None  # value of this key with which they take this way; None for any
-    listed: bool = True  # whether the list has this way also while the inputs do not take it
+    key: str = (
+        ""  # key whose presence shows that the inputs use this alternative; empty for the last of the list
+    )
+    value: Any = None  # value of this key with which they use it; None for any
+    listed: bool = True  # whether the list has it also while the inputs do not use it
 
     def taken(self, inputs: Inputs) -> bool:
-        """Whether the inputs take this way."""
+        """Whether the inputs use this alternative."""
         if not self.key:
             return True
-        found = inputs.value(self.key)
-        return found is not None if self.value is None else bool(found == self.value)
+        value = inputs.value(self.key)
+        return value is not None if self.value is None else bool(value == self.value)
 
 
 @dataclass(frozen=True)
@@ -188,18 +190,18 @@ class Field:
     low: float = 0.0
     high: float = 1.0
     log: bool = False  # whether the slider is spaced by logarithms
-    kind: Literal["number", "count", "choice", "text", "ways"] = "number"
+    kind: Literal["number", "count", "choice", "text", "alternatives"] = "number"
     choices: tuple[str, ...] = ()  # values of a choice; empty where the library has them
     note: str = ""  # what a user must know beside the field
     help: str = ""  # what the input is, its usual values, and what follows as it grows
     # Label of the entry of a choice that stands for values of one's own, without a name of the library.
-    own: str = ""
-    ways: tuple[Way, ...] = ()
+    custom_label: str = ""
+    alternatives: tuple[Alternative, ...] = ()
     when: When = always  # whether the field belongs to given inputs
     strict: bool = False  # whether the field is hidden when it does not belong, though its key is given
     optional: bool = False  # whether the field may be left empty
     ignored: str = ""  # regular expression of the endings of a searched name that a search may leave out
-    lacks: str = ""  # what is told where a search finds nothing; ``{count}`` is the number of entries
+    no_match_text: str = ""  # text if a search finds nothing; ``{count}`` is the number of entries
     free: bool = False  # whether a search takes a text that no entry has
 
     def at(self, place: float) -> float:
@@ -236,10 +238,10 @@ class Field:
         text = text.strip()
         if text in self.choices and text.isdecimal():
             return int(text)
-        found = split(text) if self.kind in ("number", "count") else None
-        if found is None or found[1]:
+        amount = split(text) if self.kind in ("number", "count") else None
+        if amount is None or amount[1]:
             return text or None
-        number = found[0]
+        number = amount[0]
         if self.unit:
             return f"{text} {self.unit}"
         return int(number) if number.is_integer() and self.kind == "count" else number
@@ -257,19 +259,21 @@ class Field:
     def number(self, value: Any) -> float | None:
         """Number of a value of the inputs in the unit of the field; None where it is not known."""
         if not self.unit:
-            found = split(str(value)) if value is not None else None
-            return None if found is None or found[1] else found[0]
+            amount = split(str(value)) if value is not None else None
+            return None if amount is None or amount[1] else amount[0]
         return in_unit(self.text(value), self.unit)
 
     def shown(self, inputs: Inputs) -> bool:
         """Whether the field is shown with given inputs."""
         if self.when(inputs):
             return True
-        return not self.strict and self.kind != "ways" and inputs.value(self.key) is not None
+        return not self.strict and self.kind != "alternatives" and inputs.value(self.key) is not None
 
-    def way(self, inputs: Inputs) -> int:
-        """Number of the way that the inputs take."""
-        return next((place for place, way in enumerate(self.ways) if way.taken(inputs)), 0)
+    def alternative(self, inputs: Inputs) -> int:
+        """Number of the alternative that the inputs use."""
+        return next(
+            (place for place, alternative in enumerate(self.alternatives) if alternative.taken(inputs)), 0
+        )
 
 
 def field_of(key: str, **more: Any) -> Field:
@@ -283,7 +287,7 @@ def field_of(key: str, **more: Any) -> Field:
     entry = input_at(key)
     if entry is None:
         raise KeyError(key)
-    own = {
+    values = {
         "label": entry.label[0].upper() + entry.label[1:],
         "unit": entry.shown,
         "low": entry.slider[0],
@@ -294,16 +298,25 @@ def field_of(key: str, **more: Any) -> Field:
         **{name: getattr(entry, name) for name in ("log", "kind", "choices", "optional")},
         **attributes("field").get(key, {}),
     }
-    return Field(key, **(own | more))
+    return Field(key, **(values | more))
 
 
-def list_of_ways(entry: Mapping[str, Any], when: When = always) -> Field:
-    """List of the alternative ways to give a quantity, from the book."""
-    ways = []
-    for way in entry["ways"]:
-        changes = {key: None if value == "" else value for key, value in way.get("changes", {}).items()}
-        ways.append(Way(**(way | {"changes": changes})))
-    return Field(entry["key"], entry["label"], kind="ways", ways=tuple(ways), when=when, help=entry["help"])
+def list_of_alternatives(entry: Mapping[str, Any], when: When = always) -> Field:
+    """List of the alternative inputs of a quantity, from the book."""
+    alternatives = []
+    for alternative in entry["alternatives"]:
+        changes = {
+            key: None if value == "" else value for key, value in alternative.get("changes", {}).items()
+        }
+        alternatives.append(Alternative(**(alternative | {"changes": changes})))
+    return Field(
+        entry["key"],
+        entry["label"],
+        kind="alternatives",
+        alternatives=tuple(alternatives),
+        when=when,
+        help=entry["help"],
+    )
 
 
 @dataclass(frozen=True)
@@ -342,7 +355,7 @@ def group_of(
     for key in form(form_name)[title]:
         for entry in attributes("lists").get(key, ()):
             if entry.get("form", form_name) == form_name:
-                fields.append(list_of_ways(entry, lists.get(key, always)))
+                fields.append(list_of_alternatives(entry, lists.get(key, always)))
         fields.append(field_of(key, **shown.get(key, {})))
     about = dict(form_data("groups").get(title, {}))
     if about.pop("assumed", False):
@@ -371,14 +384,14 @@ def shown_text(field: Field, text: str) -> str:
     >>> shown_text(speed, "181.37993642342187 rad/s"), shown_text(speed, "300 rad/s")
     ('1732.0508 rpm', '300 rad/s')
     """
-    found = parts(text) if field.kind == "number" and field.unit else None
-    if found is None or not found[1]:
+    pieces = parts(text) if field.kind == "number" and field.unit else None
+    if pieces is None or not pieces[1]:
         return text
-    written = found[0]
+    written = pieces[0]
     number = in_unit(text, field.unit)
     if number is not None and sum(letter.isdigit() for letter in written.split("e")[0]) > _MOST_DIGITS + 2:
         return certain(f"{rounded(number, _MOST_DIGITS)} {printed(field.unit)}")
-    return f"{written} {printed(found[1])}"
+    return f"{written} {printed(pieces[1])}"
 
 
 def written_text(field: Field, text: str) -> str:
@@ -389,10 +402,10 @@ def written_text(field: Field, text: str) -> str:
     >>> written_text(Field("bearing.temperature", "Temperature", "degC"), "70 °C")
     '70 degC'
     """
-    found = parts(text)
-    if found is None or not field.unit or found[1] != printed(field.unit):
+    pieces = parts(text)
+    if pieces is None or not field.unit or pieces[1] != printed(field.unit):
         return text
-    return f"{found[0]} {field.unit}"
+    return f"{pieces[0]} {field.unit}"
 
 
 def in_field_unit(field: Field, text: str) -> str:
@@ -409,15 +422,15 @@ def in_field_unit(field: Field, text: str) -> str:
     si, unit = si_unit(field.unit), printed(field.unit)
 
     def number(value: str) -> str:
-        found = in_unit(f"{value} {si}", field.unit)
-        return f"{value} {si}" if found is None else f"{rounded(found, 5)} {unit}"
+        converted = in_unit(f"{value} {si}", field.unit)
+        return f"{value} {si}" if converted is None else f"{rounded(converted, 5)} {unit}"
 
-    def takes(found: re.Match[str]) -> str:
+    def takes(match: re.Match[str]) -> str:
         example = f"{rounded(field.at(0.5))} {unit}"
-        bounds = _BOUND.sub(lambda bound: number(bound[1]), found["bounds"])
+        bounds = _BOUND.sub(lambda bound: number(bound[1]), match["bounds"])
         return f"a number, with or without its unit, such as {example}{bounds}"
 
     names = "|".join(sorted({re.escape(name) for name in (si, si.replace("^", "**"))}))
     elsewhere = re.compile(rf"(?<!['\d.e+-])({_NUMBER}) (?:{names})(?![\w*^/²³])")
     text = _TAKES.sub(takes, text)
-    return text if si == field.unit else elsewhere.sub(lambda found: number(found[1]), text)
+    return text if si == field.unit else elsewhere.sub(lambda match: number(match[1]), text)

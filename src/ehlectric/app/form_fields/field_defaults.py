@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from ehlectric.app.catalogue import bearing, coating, oil
-from ehlectric.app.form_fields.field import Field, Group, Way, When
+from ehlectric.app.form_fields.field import Alternative, Field, Group, When
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.defaults import BOUNDARY_FILM, DEFAULT_ERROR
 from ehlectric.quantities.inputs import ENDS, attributes
@@ -40,12 +40,12 @@ def at_end(changes: Mapping[str, Any], end: str) -> dict[str, Any]:
 
 def field_at(field: Field, end: str, *, when: When | None = None, strict: bool | None = None) -> Field:
     """Field of the bearing at an end of a drive, with its own condition unless ``when`` is given."""
-    own = field.when
+    shown_when = field.when
     return replace(
         field,
         key=f"{end}.{field.key}",
-        ways=tuple(_way_at(way, end) for way in field.ways),
-        when=when or (lambda inputs: own(bearing_at(inputs, end))),
+        alternatives=tuple(_alternative_at(alternative, end) for alternative in field.alternatives),
+        when=when or (lambda inputs: shown_when(bearing_at(inputs, end))),
         strict=field.strict if strict is None else strict,
     )
 
@@ -62,8 +62,12 @@ def group_at(group: Group, end: str, title: str, fields: tuple[Field, ...], **mo
     )
 
 
-def _way_at(way: Way, end: str) -> Way:
-    return replace(way, changes=at_end(way.changes, end), key=f"{end}.{way.key}" if way.key else "")
+def _alternative_at(alternative: Alternative, end: str) -> Alternative:
+    return replace(
+        alternative,
+        changes=at_end(alternative.changes, end),
+        key=f"{end}.{alternative.key}" if alternative.key else "",
+    )
 
 
 # Values of a library's oil that do not hold with a data sheet, as the cases resolve it.

@@ -45,8 +45,8 @@ class Memory:
     def __init__(self, groups: Sequence[Group]) -> None:
         self.groups = groups
         self._tables: dict[str, Mapping[str, Any]] = {}
-        self._own: dict[str, dict[str, Any]] = {}
-        self._ways: dict[tuple[str, int], dict[str, Any]] = {}
+        self._custom: dict[str, dict[str, Any]] = {}
+        self._alternatives: dict[tuple[str, int], dict[str, Any]] = {}
         # Keys whose present values the user has set: they do not follow the kind of bearing.
         self.given: frozenset[str] = frozenset()
 
@@ -73,26 +73,32 @@ class Memory:
         copied = inputs.value(group.copies) if group.copies else None
         return deepcopy(dict(copied if isinstance(copied, Mapping) else group.start))
 
-    def own(self, field: Field, inputs: Inputs) -> dict[str, Any]:
+    def custom(self, field: Field, inputs: Inputs) -> dict[str, Any]:
         """Changes to the last user-defined values of a list, or to copies of those of the library."""
-        return deepcopy(self._own[field.key]) if field.key in self._own else own_values(inputs, field.key)
+        return (
+            deepcopy(self._custom[field.key])
+            if field.key in self._custom
+            else custom_values(inputs, field.key)
+        )
 
-    def way(self, field: Field, place: int, inputs: Inputs) -> dict[str, Any]:
+    def alternative(self, field: Field, place: int, inputs: Inputs) -> dict[str, Any]:
         """Changes to an alternative with its last values, or with its first ones."""
-        way = field.ways[place]
-        last = {**way.changes, **deepcopy(self._ways.get((field.key, place), {}))}
-        return last if field.way(changed(inputs, last)) == place else dict(way.changes)
+        alternative = field.alternatives[place]
+        last = {**alternative.changes, **deepcopy(self._alternatives.get((field.key, place), {}))}
+        return last if field.alternative(changed(inputs, last)) == place else dict(alternative.changes)
 
     def _note_field(self, field: Field, inputs: Inputs) -> None:
-        if field.kind == "ways":
-            place = field.way(inputs)
-            given = {key: inputs.value(key) for key in field.ways[place].changes}
-            self._ways[field.key, place] = {key: value for key, value in given.items() if value is not None}
-        elif field.own and is_own(inputs, field.key):
-            self._own[field.key] = _own_of(inputs, field.key)
+        if field.kind == "alternatives":
+            place = field.alternative(inputs)
+            given = {key: inputs.value(key) for key in field.alternatives[place].changes}
+            self._alternatives[field.key, place] = {
+                key: value for key, value in given.items() if value is not None
+            }
+        elif field.custom_label and is_custom(inputs, field.key):
+            self._custom[field.key] = _custom_changes(inputs, field.key)
 
 
-def _own_of(inputs: Inputs, key: str) -> dict[str, Any]:
+def _custom_changes(inputs: Inputs, key: str) -> dict[str, Any]:
     """Changes that set the present user-defined values again."""
     end, key = end_and_key(key)
     inputs, table = bearing_at(inputs, end), key.rpartition(".")[0]
@@ -145,45 +151,47 @@ def changed(inputs: Inputs, changes: Mapping[str, Any], given: frozenset[str] = 
     for key, value in changes.items():
         end, inner = end_and_key(key)
         by_end[end][inner] = value
-    found = _changed(inputs, by_end[""], given)
+    result = _changed(inputs, by_end[""], given)
     for end in ENDS:
         if by_end[end]:
-            own = frozenset(key.removeprefix(f"{end}.") for key in given if key.startswith(f"{end}."))
-            after = _changed(bearing_at(found, end), by_end[end], own)
-            found = found.changed({end: dict(after.table) or None})
-    return with_fitted_remedies(inputs, found)
+            given_at_end = frozenset(
+                key.removeprefix(f"{end}.") for key in given if key.startswith(f"{end}.")
+            )
+            after = _changed(bearing_at(result, end), by_end[end], given_at_end)
+            result = result.changed({end: dict(after.table) or None})
+    return with_fitted_remedies(inputs, result)
 
 
 def _changed(inputs: Inputs, changes: Mapping[str, Any], set_by_user: frozenset[str]) -> Inputs:
     """Inputs of a case, or of the bearing at one end of a drive, with new values."""
     named = changes.get("bearing.base") or changes.get("bearing.designation")
     if isinstance(named, str):
-        own = {"designation": None} | designated(named)
-        changes = {**changes, **{f"bearing.{key}": value for key, value in own.items()}}
+        typed = {"designation": None} | designated(named)
+        changes = {**changes, **{f"bearing.{key}": value for key, value in typed.items()}}
     given = _flat(changes)
     dropped = {key: None for key in _displaced(inputs, given) if key not in given}
-    found = inputs.changed(dropped).changed(changes)
+    result = inputs.changed(dropped).changed(changes)
     if {"bearing.base", "bearing.kind"} & set(given):
-        found = found.changed(dict.fromkeys(_first_values(inputs, found, {*given, *set_by_user})))
-        found = found.changed(fitted_to_kind(found))
+        result = result.changed(dict.fromkeys(_first_values(inputs, result, {*given, *set_by_user})))
+        result = result.changed(fitted_to_kind(result))
     if "bearing.film_factor" in given or _is_any_of(given, "lubricant"):
-        found = found.changed(_needed_by_heat(found))
+        result = result.changed(_needed_by_heat(result))
     if _is_any_of(given, "source"):
-        found = found.changed(fitted_to_source(found))
-    return found
+        result = result.changed(fitted_to_source(result))
+    return result
 
 
-def _first_values(before: Inputs, after: Inputs, own: set[str]) -> Iterable[str]:
+def _first_values(before: Inputs, after: Inputs, set_by_user: set[str]) -> Iterable[str]:
     """Keys of another bearing whose values are first values of the kind before, or follow from its
-    designation; ``own``, keys that the user has set.
+    designation; ``set_by_user``, keys that the user has set.
     """
     clearance, of_class = "bearing.radial_clearance", "bearing.clearance_class"
     designated_now = after.value("bearing.base") is not None
     for key, value in first_of_kind(before).items():
         follows = kind_of(before) != kind_of(after) or (key == clearance and designated_now)
-        if follows and key not in own and after.value(key) == before.value(key) == value:
+        if follows and key not in set_by_user and after.value(key) == before.value(key) == value:
             yield key
-    if designated_now and of_class not in own and before.value(of_class) is not None:
+    if designated_now and of_class not in set_by_user and before.value(of_class) is not None:
         yield of_class
 
 
@@ -197,7 +205,7 @@ def _needed_by_heat(inputs: Inputs) -> dict[str, Any]:
     return {key: value for key, value in needed if inputs.value(key) is None}
 
 
-def own_values(inputs: Inputs, key: str) -> dict[str, Any]:
+def custom_values(inputs: Inputs, key: str) -> dict[str, Any]:
     """Changes by which the values of the library under a key become user-defined values."""
     end, key = end_and_key(key)
     inputs = bearing_at(inputs, end)
@@ -211,17 +219,17 @@ def own_values(inputs: Inputs, key: str) -> dict[str, Any]:
     }.get(key, {})
     values = {f"{key.rpartition('.')[0]}.{name}": value for name, value in known.items()}
     return at_end(
-        {name: one for name, one in values.items() if inputs.value(name) is None} | {key: None}, end
+        {name: value for name, value in values.items() if inputs.value(name) is None} | {key: None}, end
     )
 
 
-def is_own(inputs: Inputs, key: str) -> bool:
+def is_custom(inputs: Inputs, key: str) -> bool:
     """Whether the values under a key are user-defined, and not those of the library."""
     end, key = end_and_key(key)
-    own = bearing_at(inputs, end)
-    if key == "lubricant.base" and own.value("lubricant.temperature") is not None:
+    local = bearing_at(inputs, end)
+    if key == "lubricant.base" and local.value("lubricant.temperature") is not None:
         return True
-    return own.value(key) is None
+    return local.value(key) is None
 
 
 def _displaced(inputs: Inputs, given: Mapping[str, Any]) -> Iterable[str]:
@@ -239,12 +247,12 @@ def _displaced(inputs: Inputs, given: Mapping[str, Any]) -> Iterable[str]:
         known = {"ring", "thickness", "breakdown_voltage", "strength", "resistance"}
         yield from (f"bearing.coating.{name}" for name in known)
     geometry = inputs.value("contact.geometry") or "line"
-    wanted = given.get("contact.geometry", geometry)
-    if wanted != geometry:
+    new_geometry = given.get("contact.geometry", geometry)
+    if new_geometry != geometry:
         yield from (f"contact.{key}" for key in ONLY.get(geometry, ()))
         yield from ("discharge.length", "meter.length")
         yield from (key for key in _within(inputs, "grid") if key.partition(".")[2] not in GRID_OF_ANY)
-    for rows in (*ALTERNATIVES, *OF_GEOMETRY.get(str(wanted), ())):
+    for rows in (*ALTERNATIVES, *OF_GEOMETRY.get(str(new_geometry), ())):
         yield from _of_other_rows(rows, new)
 
 

@@ -77,8 +77,12 @@ def _assumed_with_pressure(given: Mapping[str, Any], known: Mapping[str, Any], b
         return f"{' and '.join(lacks)} as estimated for {sheet['base_oil']}"
     if exponent is None:
         return ""
-    own = f"Roelands' z {exponent} of {base!r}"
-    return own if len(lacks) == 1 else f"{own}, which with the viscosity gives the {lacks[0]}"
+    exponent_text = f"Roelands' z {exponent} of {base!r}"
+    return (
+        exponent_text
+        if len(lacks) == 1
+        else f"{exponent_text}, which with the viscosity gives the {lacks[0]}"
+    )
 
 
 _WORDS = {"pressure_viscosity_coefficient": "pressure-viscosity coefficient", "roelands_z": "Roelands' z"}

@@ -15,7 +15,7 @@ from ehlectric.app.form_fields.contact_fields import geometry_of, groups_of
 from ehlectric.app.form_fields.drive_fields import DRIVE_GROUPS
 from ehlectric.app.form_fields.field import Field, Group, in_field_unit, shown_text, written_text
 from ehlectric.app.form_fields.field_defaults import default_of, end_and_key
-from ehlectric.app.form_fields.field_rules import Memory, changed, is_own
+from ehlectric.app.form_fields.field_rules import Memory, changed, is_custom
 from ehlectric.app.latest_answer import OnlyLast
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.frame import session_here
@@ -161,7 +161,7 @@ class Form:
             field.key, kind=kind, label=field.label, note=field.note, slides=number, options=options
         )
         unit = printed(field.unit) if field.unit else ""
-        about = {"ignored": field.ignored, "lacks": field.lacks, "free": field.free}
+        about = {"ignored": field.ignored, "no-match": field.no_match_text, "free": field.free}
         control.show(**about, help=field.help, unit=unit)
         control.on("commit", committed)
         if number:
@@ -170,11 +170,11 @@ class Form:
 
     def _options(self, field: Field) -> list[dict[str, str]]:
         """Entries of a list; empty for a field that has none."""
-        if field.kind == "ways":
+        if field.kind == "alternatives":
             return [
-                {"value": str(place), "label": way.label, "group": ""}
-                for place, way in enumerate(field.ways)
-                if way.listed or place == field.way(self._inputs)
+                {"value": str(place), "label": alternative.label, "group": ""}
+                for place, alternative in enumerate(field.alternatives)
+                if alternative.listed or place == field.alternative(self._inputs)
             ]
         if field.kind != "choice":
             return []
@@ -182,18 +182,18 @@ class Form:
         if not entries:
             library = choices().get(end_and_key(field.key)[1], ())
             entries = [{"value": entry.name, "label": entry.label, "group": entry.group} for entry in library]
-        if field.own:
-            entries.insert(0, {"value": _CUSTOM, "label": field.own, "group": ""})
+        if field.custom_label:
+            entries.insert(0, {"value": _CUSTOM, "label": field.custom_label, "group": ""})
         elif field.optional:
             entries.insert(0, {"value": "", "label": "not given", "group": ""})
         return entries
 
     async def _commit(self, field: Field, text: str) -> None:
         self._slide.drop()
-        if field.kind == "ways":
-            await self.take(self._memory.way(field, int(text), self._inputs))
+        if field.kind == "alternatives":
+            await self.take(self._memory.alternative(field, int(text), self._inputs))
         elif text == _CUSTOM:
-            await self.take(self._memory.own(field, self._inputs))
+            await self.take(self._memory.custom(field, self._inputs))
         else:
             await self.take({field.key: field.from_text(written_text(field, text))})
 
@@ -270,9 +270,9 @@ class Form:
     def _show_field(self, field: Field, control: Control) -> None:
         value = self._inputs.value(field.key)
         default = default_of(self._inputs, field.key)
-        if field.kind == "ways":
-            control.show(text=str(field.way(self._inputs)), options=self._options(field))
-        elif field.own and is_own(self._inputs, field.key):
+        if field.kind == "alternatives":
+            control.show(text=str(field.alternative(self._inputs)), options=self._options(field))
+        elif field.custom_label and is_custom(self._inputs, field.key):
             control.show(text=_CUSTOM)
         elif field.kind == "choice":
             control.show(text=str(value if value is not None else default or ""))

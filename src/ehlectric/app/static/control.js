@@ -1,5 +1,5 @@
 // Field of a form: label, slider, text box, list or search, help and error. Its text is local while it is typed.
-const OWN = "~own"; // entry that stands for values of one's own
+const CUSTOM = "~own"; // entry that stands for values of one's own
 const STEPS = 200;
 const SHORT = 20; // characters
 const THROTTLE = 100; // ms between two values of a dragged slider
@@ -64,7 +64,7 @@ export default {
     full: String,
     // Endings that a search may leave out, and what is told where it finds nothing.
     ignored: String,
-    lacks: String,
+    noMatch: String,
     // Whether a search takes a text that no entry has, as the designation of a bearing.
     free: { type: Boolean, default: false },
     turn: { type: Number, default: 0 },
@@ -139,13 +139,13 @@ export default {
     },
     found() {
       // Where nothing is found, the entry for own values stays.
-      const found = this.matches.length ? this.matches : this.options.filter((o) => o.value === OWN);
+      const found = this.matches.length ? this.matches : this.options.filter((o) => o.value === CUSTOM);
       return found.map((o, place) => ({ ...o, place }));
     },
     missing() {
       if (this.matches.length) return "";
-      const count = this.options.filter((o) => o.value && o.value !== OWN).length;
-      return (this.lacks || "nothing found").replace("{count}", count);
+      const count = this.options.filter((o) => o.value && o.value !== CUSTOM).length;
+      return (this.noMatch || "nothing found").replace("{count}", count);
     },
     groups() {
       const groups = [];
@@ -195,7 +195,7 @@ export default {
       this.last = null;
     },
     pick(option) {
-      this.choose(option.value === OWN ? OWN : option.value + this.ending);
+      this.choose(option.value === CUSTOM ? CUSTOM : option.value + this.ending);
     },
     choose(value) {
       this.opened = false;
