@@ -49,7 +49,7 @@ def starvation_warnings(setup: Case | Setup, film: Film | PointFilm) -> Iterator
             )
     target, ratio = inlet.film_ratio, supply.film_ratio
     if target is not None and ratio is not None and abs(ratio / target - 1.0) > _MISSED:
-        yield ResultWarning.of("film-ratio-missed", ratio=ratio, wanted=target)
+        yield ResultWarning.of("film-ratio-missed", ratio=ratio, target=target)
     nearly = ratio is not None and ratio > _FLOODED
     if target is None and (film.film_fraction is None or nearly):
         flooded = "the film is flooded"

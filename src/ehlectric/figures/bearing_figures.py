@@ -33,8 +33,8 @@ from ehlectric.figures.draw import line_look
 from ehlectric.figures.speed_panels import SHAFT, breakdown_lines
 from ehlectric.figures.style import (
     axes_or_new,
-    beside_point,
     figure_of,
+    label_point,
     legend_above,
     new_figure,
     note,
@@ -500,7 +500,7 @@ def impedance_magnitude(result: BearingResult, ax: Axes | None = None) -> Axes:
         value = magnitude_at(_impedance(result), at)
         ax.plot([at], [value], ls="none", marker="o", ms=4.5, color=BLUE)
         text = f"{prefixed(value, 'Ω')} at {prefixed(at, 'Hz')}"
-        beside_point(ax, (at, value), text, (5.0, 3.0), va="bottom", fontsize="small")
+        label_point(ax, (at, value), text, (5.0, 3.0), va="bottom", fontsize="small")
     _over_frequency(result, ax)
     return ax
 

@@ -27,9 +27,9 @@ from ehlectric.figures.draw import draw_panel
 from ehlectric.figures.style import (
     LENGTH_AXIS,
     axes_or_new,
-    beside_point,
     figure_of,
     fitted_label,
+    label_point,
     label_position,
     legend_above,
     length_axis,
@@ -322,7 +322,7 @@ def say(result: OfPointContact, ax: Axes, at: Array, text: str) -> None:
         places = np.mean(places, axis=0, keepdims=True)
     for x, y in places:
         edge = _outlined(MAP_EDGE, 2.0)
-        beside_point(ax, (x, y), text, offset, color=MAP_EDGE, fontsize="small", path_effects=edge, **align)
+        label_point(ax, (x, y), text, offset, color=MAP_EDGE, fontsize="small", path_effects=edge, **align)
 
 
 def extreme_positions(x: Array, y: Array, values: Array) -> Array:

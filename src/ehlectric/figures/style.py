@@ -95,7 +95,7 @@ _LOOKS: Mapping[str, _Look] = {
 assert tuple(_LOOKS) == STYLES
 
 # Width on the screen above which a figure takes two columns of a journal [inches].
-_ONE_COLUMN = 6.5
+_COLUMN_LIMIT = 6.5
 
 # Sizes of the first line of a title and of the others [pt], and part of the page's width that they may take.
 _FINDING, _BELOW, _FULL = 10.0, 8.5, 0.97
@@ -153,7 +153,7 @@ def page_width(width: float, panels: int = 1) -> float:
     Panels beside each other take two columns of a journal.
     """
     columns = _LOOKS[_style.get()].columns
-    return width if columns is None else columns[width > _ONE_COLUMN or panels > 1]
+    return width if columns is None else columns[width > _COLUMN_LIMIT or panels > 1]
 
 
 def page_size(size: tuple[float, float], panels: int = 1) -> tuple[float, float]:
@@ -246,14 +246,14 @@ class _Inside(Annotation):
         super().draw(renderer)
 
 
-def beside_point(
+def label_point(
     ax: Axes, at: tuple[float, float], text: str, offset: tuple[float, float], **look: Any
 ) -> None:
     """Write a text beside a point of axes [data units], an offset away from it [pt]; opposite to the offset
     where it would leave the axes otherwise.
     """
-    own: dict[str, Any] = {"ha": "left", "va": "center", "in_layout": False}
-    ax.add_artist(_Inside(text, at, offset, textcoords="offset points", **(own | look)))
+    defaults: dict[str, Any] = {"ha": "left", "va": "center", "in_layout": False}
+    ax.add_artist(_Inside(text, at, offset, textcoords="offset points", **(defaults | look)))
 
 
 def axes_or_new(ax: Axes | None) -> Axes:
@@ -336,8 +336,8 @@ def _even(line: str, size: float, room: float) -> list[str]:
 
 def _width(text: str, size: float, *, math: bool = False) -> float:
     """Width of a line of text of a size [pt]."""
-    family, own = mpl.rcParams["font.family"], mpl.rcParams["font.sans-serif"]
-    return _width_in((*family, *own), text, size, math=math and "$" in text)
+    family, sans_serif = mpl.rcParams["font.family"], mpl.rcParams["font.sans-serif"]
+    return _width_in((*family, *sans_serif), text, size, math=math and "$" in text)
 
 
 @lru_cache(maxsize=4096)
@@ -455,8 +455,8 @@ def legend_above(
 
     def above(renderer: Any = None) -> Bbox:
         """Box of the legend for the layout, which makes room for it above the axes, not beside them."""
-        box, beside = cast("Bbox", whole(renderer)), ax.get_window_extent()
-        return Bbox.from_extents(min(box.x0, beside.x1), box.y0, min(box.x1, beside.x1), box.y1)
+        box, axes_box = cast("Bbox", whole(renderer)), ax.get_window_extent()
+        return Bbox.from_extents(min(box.x0, axes_box.x1), box.y0, min(box.x1, axes_box.x1), box.y1)
 
     legend.get_tightbbox = above  # type: ignore[method-assign]
 
@@ -634,9 +634,9 @@ def norm_of(levels: Array, *, log: bool) -> Normalize:
 def colour_bar(ax: Axes, norm: Normalize, text: str, levels: Array, colours: Colormap = COLOURS) -> None:
     """Add a colour bar with ticks at round levels, at every second or third one where there are many."""
     # Beside the axes themselves, a wide legend above them does not push the bar away.
-    beside = ax.inset_axes(BAR)
+    bar_axes = ax.inset_axes(BAR)
     bar = figure_of(ax).colorbar(
-        ScalarMappable(norm, colours), cax=beside, label=fitted_label(ax, text, along=False)
+        ScalarMappable(norm, colours), cax=bar_axes, label=fitted_label(ax, text, along=False)
     )
     ticks = levels if levels.size <= 9 else levels[:: 2 if levels.size <= 18 else 3]
     bar.set_ticks(list(ticks), labels=[readable(level, 6) for level in ticks])
@@ -662,7 +662,7 @@ LENGTH_AXIS, _LENGTH_NAME = 18.0, (-4.0, 6.0)
 _NAME_REACH = 0.035
 
 
-class _BesideName(ScalarFormatter):
+class _ClearOfName(ScalarFormatter):
     """Numbers of an axis of lengths, without those that would run into its name at the left end."""
 
     def __call__(self, x: float, pos: int | None = None) -> str:
@@ -678,8 +678,8 @@ def length_axis(result: OfContact, ax: Axes, axis: str = "x") -> None:
     top = ax.secondary_xaxis(
         "top", functions=(lambda x: np.asarray(x) * factor * b, lambda x: np.asarray(x) / (factor * b))
     )
-    top.xaxis.set_major_formatter(_BesideName())
+    top.xaxis.set_major_formatter(_ClearOfName())
     top.set_xlabel(f"${axis}$ [{unit}]", ha="right", va="bottom")
     left, up = _LENGTH_NAME
-    beside = offset_copy(ax.transAxes, figure_of(ax), x=left, y=up, units="points")
-    top.xaxis.set_label_coords(0.0, 1.0, transform=beside)
+    shifted = offset_copy(ax.transAxes, figure_of(ax), x=left, y=up, units="points")
+    top.xaxis.set_label_coords(0.0, 1.0, transform=shifted)

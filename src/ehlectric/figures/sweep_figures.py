@@ -112,12 +112,12 @@ def _where(results: SweepResults, selection: Slice) -> str:
         return ""
     path = LinePath(results, margins, log_x, log_y)
     crossings = [crossing(*path.values(line)) for line in lines]
-    found = [one for one in crossings if one is not None]
-    sides = {side for _, side in found}
-    if len(found) < len(lines) or len(sides) > 1:
+    points = [point for point in crossings if point is not None]
+    sides = {side for _, side in points}
+    if len(points) < len(lines) or len(sides) > 1:
         return ""
     label, scale = labelled(results, selection.x, selection.along)
-    places = sorted(scale.of(at) for at, _ in found)
+    places = sorted(scale.of(at) for at, _ in points)
     texts = list(dict.fromkeys(readable(places[k]) for k in (0, -1)))
     clause = f"{sides.pop()} {' to '.join(texts)} {scale.unit or label.name}"
     if len(texts) == 1 or selection.y is None:
@@ -327,8 +327,8 @@ def save_maps(
     """Draw a value of a sweep as a map and as lines, as files. Raises InputError as ``take`` raises it."""
     numeric = take(results, x, y, value, at).numeric
     names = dict(zip(map_files(value, at), map_files(value), strict=True))
-    wanted = [file for file in names if (y is not None and numeric) or file.startswith("lines_")]
-    return save_each(lambda file: figure(results, names[file], x=x, y=y, at=at), wanted, folder, formats)
+    drawable = [file for file in names if (y is not None and numeric) or file.startswith("lines_")]
+    return save_each(lambda file: figure(results, names[file], x=x, y=y, at=at), drawable, folder, formats)
 
 
 def save_speeds(

@@ -357,7 +357,7 @@ _SPARSE, _THIN, _LARGE = 6, 0.7, 1.3
 
 # Room at the ends of both axes, as parts of their lengths. The vertical axis of positive values begins at
 # zero if the smallest is below a part of the largest.
-_BESIDE, _ABOVE, _FROM_ZERO = 0.03, 0.06, 0.5
+_SIDES, _ABOVE, _FROM_ZERO = 0.03, 0.06, 0.5
 
 
 def lines_panel(
@@ -376,7 +376,7 @@ def lines_panel(
     along, heights = scale_x.of(selection.along), scale.of(selection.values)
     log = _is_log(selection)
     window, (bottom, top) = (
-        _ends(along, _BESIDE, log=x.log),
+        _ends(along, _SIDES, log=x.log),
         _ends(scale.of(needed), _ABOVE, log=log, zero=True),
     )
     curves = []

@@ -137,8 +137,10 @@ def _fill_regimes(mesh: Triangulation, quantiles: Array, taken: Array, ax: Axes)
     )
     inside = [k for k, level in enumerate(levels) if np.min(shown) < level < np.max(shown)]
     if inside:
-        own = [levels[k] for k in inside]
-        lines = ax.tricontour(mesh, quantiles, levels=own, colors="black", linewidths=1.2, linestyles="-")
+        inside_levels = [levels[k] for k in inside]
+        lines = ax.tricontour(
+            mesh, quantiles, levels=inside_levels, colors="black", linewidths=1.2, linestyles="-"
+        )
         lines.set_path_effects(outlined(2.2))
         label_lines(ax, lines, taken, [f"{100.0 * SHARE_LEVELS[k]:g} %" for k in inside], **ON_BOX)
 

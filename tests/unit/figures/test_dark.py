@@ -9,7 +9,7 @@ from matplotlib.patches import Rectangle
 
 from ehlectric import figure, load
 from ehlectric.figures import style as styles
-from ehlectric.figures.style import beside_point, figure_of, line_colours, new_panels, outlined, style
+from ehlectric.figures.style import figure_of, label_point, line_colours, new_panels, outlined, style
 from ehlectric.quantities import palette
 from ehlectric.quantities.palette import BLACK, BLUE, BODY, DARK, ORANGE, WHITE, legible
 from tests.helpers.contrasts import contrast
@@ -78,7 +78,7 @@ def drawn_dark():
         ax.plot([0.0, 1.0], [0.0, 1.0], color=BLUE, marker="o", mfc=WHITE)
         ax.fill_between([0.0, 1.0], 0.0, 1.0, color=ORANGE, alpha=0.2, lw=0.0)
         ax.fill_between([0.0, 1.0], 1.0, 2.0, facecolor=(ORANGE, 0.2), lw=0.0)
-        beside_point(ax, (0.5, 0.5), "text", (5.0, 5.0), path_effects=EDGE, color="black")
+        label_point(ax, (0.5, 0.5), "text", (5.0, 5.0), path_effects=EDGE, color="black")
         box = {"facecolor": "white", "edgecolor": "none", "alpha": 0.9}
         ax.text(0.2, 0.2, "in a box", color="black", bbox=box)
         values = np.add.outer(np.arange(4.0), np.arange(4.0))
