@@ -39,7 +39,7 @@ from ehlectric.lubricant.electrical_laws import CONDUCTIVITY, PERMITTIVITY_LAWS
 from ehlectric.lubricant.heat_laws import constant_thermal_conductivity
 from ehlectric.lubricant.law import Law, is_many, over_points, required, same
 from ehlectric.lubricant.oil import BoundLaw, OfDensity, Oil, RangeCheck
-from ehlectric.lubricant.over_temperature import density, interpolated
+from ehlectric.lubricant.properties_over_temperature import density, interpolated
 from ehlectric.lubricant.viscosity import VISCOSITY_LAWS, initial_alpha, reciprocal_asymptotic_alpha
 from ehlectric.quantities.formats import CELSIUS
 from ehlectric.quantities.result_warnings import ResultWarning

@@ -39,8 +39,9 @@ from ehlectric.lubricant.electrical_laws import (
 )
 from ehlectric.lubricant.heat_laws import HEAT_CAPACITY_LAWS, THERMAL_CONDUCTIVITY_LAWS
 from ehlectric.lubricant.law import Law, Parameter, is_many, same
-from ehlectric.lubricant.over_temperature import ATMOSPHERIC_LAWS, COLD, HOT, Walther, density
+from ehlectric.lubricant.properties_over_temperature import density
 from ehlectric.lubricant.viscosity import VISCOSITY_LAWS, roelands_exponent
+from ehlectric.lubricant.viscosity_over_temperature import ATMOSPHERIC_LAWS, COLD, HOT, Walther
 
 # Keys that choose a law by name, each with the table of its laws, in the order of the case file.
 LAWS: dict[str, Mapping[str, Law]] = {

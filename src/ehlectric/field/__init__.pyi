@@ -1,10 +1,10 @@
 """Names of field that other packages may import."""
 
 from .line_field import Field as Field
-from .line_field import columns_within as columns_within
 from .line_field import field_from_potential as field_from_potential
 from .line_field import solve_field as solve_field
-from .line_field import thinned as thinned
+from .mesh import columns_within as columns_within
+from .mesh import thinned as thinned
 from .point_field import PointField as PointField
 from .point_field import solve_point_field as solve_point_field
 from .poisson import ATOM as ATOM

@@ -8,7 +8,7 @@ import pytest
 from ehlectric import InputError
 from ehlectric.cases.case_oil import Lubricant
 from ehlectric.lubricant.data_sheet import viscosity_index
-from ehlectric.lubricant.over_temperature import Walther
+from ehlectric.lubricant.viscosity_over_temperature import Walther
 from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.each import each
 

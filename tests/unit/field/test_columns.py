@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ehlectric import Case, solve
-from ehlectric.field.line_field import ENOUGH, thinned
+from ehlectric.field.mesh import ENOUGH, thinned
 
 
 @given(st.integers(3, 4001), st.floats(-1.0, 1.0))

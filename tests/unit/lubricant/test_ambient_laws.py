@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 from ehlectric.errors import InputError
 from ehlectric.lubricant.electrical_laws import arrhenius, constant_conductivity
-from ehlectric.lubricant.over_temperature import (
+from ehlectric.lubricant.properties_over_temperature import interpolated
+from ehlectric.lubricant.viscosity_over_temperature import (
     ATMOSPHERIC_LAWS,
-    interpolated,
     roelands_over_temperature,
     vogel,
 )

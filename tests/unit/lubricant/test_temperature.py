@@ -8,8 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ehlectric import InputError
-from ehlectric.lubricant.over_temperature import COLD, HOT, Walther, density
+from ehlectric.lubricant.properties_over_temperature import density
 from ehlectric.lubricant.viscosity import roelands, roelands_alpha
+from ehlectric.lubricant.viscosity_over_temperature import COLD, HOT, Walther
 from tests.helpers.each import each
 
 VG46 = Walther.of(46e-6, 6.8e-6)
