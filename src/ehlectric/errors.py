@@ -150,7 +150,7 @@ class InputError(ValueError):
         error.got, error.takes = got, takes
         return error
 
-    def retold(self, key: str | None, text: str) -> Self:
+    def with_text(self, key: str | None, text: str) -> Self:
         """Copy of the error with another key and text, but the same ``got`` and ``takes``."""
         return self.worded(key, text, got=self.got, takes=self.takes)
 
@@ -171,7 +171,7 @@ class InputError(ValueError):
         text = first.text + "".join(f"; also {line}" for line in further)
         if missing:
             text += f"; also missing: {', '.join(dict.fromkeys(missing))}"
-        joined = first.retold(first.key, text)
+        joined = first.with_text(first.key, text)
         joined.several = tuple(several) if others else ()
         return joined
 
@@ -186,7 +186,7 @@ class InputError(ValueError):
         if self.several:
             joined: Any = self.together([error.under(table) for error in self.several])
             return joined  # type: ignore[no-any-return]
-        return self.retold(".".join(filter(None, [table, self.key])) or None, self.text)
+        return self.with_text(".".join(filter(None, [table, self.key])) or None, self.text)
 
 
 @contextmanager

@@ -301,7 +301,7 @@ def test_a_warning_is_a_code_and_a_condition(monkeypatch):
     monkeypatch.setattr(
         result_warnings,
         "CODES",
-        {**result_warnings.CODES, "fast": result_warnings.Cause("The contact is fast.")},
+        {**result_warnings.CODES, "fast": result_warnings.WarningCode("The contact is fast.")},
     )
     monkeypatch.setattr(result_warnings, "_texts", lambda: texts)
     before = solver.case_warnings

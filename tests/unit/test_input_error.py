@@ -121,7 +121,7 @@ def test_every_error_is_one_line_that_starts_with_its_key(
     for one in (
         error,
         error.under(table),
-        error.retold(key, str(error)),
+        error.with_text(key, str(error)),
         InputError.worded(key, takes, got=got),
         pickle.loads(pickle.dumps(error)),
     ):

@@ -523,7 +523,7 @@ def error_of_contact(contact: Contact, error: InputError) -> InputError:
         return error
     text = error.text if error.key == "contact" else str(error)
     where = f"{contact.ring.name} contact at {readable(float(contact.load), 4)} N"
-    return error.retold("bearing", f"{where}: {text}")
+    return error.with_text("bearing", f"{where}: {text}")
 
 
 def roller_raceway_of(ring: RingContacts[RollerBearing]) -> RollerRaceway:

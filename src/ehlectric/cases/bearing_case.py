@@ -192,7 +192,7 @@ def _at_index(key: str, index: int) -> Iterator[None]:
         yield
     except InputError as error:
         where = f"{error.text} (at index {index} of the arrays)"
-        raise error.retold(key if error.key is None else error.key, where) from None
+        raise error.with_text(key if error.key is None else error.key, where) from None
 
 
 def _far_points(arrays: Mapping[str, Array]) -> list[int]:
@@ -280,7 +280,7 @@ class BearingCase(CaseFile, book="bearing_file"):
     duty: Duty | None = None
 
     @classmethod
-    def sign_of(cls, key: str, given: Mapping[str, Any]) -> str:
+    def missing_table_hint(cls, key: str, given: Mapping[str, Any]) -> str:
         """Text that tells by which key a file without the table of its bearing is that of a bearing."""
         sign = bearing_key(given) if key == "bearing" else None
         return "" if sign is None else f", [bearing], as the file looks like that of a bearing: it has {sign}"

@@ -218,7 +218,7 @@ def _read(base: Any, key: str = "base") -> Designation | None:
     try:
         return read_designation(base, known_bearings())
     except InputError as error:
-        raise error.retold(key, error.text) from None
+        raise error.with_text(key, error.text) from None
 
 
 def _kept(text: str, name: str) -> dict[str, str]:
@@ -249,7 +249,7 @@ def typed_base(table: Mapping[str, Any]) -> Any:
     read = _read(typed, "designation")
     if read is None and not (isinstance(typed, str) and typed in known_bearings()):
         error = no_such_bearing(typed)
-        raise error.retold("designation", error.text)
+        raise error.with_text("designation", error.text)
     name = typed if read is None else read.name
     plain = as_typed(base) if isinstance(base, str) else base
     if (

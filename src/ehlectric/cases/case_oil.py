@@ -55,7 +55,7 @@ def of_table(temperature: str) -> Iterator[None]:
         yield
     except InputError as error:
         if error.key == "temperature":
-            raise error.retold(temperature, error.text) from None
+            raise error.with_text(temperature, error.text) from None
         raise error.under("lubricant") from None
 
 

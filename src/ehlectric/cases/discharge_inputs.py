@@ -170,5 +170,5 @@ class BearingDischarge(Discharge):
             try:
                 discharge._check_temperature()
             except InputError as error:
-                raise error.retold(key, error.text) from None
+                raise error.with_text(key, error.text) from None
         return discharge

@@ -241,7 +241,7 @@ def _bearing_of(table: Mapping[str, Any], folder: Path, end: str) -> BearingCase
     try:
         case = BearingCase.from_toml(folder / name)
     except InputError as error:
-        raise error.retold(f"{end}.file, {error.key}", error.text) from None
+        raise error.with_text(f"{end}.file, {error.key}", error.text) from None
     with within(end):
         changes = flattened({key: value for key, value in table.items() if key != "file"})
         return case.replace(changes) if changes else case

@@ -132,4 +132,4 @@ def _parsed(key: str, quantity: Amount, entry: object) -> float:
     try:
         return quantity.parse(entry, written=isinstance(entry, str))
     except InputError as error:
-        raise error.retold(key, error.text) from None
+        raise error.with_text(key, error.text) from None

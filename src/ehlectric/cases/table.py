@@ -55,7 +55,7 @@ _HIDDEN = frozenset(name for name in dir(BaseModel) if not name.startswith("__")
     "user_laws",
     "plain_tables",
     "shape",
-    "sign_of",
+    "missing_table_hint",
     "single",
     "toml_text",
     "unused_keys",
@@ -273,7 +273,7 @@ class Table(BaseModel, metaclass=_Listed):
         return {cls.NAMED_BY: table} if cls.NAMED_BY and isinstance(table, str) else table
 
     @classmethod
-    def sign_of(cls, key: str, given: Mapping[str, Any]) -> str:  # noqa: ARG003
+    def missing_table_hint(cls, key: str, given: Mapping[str, Any]) -> str:  # noqa: ARG003
         """Text that tells why a missing key is expected beside the given keys; empty by default."""
         return ""
 
@@ -489,7 +489,7 @@ def _error(detail: ErrorDetails, model: type[Table], given: Mapping[str, Any]) -
 def _missing(key: str, model: type[Table], given: Any) -> InputError:
     """Error of a required key, with the values that it takes."""
     field = fields_within(model).get(key)
-    sign = model.sign_of(key, given) if isinstance(given, Mapping) else ""
+    sign = model.missing_table_hint(key, given) if isinstance(given, Mapping) else ""
     return InputError.missing(key, _takes(key, field, model) + sign)
 
 

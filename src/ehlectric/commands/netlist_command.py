@@ -126,7 +126,7 @@ def _named_as_options() -> Iterator[None]:
     try:
         yield
     except InputError as error:
-        raise error.retold(_OPTIONS.get(error.key or "", error.key), error.text) from None
+        raise error.with_text(_OPTIONS.get(error.key or "", error.key), error.text) from None
 
 
 def _rows(subcircuit: Subcircuit) -> Iterator[Row]:

@@ -128,7 +128,7 @@ def _formula_films(case: Case, rows: Sequence[Mapping[str, Any]], measured: Meas
         try:
             thickness = formula(kind.resolve(case.replace(rows[number])).contact).central_thickness
         except InputError as error:
-            raise error.retold(f"{measured.source}, line {measured.lines[number]}", str(error)) from None
+            raise error.with_text(f"{measured.source}, line {measured.lines[number]}", str(error)) from None
         assert thickness is not None
         return float(thickness)
 

@@ -181,7 +181,7 @@ def _subcircuit(case: DriveCase, end: str, result: BearingResult) -> Subcircuit:
         return subcircuit_of([result], Arc(breakdown.arc_resistance, breakdown.lowest_voltage))
     except InputError as error:
         if error.key == "extinction_voltage":
-            raise error.retold(f"breakdown.{breakdown.extinction_key}", f"{error.text} of {end}") from None
+            raise error.with_text(f"breakdown.{breakdown.extinction_key}", f"{error.text} of {end}") from None
         raise error.under(end) from None
 
 

@@ -148,6 +148,6 @@ def _resampled(
     try:
         coarse = resample(waveform, step)
     except InputError as error:
-        raise error.retold("source.resample", error.text) from None
+        raise error.with_text("source.resample", error.text) from None
     others = (warning for warning in warnings if warning.code != "edges-unresolved")
     return coarse, (*others, *edge_warnings(file, coarse))

@@ -351,7 +351,7 @@ def _writer(path: Path) -> Callable[[Path, Iterator[Frames], float], None]:
 
 @dataclass(frozen=True)
 class _Plain:
-    """File without a number: Pillow writes to a number itself, and does not say why it cannot write."""
+    """File without a descriptor: Pillow would write to a descriptor itself, and hide why it cannot write."""
 
     write: Callable[[bytes], int]
 

@@ -22,7 +22,7 @@ SEVERITY_WORDS: Mapping[str, str] = MappingProxyType(
 
 
 @dataclass(frozen=True)
-class Cause:
+class WarningCode:
     """Meaning of a warning code in one sentence, severity, and keys of the quantities that it concerns.
 
     Outputs show a warning beside those quantities; one without any concerns the whole result. The keys of
@@ -42,7 +42,7 @@ def _texts() -> dict[str, Any]:
     return data_file("ehlectric.quantities", "warning_texts.toml")
 
 
-def _codes() -> Iterator[tuple[str, Cause]]:
+def _codes() -> Iterator[tuple[str, WarningCode]]:
     """Causes by code, from ``warning_codes.toml``; groups of quantities may contain others."""
     read = data_file("ehlectric.quantities", "warning_codes.toml")
 
@@ -52,10 +52,10 @@ def _codes() -> Iterator[tuple[str, Cause]]:
 
     for code, cause in read["codes"].items():
         concerns = dict.fromkeys(keys(cause.get("concerns", [])))
-        yield code, Cause(**(cause | {"concerns": tuple(concerns)}))
+        yield code, WarningCode(**(cause | {"concerns": tuple(concerns)}))
 
 
-CODES: Mapping[str, Cause] = MappingProxyType(dict(_codes()))
+CODES: Mapping[str, WarningCode] = MappingProxyType(dict(_codes()))
 
 
 @dataclass(frozen=True)

@@ -100,20 +100,20 @@ class Section:
 Sheet: TypeAlias = tuple[Section, ...]
 
 
-class Noted(NamedTuple):
-    """Value of a quantity, as ``Words`` gives it, with the note that follows it."""
+class ValueWithNote(NamedTuple):
+    """Value of a quantity, as ``RowTexts`` gives it, with the note that follows it."""
 
     value: Any
     note: str
 
 
 @dataclass(frozen=True)
-class Words:
+class RowTexts:
     """Texts next to the numbers of a kind of result, by dotted key: functions of the summary."""
 
     notes: Mapping[str, Callable[[Summary], str]] = field(default_factory=dict)
     # Value in place of the stored one, or of a quantity that is not stored: a number in SI units, a text, a
-    # text with its unit, or None where there is nothing to show; ``Noted`` for one with a note of its own.
+    # text with its unit, or None where there is nothing to show; ``ValueWithNote`` for a value and a note.
     values: Mapping[str, Callable[[Summary], Any]] = field(default_factory=dict)
     # Whether a quantity says that the numbers must not be used.
     alarms: Mapping[str, Callable[[Summary], bool]] = field(default_factory=dict)
@@ -124,9 +124,9 @@ class Words:
     # Keys that are shown only where a condition holds, by the name of the condition.
     only: Mapping[str, Iterable[str]] = field(default_factory=dict)
 
-    def __or__(self, other: Words) -> Words:
-        """Words of both, those of the other where both have some; the conditions are those of the first."""
-        return Words(
+    def __or__(self, other: RowTexts) -> RowTexts:
+        """Texts of both, those of the other where both have some; the conditions are those of the first."""
+        return RowTexts(
             {**self.notes, **other.notes},
             {**self.values, **other.values},
             {**self.alarms, **other.alarms},
@@ -140,7 +140,7 @@ def sheet_rows(
     sheet: Iterable[Section],
     book: Keys,
     summary: Summary,
-    words: Words = Words(),
+    words: RowTexts = RowTexts(),
     bounds: Mapping[str, Bound] = MappingProxyType({}),
 ) -> Iterator[Row]:
     """Rows of a sheet, without quantities that a summary lacks and without sections that have none.
@@ -164,14 +164,16 @@ def sheet_rows(
             yield from rows
 
 
-def _row(key: str, book: Keys, summary: Summary, words: Words, bounds: Mapping[str, Bound]) -> Iterator[Row]:
+def _row(
+    key: str, book: Keys, summary: Summary, words: RowTexts, bounds: Mapping[str, Bound]
+) -> Iterator[Row]:
     """Rows of a key; none where the summary has no value."""
     if key in words.rows:
         yield from words.rows[key](summary)
         return
     about = key_of(book, key)
     value = words.values[key](summary) if key in words.values else value_at(summary, key)
-    value, note = value if isinstance(value, Noted) else (value, "")
+    value, note = value if isinstance(value, ValueWithNote) else (value, "")
     table, _, name = key.rpartition(".")
     if value is None and about is not None and about.null and name in (value_at(summary, table) or ()):
         value = about.null

@@ -22,7 +22,7 @@ from ehlectric.cases.drive_case import DriveCase
 from ehlectric.errors import InputError
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.results import CONTACT_BOOK
-from ehlectric.quantities.rows import Row, Words, row_of
+from ehlectric.quantities.rows import Row, RowTexts, row_of
 from ehlectric.readable import readable
 from ehlectric.runtime.values import headline
 from ehlectric.sweep import Sweep
@@ -155,9 +155,9 @@ def _preview_bearing(case: BearingCase) -> Preview:
         ", heat by the formula of film_factor 'inlet-shear'" if case.bearing.film_factor == "solved" else ""
     )
     accuracy = f"{heat}: films may be {error_text(result.solution)} off"
-    words = Words(notes={"bearing.contacts": lambda _: accuracy})
+    words = RowTexts(notes={"bearing.contacts": lambda _: accuracy})
     if refused is not None:
-        words |= Words(
+        words |= RowTexts(
             values={"bearing.first_break": lambda _: "not computed"},
             notes={"bearing.first_break": lambda _: ", needs solved contacts for this strength"},
         )

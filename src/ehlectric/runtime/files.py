@@ -148,31 +148,31 @@ def _new_file(path: Path) -> Iterator[tuple[Path, Callable[[], None]]]:
     """Context with a new file beside a path, and a function that brings its content to the disk."""
     # The name is known before the file is made: a signal in between must not leave the file behind.
     new = path.resolve().with_name(f"{_HIDDEN}{secrets.token_hex(8)}{path.suffix}")
-    number = -1
+    fd = -1
 
     def finish() -> None:
-        nonlocal number
-        flush(number)
+        nonlocal fd
+        flush(fd)
         if not RENAMES_OPEN:
-            os.close(number)
-            number = -1
+            os.close(fd)
+            fd = -1
 
     try:
         with writing(path, new):
             # The kernel takes the umask off this mode: the umask can only be read by changing it.
-            number = os.open(new, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
-            take(number)
+            fd = os.open(new, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
+            take(fd)
             yield new, finish
     finally:
-        if number >= 0:
-            os.close(number)
+        if fd >= 0:
+            os.close(fd)
         new.unlink(missing_ok=True)
 
 
-def flush(number: int) -> None:
+def flush(fd: int) -> None:
     """Bring the content of an open file to the disk; network file systems report a full disk only then."""
     try:
-        os.fsync(number)
+        os.fsync(fd)
     except OSError as error:
         if error.errno not in _NO_FLUSH:
             raise
@@ -258,12 +258,12 @@ def clear_left_behind(folder: Path) -> None:
         hidden_files = [entry.path for entry in entries if _LEFT.fullmatch(entry.name)]
     for path in hidden_files:
         with suppress(OSError):  # another command has removed it, or it belongs to another user
-            number = os.open(path, os.O_RDONLY | _SAFELY)
+            fd = os.open(path, os.O_RDONLY | _SAFELY)
             try:
-                if take(number) == "taken" and stat.S_ISREG(os.fstat(number).st_mode):
+                if take(fd) == "taken" and stat.S_ISREG(os.fstat(fd).st_mode):
                     Path(path).unlink()
             finally:
-                os.close(number)
+                os.close(fd)
 
 
 def json_of(table: Mapping[str, Any]) -> bytes:

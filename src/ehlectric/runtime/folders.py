@@ -79,7 +79,7 @@ def locked(folder: Path, name: str, patience: float | None = None) -> Iterator[N
     already, by this process or another.
     """
     path = folder / name
-    number = _taken(folder, path, _PATIENCE.get(name, 0.0) if patience is None else patience)
+    fd = _taken(folder, path, _PATIENCE.get(name, 0.0) if patience is None else patience)
     try:
         yield
     finally:
@@ -87,7 +87,7 @@ def locked(folder: Path, name: str, patience: float | None = None) -> Iterator[N
         if os.name == "posix":
             with suppress(OSError):  # the folder may be gone, or no longer be writable
                 path.unlink()
-        os.close(number)
+        os.close(fd)
 
 
 def _taken(folder: Path, path: Path, patience: float) -> int:
@@ -96,25 +96,25 @@ def _taken(folder: Path, path: Path, patience: float) -> int:
     refuse_special(path)
     while True:
         with writing(path):
-            number = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
+            fd = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
         try:
-            state = take(number)
+            state = take(fd)
             if state == "none":
                 LOGGER.warning("%s: has no locks; only one command at a time may write into it", folder)
-            if state != "busy" and _same(number, path):
-                return number
+            if state != "busy" and _same(fd, path):
+                return fd
         except BaseException:
-            os.close(number)
+            os.close(fd)
             raise
-        os.close(number)
+        os.close(fd)
         if state == "busy" and time.monotonic() >= until:
             raise InputError(folder, "is being written to by another ehlectric", takes="a folder of its own")
         time.sleep(_AGAIN if state == "busy" else 0.0)
 
 
-def _same(number: int, path: Path) -> bool:
+def _same(fd: int, path: Path) -> bool:
     """Whether an open file still has its path: the last holder of its lock may have removed it."""
     try:
-        return os.path.samestat(os.fstat(number), path.stat())
+        return os.path.samestat(os.fstat(fd), path.stat())
     except FileNotFoundError:
         return False

@@ -70,7 +70,7 @@ _FAR = 2**31 - 2
 _BUSY = (errno.EWOULDBLOCK, errno.EAGAIN, errno.EACCES, errno.EDEADLK)
 
 
-def take(number: int) -> Taken:
+def take(fd: int) -> Taken:
     """Try to lock an open file against every other process and every other open file of this one. Returns
     "taken"; "busy" where somebody else has the lock; "none" where the file system has no locks.
 
@@ -82,13 +82,13 @@ def take(number: int) -> Taken:
     ('taken', 'busy')
     """
     try:
-        _lock(number)
+        _lock(fd)
     except OSError as error:
         return "busy" if error.errno in _BUSY else "none"
     return "taken"
 
 
-def _lock(number: int) -> None:
+def _lock(fd: int) -> None:
     try:
         posix = import_module("fcntl")
     except ModuleNotFoundError:
@@ -96,8 +96,8 @@ def _lock(number: int) -> None:
             windows = import_module("msvcrt")
         except ModuleNotFoundError:
             raise OSError(errno.ENOSYS, "no locks") from None
-        os.lseek(number, _FAR, os.SEEK_SET)
-        windows.locking(number, windows.LK_NBLCK, 1)
-        os.lseek(number, 0, os.SEEK_SET)
+        os.lseek(fd, _FAR, os.SEEK_SET)
+        windows.locking(fd, windows.LK_NBLCK, 1)
+        os.lseek(fd, 0, os.SEEK_SET)
     else:
-        posix.flock(number, posix.LOCK_EX | posix.LOCK_NB)
+        posix.flock(fd, posix.LOCK_EX | posix.LOCK_NB)

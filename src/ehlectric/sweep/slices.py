@@ -532,7 +532,7 @@ def _requested(key: str, text: str) -> float:
     try:
         return kind.parse(text if number is None else int(text) if whole else number, written=True)
     except InputError as error:
-        raise error.retold("at", f"{key}: {error}") from None
+        raise error.with_text("at", f"{key}: {error}") from None
 
 
 def _si(key: str) -> str:

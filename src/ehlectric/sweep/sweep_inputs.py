@@ -505,7 +505,7 @@ def _with_case(table: Mapping[str, Any], *, written: bool) -> Mapping[str, Any]:
         if error.key in ("case", printable(str(case)) if isinstance(case, str | Path) else None):
             raise
         if isinstance(case, str | Path):
-            raise error.retold(str(case), str(error)) from None
+            raise error.with_text(str(case), str(error)) from None
         raise error.under("case") from None
     return table
 

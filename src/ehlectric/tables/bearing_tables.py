@@ -24,10 +24,10 @@ from ehlectric.quantities.formats import (
 from ehlectric.quantities.result_bounds import bearing_bounds, breakdown_words
 from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.rows import (
-    Noted,
     Row,
+    RowTexts,
     Summary,
-    Words,
+    ValueWithNote,
     placed_rows,
     sheet_rows,
     shown_unit,
@@ -61,10 +61,10 @@ def total_rows(summary: Summary) -> list[Row]:
     return [*status_rows(summary), *placed_rows(rows, summary)]
 
 
-def check_rows(summary: Summary, words: Words | None = None) -> list[Row]:
+def check_rows(summary: Summary, words: RowTexts | None = None) -> list[Row]:
     """Rows of a bearing whose contacts are not solved, with further words beside its numbers."""
     bounds = bearing_bounds(BEARING_BOOK, summary)
-    rows = sheet_rows(BEARING_CHECK, BEARING_BOOK, summary, _WORDS | (words or Words()), bounds)
+    rows = sheet_rows(BEARING_CHECK, BEARING_BOOK, summary, _WORDS | (words or RowTexts()), bounds)
     return list(placed_rows(rows, summary))
 
 
@@ -155,20 +155,20 @@ def _alpha_star(summary: Summary) -> str:
     return f", reciprocal asymptotic; α = {readable(ambient, 4)} 1/GPa at ambient pressure"
 
 
-def _strength(summary: Summary) -> Noted:
+def _strength(summary: Summary) -> ValueWithNote:
     """Dielectric strength, the scale of its Weibull law, or its range, with its note."""
     discharge = summary["inputs"].get("discharge", {})
     if "dielectric_strength" in discharge:
-        return Noted(discharge["dielectric_strength"], ", as given")
+        return ValueWithNote(discharge["dielectric_strength"], ", as given")
     if "weibull" in discharge:
         weibull = discharge["weibull"]
-        return Noted(weibull["scale"], f", Weibull scale, shape {weibull['shape']:g}")
+        return ValueWithNote(weibull["scale"], f", Weibull scale, shape {weibull['shape']:g}")
     if "strength_table" in discharge:
         table = discharge["strength_table"]
         ends = (readable(end / 1e6, 4) for end in (min(table["strength"]), max(table["strength"])))
         over = "pressure" if "pressure" in table else "temperature"
-        return Noted((" to ".join(ends), "V/µm"), f", table over {over}")
-    return Noted("not given", ", no breakdown voltage is computed")
+        return ValueWithNote((" to ".join(ends), "V/µm"), f", table over {over}")
+    return ValueWithNote("not given", ", no breakdown voltage is computed")
 
 
 def _loaded(ring: str, key: str, of: Callable[[Iterator[float]], float]) -> Callable[[Summary], Any]:
@@ -276,30 +276,32 @@ def _searched(summary: Summary) -> bool:
     return not crossed and lowest is not None and highest is not None and bool(lowest < highest)
 
 
-def _critical_speed(summary: Summary) -> Noted:
+def _critical_speed(summary: Summary) -> ValueWithNote:
     """Critical speed, or the end of the searched speeds beyond which it lies."""
     if not _searched(summary):
-        return Noted(_speed("critical_speed")(summary), ", breakdown below")
+        return ValueWithNote(_speed("critical_speed")(summary), ", breakdown below")
     low, high = (rpm_text(summary["margin"][f"{end}_speed"]) for end in ("lowest", "highest"))
     beyond = f"above {high}" if summary["bearing"]["margin"] < 1.0 else f"below {low}"
-    return Noted((beyond, "rpm"), f", none from {low} to {high} rpm")
+    return ValueWithNote((beyond, "rpm"), f", none from {low} to {high} rpm")
 
 
-def _parallel(summary: Summary) -> Noted:
+def _parallel(summary: Summary) -> ValueWithNote:
     """Capacitance next to the bearing, or that it is not given and taken as 0."""
     capacitance = value_at(summary, "bearing.parallel_capacitance")
     if capacitance or capacitance is None or "parallel_capacitance" in _bearing(summary):
-        return Noted(capacitance, ", cage, shields and wiring")
-    return Noted("not given", ", taken as 0 (cage, shields and wiring)")
+        return ValueWithNote(capacitance, ", cage, shields and wiring")
+    return ValueWithNote("not given", ", taken as 0 (cage, shields and wiring)")
 
 
-def _meter(summary: Summary) -> Noted:
+def _meter(summary: Summary) -> ValueWithNote:
     """Capacitance that a meter reads; that it is not computed where asperities touch."""
     totals = summary["bearing"]
     if totals.get("meter_capacitance") is None:
         touching = _state(summary) in ("conducting", "partial film")
-        return Noted("not computed" if touching else None, ", asperities touch")
-    return Noted(totals["meter_capacitance"], "" if totals["roughness_factor"] is None else ", rough films")
+        return ValueWithNote("not computed" if touching else None, ", asperities touch")
+    return ValueWithNote(
+        totals["meter_capacitance"], "" if totals["roughness_factor"] is None else ", rough films"
+    )
 
 
 def _fatigue_limit_note(summary: Summary) -> str:
@@ -336,15 +338,15 @@ def of_reliability(prefix: str, lives: str) -> dict[str, Callable[[Summary], Any
     }
 
 
-def _viscosity_ratio(summary: Summary) -> Noted:
+def _viscosity_ratio(summary: Summary) -> ValueWithNote:
     """Viscosity ratio with the viscosity of the oil, or the reason why it is unknown."""
     life = summary["life"]
     if life["rated_viscosity"] is None:
-        return Noted(None, "")
+        return ValueWithNote(None, "")
     if life["viscosity_ratio"] is None:
-        return Noted("unknown", ", the density of the oil is not given")
+        return ValueWithNote("unknown", ", the density of the oil is not given")
     viscosity = 1e6 * life["viscosity_ratio"] * life["rated_viscosity"]
-    return Noted(life["viscosity_ratio"], f", ν/ν1 with ν = {readable(viscosity)} mm²/s")
+    return ValueWithNote(life["viscosity_ratio"], f", ν/ν1 with ν = {readable(viscosity)} mm²/s")
 
 
 _OTHER_BEARING = "inputs.motor.second_bearing_capacitance"
@@ -357,12 +359,12 @@ def _shaft_note(summary: Summary) -> str:
     return f", by the capacitive divider{other}{'; upper bound: the oil discharges it' if leaks else ''}"
 
 
-def _first_break(summary: Summary) -> Noted:
+def _first_break(summary: Summary) -> ValueWithNote:
     """First breakdown voltage; that none is computed where surfaces touch, so that nothing reads as safe."""
     if _state(summary) == "conducting":
-        return Noted("not computed", ", contacts open and close, and discharge at a low voltage")
+        return ValueWithNote("not computed", ", contacts open and close, and discharge at a low voltage")
     bearing = summary["bearing"]
-    return Noted(bearing["first_break"], f", {bearing['first_break_at']}; {breakdown_words(summary)}")
+    return ValueWithNote(bearing["first_break"], f", {bearing['first_break_at']}; {breakdown_words(summary)}")
 
 
 def _period(summary: Summary) -> str:
@@ -515,7 +517,7 @@ _SCALES = {UNITS[unit][0]: scale_of(unit) for unit in ("°C", "deg", "V/µm", "N
 # Least share of the spread of an input that has a row.
 _LEAST_SHARE = 0.005
 
-_WORDS = Words(
+_WORDS = RowTexts(
     notes={
         "lubricant.temperature": lambda s: "" if _of_temperature(s) else ", without effect on the viscosity",
         "lubricant.alpha_star": _alpha_star,

@@ -24,7 +24,7 @@ from ehlectric.film import pressure_error_text
 from ehlectric.quantities.formats import CELSIUS, amount, scale_of
 from ehlectric.quantities.result_bounds import bound_words, contact_bounds
 from ehlectric.quantities.results import CONTACT_BOOK
-from ehlectric.quantities.rows import Noted, Row, Summary, Words, row_of, sheet_rows, value_at
+from ehlectric.quantities.rows import Row, RowTexts, Summary, ValueWithNote, row_of, sheet_rows, value_at
 from ehlectric.quantities.sheets import CHECK, CONTACT, CONTACT_ONLY, VALUES
 from ehlectric.readable import formatted, readable
 from ehlectric.tables.measured_tables import status_rows
@@ -41,7 +41,7 @@ def case_rows(case: Case, summary: Summary) -> list[Row]:
 
     ``summary`` is that of ``contact.summary.case_summary``.
     """
-    words = _WORDS | Words(
+    words = _WORDS | RowTexts(
         values={"grid.film": lambda _: _grid(case), "field.voltage": lambda _: case.electric.voltage},
         notes={"inputs.grid.side": lambda _: "semi-axes a"},
     )
@@ -51,7 +51,7 @@ def case_rows(case: Case, summary: Summary) -> list[Row]:
 def condition_rows(case: Case, conditions: Conditions | PointConditions) -> Iterator[Row]:
     """Rows of the operating conditions of a case, which decide film and field."""
     summary = case_summary(case, conditions)
-    words = _WORDS | Words(values={"field.voltage": lambda _: case.electric.voltage})
+    words = _WORDS | RowTexts(values={"field.voltage": lambda _: case.electric.voltage})
     return sheet_rows(CHECK[:1], CONTACT_BOOK[conditions.geometry], summary, words)
 
 
@@ -63,15 +63,15 @@ def result_rows(result: Result | PointResult) -> list[Row]:
     return [*status_rows(summary), *rows]
 
 
-def _of_arrays(result: Result | PointResult) -> Words:
-    """Words that need the arrays or the case of a result: what its summary does not have."""
+def _of_arrays(result: Result | PointResult) -> RowTexts:
+    """Texts that need the arrays or the case of a result: what its summary does not have."""
     kind = KINDS[result.conditions.geometry]
     surfaces = getattr(result.film.heated, "surface_temperatures", None)
     highest = () if surfaces is None else tuple(float(surface.max()) for surface in surfaces)
     values: dict[str, Any] = {
         f"film.surface_temperature_{k}": partial(_same, value) for k, value in enumerate(highest, 1)
     }
-    return Words(
+    return RowTexts(
         values=values | {"regime": partial(_same, kind.regime(result.conditions.contact))},
         notes={
             "film.rheology": lambda _: _constants(result.case),
@@ -234,7 +234,7 @@ def _temperature_error(summary: Summary) -> str:
     return "" if error is None else f", error {readable(error, 1)} K"
 
 
-def _load_share(summary: Summary) -> Noted:
+def _load_share(summary: Summary) -> ValueWithNote:
     """Load share with no more digits than its change from a coarser grid leaves, and this change."""
     asperities = summary["asperities"]
     share, before = asperities["load_share"], asperities["load_share_coarser"]
@@ -243,7 +243,7 @@ def _load_share(summary: Summary) -> Noted:
         error = formatted(100.0 * abs(share - before), ".2g")
         half = share_text(before, share)
         note = f", ± {error} percentage points by the grid: {half} % on half the nodes"
-    return Noted((share_text(share, before), "%"), note)
+    return ValueWithNote((share_text(share, before), "%"), note)
 
 
 def _area_error(summary: Summary) -> str:
@@ -254,13 +254,13 @@ def _area_error(summary: Summary) -> str:
     return f", of the Hertz {part}{within}"
 
 
-def _spots(summary: Summary) -> Noted:
+def _spots(summary: Summary) -> ValueWithNote:
     asperities = summary["asperities"]
     strips = ", strips along the contact" if _geometry(summary) == "line" else ""
     single = (
         f", {asperities['spots_of_one_node']} of a single node" if asperities["spots_of_one_node"] else ""
     )
-    return Noted(str(asperities["spots"]), strips + single)
+    return ValueWithNote(str(asperities["spots"]), strips + single)
 
 
 def _oil_error(summary: Summary) -> Any:
@@ -293,14 +293,14 @@ def _field_place(summary: Summary) -> str:
     return f"{place}, with {readable(summary['field']['voltage'], 4)} V across the film"
 
 
-def _strength(summary: Summary) -> Noted | None:
+def _strength(summary: Summary) -> ValueWithNote | None:
     """Dielectric strength and its law; that it is not given where there is no law."""
     discharge = summary.get("discharge")
     if discharge is None:
         return None
     if discharge["strength_law"] is None:
-        return Noted("not given", ", no breakdown voltage is computed")
-    return Noted(discharge["dielectric_strength"], f", {discharge['strength_law']}")
+        return ValueWithNote("not given", ", no breakdown voltage is computed")
+    return ValueWithNote(discharge["dielectric_strength"], f", {discharge['strength_law']}")
 
 
 def _breakdown_note(summary: Summary) -> str:
@@ -413,7 +413,7 @@ def _difference_note(summary: Summary, key: str, value: float) -> str:
 
 def _formula_error(summary: Summary) -> Any:
     if _touches(summary):
-        return Noted("none: surfaces touch", ", formulas are of smooth ones")
+        return ValueWithNote("none: surfaces touch", ", formulas are of smooth ones")
     given = [
         value_at(summary, f"film_formula_ranges.{name}.{key}")
         for name, film in summary["film_formulas"].items()
@@ -421,13 +421,13 @@ def _formula_error(summary: Summary) -> Any:
         if film[key] is not None
     ]
     if all(given):
-        return Noted("unknown", ", the contact is outside the range of all formulas")
+        return ValueWithNote("unknown", ", the contact is outside the range of all formulas")
     if any(given):
-        return Noted("up to 40 %", ", of formulas within their range")
+        return ValueWithNote("up to 40 %", ", of formulas within their range")
     return "up to 40", "%"
 
 
-_WORDS = Words(
+_WORDS = RowTexts(
     notes={
         "inputs.contact.slide_to_roll_ratio": _speeds,
         "lubricant.temperature": lambda s: f", {s['lubricant']['name']}" if s["lubricant"]["name"] else "",

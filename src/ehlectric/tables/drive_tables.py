@@ -17,9 +17,9 @@ from ehlectric.quantities.result_bounds import drive_bounds
 from ehlectric.quantities.results import DRIVE_BOOK, LIMITS, NAMES_OF_ENDS
 from ehlectric.quantities.rows import (
     Row,
+    RowTexts,
     Sheet,
     Summary,
-    Words,
     head_of,
     placed,
     placed_rows,
@@ -255,7 +255,7 @@ def _contact_current(summary: Summary) -> Any:
 _LIMITS = [f"{limit:g}" for limit in LIMITS]
 
 
-_WORDS = Words(
+_WORDS = RowTexts(
     rows={"duty.stretches": _stretches},
     notes={
         "source.peak": lambda s: ", measured waveform" if s["source"]["edges_per_second"] is None else "",

@@ -9,7 +9,7 @@ from ehlectric.cases.case import Case
 from ehlectric.contact import KINDS, share_text
 from ehlectric.quantities.result_bounds import moving_bounds
 from ehlectric.quantities.results import MOTION_BOOK
-from ehlectric.quantities.rows import Noted, Row, Summary, Words, sheet_rows, value_at
+from ehlectric.quantities.rows import Row, RowTexts, Summary, ValueWithNote, sheet_rows, value_at
 from ehlectric.quantities.sheets import MOTION, MOTION_CHECK
 from ehlectric.readable import readable
 from ehlectric.tables.contact_tables import condition_rows
@@ -27,7 +27,7 @@ def run_rows(summary: Summary) -> list[Row]:
     conditions = KINDS[case.contact.geometry].resolve(case)
     book = MOTION_BOOK[case.contact.geometry]
     meniscus = partial(_meniscus, conditions.half_width)
-    words = _WORDS | Words(values={"film.meniscus_before": meniscus})
+    words = _WORDS | RowTexts(values={"film.meniscus_before": meniscus})
     rows = sheet_rows(MOTION, book, summary, words, moving_bounds(book))
     return [*condition_rows(case, conditions), *rows]
 
@@ -73,17 +73,17 @@ def _speed(surface: int) -> Callable[[Summary], float | None]:
     return value
 
 
-def _load_share(summary: Summary) -> Noted:
+def _load_share(summary: Summary) -> ValueWithNote:
     """Mean load share with no more digits than its change from a coarser grid leaves."""
     asperities = summary["asperities"]
     share, coarser = asperities["load_share_mean"], asperities["load_share_mean_coarser"]
     note = ", not known on a coarser grid"
     if coarser is not None:
         note = f", {share_text(coarser, share)} % on half the nodes"
-    return Noted((share_text(share, coarser), "%"), note)
+    return ValueWithNote((share_text(share, coarser), "%"), note)
 
 
-_WORDS = Words(
+_WORDS = RowTexts(
     notes={
         "motion.duration": lambda s: f", {s['motion']['steps']} time steps",
         "film.minimum_thickness": _time("film.minimum_time", boundary=True),

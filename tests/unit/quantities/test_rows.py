@@ -9,7 +9,7 @@ import pytest
 from ehlectric.quantities.formats import UNITS
 from ehlectric.quantities.quantity import Quantity
 from ehlectric.quantities.results import BEARING_BOOK, CONTACT_BOOK, DRIVE_BOOK, MOTION_BOOK
-from ehlectric.quantities.rows import Row, Section, Words, sheet_rows, shown_unit, value_at
+from ehlectric.quantities.rows import Row, RowTexts, Section, sheet_rows, shown_unit, value_at
 from ehlectric.quantities.units import to_si
 from ehlectric.tables.measured_tables import table_of
 from tests.helpers.each import each
@@ -40,7 +40,7 @@ def test_a_number_in_an_unknown_unit_is_refused():
 
 
 def test_rows_of_a_summary():
-    summary, words = {"film": {"minimum_thickness": 2e-7}}, Words(notes={KEY: lambda _: ", of all"})
+    summary, words = {"film": {"minimum_thickness": 2e-7}}, RowTexts(notes={KEY: lambda _: ", of all"})
     row = Row("minimum film", 2e-7, "µm", ", of all", key=KEY)
     assert list(sheet_rows(SHEET, KEYS, summary, words)) == [Row("film"), row]
     assert list(sheet_rows(SHEET, KEYS, {"film": {"minimum_thickness": None}})) == []

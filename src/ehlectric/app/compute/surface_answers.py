@@ -247,7 +247,7 @@ def _named(error: InputError, table: Mapping[str, Any], name: str) -> InputError
         key = [*wrong, *lengths][0]
     if key in Roughness.model_fields:
         key = f"roughness.{key}"
-    return error.retold(key or None, text)
+    return error.with_text(key or None, text)
 
 
 def _micrometres(length: Any) -> str:

@@ -23,13 +23,13 @@ from ehlectric.drive.discharges.voltages_in_time import (
     RISES,
     ROWS,
     START,
-    Course,
+    PieceVoltages,
     Source,
     all_at,
     begin,
-    course_of,
     crossing,
     curvature_bound,
+    empty_piece_voltages,
     move,
     states_at,
     unfold,
@@ -364,7 +364,7 @@ class Work(NamedTuple):
     """Arrays in which a march works; they are changed in place."""
 
     piece: Complex  # present piece, shape (ROWS, n + FURTHER)
-    course: Course  # voltages over the present piece
+    course: PieceVoltages  # voltages over the present piece
     volts: Array  # voltages across both films at the end of the present piece [V], shape (2,)
     charges: Array  # charges of the nodes while elements move [C], shape (n,)
     events: Array  # table that takes the events, shape (m, 8)
@@ -375,7 +375,7 @@ def work_of(size: int, events: int) -> Work:
     """Arrays for a circuit of a number of states, and a table of a number of events."""
     return Work(
         piece=np.zeros((ROWS, size + FURTHER), dtype=np.complex128),
-        course=course_of(size + FURTHER),
+        course=empty_piece_voltages(size + FURTHER),
         volts=np.zeros(2),
         charges=np.zeros(size),
         events=np.zeros((events, COLUMNS)),
@@ -411,7 +411,9 @@ def _burning_panel(piece: Complex, t: float, left: float) -> float:
 
 
 @inner
-def _burn(course: Course, films: Films, state: State, t: float, h: float, first: tuple[float, float]) -> None:
+def _burn(
+    course: PieceVoltages, films: Films, state: State, t: float, h: float, first: tuple[float, float]
+) -> None:
     """Add charge, energy and largest current of the arcs between t and t + h to their events."""
     for b in range(2):
         if not burns_in(state, b):
@@ -428,7 +430,7 @@ def _burn(course: Course, films: Films, state: State, t: float, h: float, first:
 
 
 @inner
-def _measure(meters: Meters, rough: float, piece: Complex, course: Course, source: Source, now: float,
+def _measure(meters: Meters, rough: float, piece: Complex, course: PieceVoltages, source: Source, now: float,
              t: float, end: float, first: tuple[float, float], last: tuple[float, float]
              ) -> None:  # fmt: skip
     """Measure the voltages between t and end of a piece that began at ``now``, as parabolas.
@@ -513,8 +515,9 @@ def _ended(piece: Complex, films: Films, state: State, t: float, end: float, fir
 
 
 @inner
-def _piece(circuits: Modes, films: Films, state: State, source: Source, left: float, piece: Complex,
-           course: Course, meters: Meters, now: float, volts: Array) -> tuple[float, int, int]:  # fmt: skip
+def _piece(circuits: Modes, films: Films, state: State, source: Source, left: float,
+           piece: Complex, course: PieceVoltages, meters: Meters, now: float,
+           volts: Array) -> tuple[float, int, int]:  # fmt: skip
     """Go on for a time in which nothing is scheduled, or until a film breaks down or an arc goes out.
 
     ``volts`` takes the voltages across both films at the end.

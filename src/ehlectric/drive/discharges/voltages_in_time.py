@@ -208,7 +208,7 @@ def crossing(piece: Complex, film: int, start: float, end: float, level: float, 
 _POWERS, _FEW, _SLOWEST = 10, 5, 1e-4
 
 
-class Course(NamedTuple):
+class PieceVoltages(NamedTuple):
     """Voltages over a piece, as a power series and exponentials; changed in place.
 
     Voltage b, across one of both films or of the shaft, is the sum of ``powers[b, k] t^k``, and of the real
@@ -222,9 +222,9 @@ class Course(NamedTuple):
     number: NDArray[np.int64]
 
 
-def course_of(modes: int) -> Course:
-    """Empty course of a number of modes."""
-    return Course(
+def empty_piece_voltages(modes: int) -> PieceVoltages:
+    """Voltages over a piece without values yet, for a number of modes."""
+    return PieceVoltages(
         np.zeros((VOLTAGES, _POWERS)),
         np.zeros(modes, dtype=np.complex128),
         np.zeros((VOLTAGES, modes), dtype=np.complex128),
@@ -233,7 +233,7 @@ def course_of(modes: int) -> Course:
 
 
 @inner
-def unfold(piece: Complex, duration: float, course: Course) -> None:
+def unfold(piece: Complex, duration: float, course: PieceVoltages) -> None:
     """Write the voltages over a piece as a power series and exponentials, by which many times are quick.
 
     A mode that hardly changes in the duration goes into the series, with an error below 2e-14 of its size; of
@@ -272,7 +272,7 @@ def unfold(piece: Complex, duration: float, course: Course) -> None:
 
 
 @inner
-def all_at(course: Course, t: float) -> tuple[float, float, float]:
+def all_at(course: PieceVoltages, t: float) -> tuple[float, float, float]:
     """Voltages across both films, and of the shaft, at a time t of the piece [V]."""
     first, second, shaft = 0.0, 0.0, 0.0
     for k in range(course.number[1] - 1, -1, -1):

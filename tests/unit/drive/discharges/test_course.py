@@ -16,7 +16,7 @@ from ehlectric.drive.discharges.voltages_in_time import (
     START,
     VOLTAGES,
     all_at,
-    course_of,
+    empty_piece_voltages,
     move,
     unfold,
     voltages,
@@ -60,6 +60,6 @@ def test_a_course_is_the_voltage_of_its_modes(modes, duration):
     times = duration * np.linspace(0.0, 1.0, 7)
     piece = np.array(columns).T.copy()
     found, moved, both_moved = all_ways = np.zeros((3, VOLTAGES, times.size))
-    three_ways(piece, course_of(piece.shape[1]), duration, times, all_ways)
+    three_ways(piece, empty_piece_voltages(piece.shape[1]), duration, times, all_ways)
     assert found == pytest.approx(moved, rel=0.0, abs=3e-12)
     assert np.array_equal(both_moved[:2], moved[:2])
