@@ -223,7 +223,7 @@ def _chart(results: SweepResults, shown: str) -> tuple[Chart, Plot]:
     scale, known = labelled(results, shown, drawn)[1], np.isfinite(selection.values)
     # None where a point has no value that may be drawn, and no margin with it.
     numbers, margins = (
-        [float(one) if np.isfinite(one) else None for one in column]
+        [float(number) if np.isfinite(number) else None for number in column]
         for column in (scale.of(selection.values), np.where(known, selection.margin, np.nan))
     )
     if selection.y is None:
