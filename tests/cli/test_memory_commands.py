@@ -52,7 +52,7 @@ def test_a_grid_that_the_limit_of_the_shell_leaves_no_room_for(tmp_path):
 
 @pytest.mark.parametrize(
     ("where", "status"),
-    [("ehlectric.cases.case.Case.from_toml", 2), ("ehlectric.contact.run.run", 3)],
+    [("ehlectric.cases.case.Case.of_file", 2), ("ehlectric.contact.run.solve", 3)],
 )
 def test_memory_that_runs_out_in_a_run(tmp_path, monkeypatch, where, status):
     """2 while the file is read, 3 once it is being solved."""

@@ -43,7 +43,7 @@ def test_field_on_fewer_columns_is_that_on_all(monkeypatch):
     }
     case = Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}, "grid": {"error": "1 %"}})
     few = solve(case).field
-    monkeypatch.setattr("ehlectric.field.line_field.ENOUGH", 10_000)
+    monkeypatch.setattr("ehlectric.field.mesh.ENOUGH", 10_000)
     every = solve(case).field
     assert few.x.size * few.y.size < 0.3 * every.x.size * every.y.size
     assert few.capacitance == pytest.approx(every.capacitance, rel=1e-3)
