@@ -44,7 +44,6 @@ NAMES_OF_THE_PROGRAM = {
     "look",
     "ends[1]",
     "prefix",
-    "one.key",
     "shown.name",
     "level",
     "verdict.level",

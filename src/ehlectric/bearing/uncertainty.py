@@ -213,7 +213,7 @@ class Design:
 
     @classmethod
     def of(cls, solution: BearingSolution, *, same_films: bool = False) -> Design:
-        """Design of a solved bearing, with inputs ``beside_films`` only, on which they do not depend."""
+        """Design of a solved bearing; with ``same_films``, of the inputs on which its films do not depend."""
         return cls.of_case(solution.case, film_error(solution), same_films=same_films)
 
     @classmethod

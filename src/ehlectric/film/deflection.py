@@ -186,7 +186,7 @@ class Deflection:
 
     @cached_property
     def _shifted(self) -> dict[tuple[int, ...], Array]:
-        """Coefficients of ``beside`` by their steps."""
+        """Coefficients of ``shifted`` by their steps."""
         return {}
 
     def __call__(self, pressure: Array) -> Array:

@@ -107,7 +107,7 @@ def refined_solution(problem: FilmProblem, progress: Progress | None) -> Refined
     The spacings are halved along both axes, in a point contact only on a patch where its film is decided.
     The refinement ends below the target, where surfaces touch, at ``most_nodes`` over the whole domain,
     after three grids in succession whose error is unknown because a film did not converge, or before the
-    first grid on which no film is refined that conserves its oil.
+    first grid on which no film conserves its oil.
     """
     refined = RefinedSolution(problem, nested_iteration(problem, progress))
     target, unknown, times = problem.target_error, 0, 1

@@ -277,8 +277,8 @@ def _starved(
 ) -> tuple[RefinedSolution, StarvedSolution]:
     """Starved film without and with heat or shear, on the grids of the film without.
 
-    ``found``, flooded films with heat or shear on all grids up to the grid of the ``problem``. On finer grids
-    the films keep their temperatures.
+    ``hot_grids``, flooded films with heat or shear on all grids up to the grid of the ``problem``. On finer
+    grids the films keep their temperatures.
     """
     assert problem.supply is not None
     cold = {film.level.mesh.shape: film for film in simple.solutions}

@@ -348,7 +348,7 @@ class _Iteration:
     # shapes (nq, n).
     weights: Array
     shape: Array
-    # unit and wanted: unit of the rate, and the stress of the slip without a gradient, shapes (n,).
+    # unit and target: unit of the rate, and the stress of the slip without a gradient, shapes (n,).
     unit: Array
     target: Array
     # middle, trial and step: best stress so far, the one to try next, and their difference, shape (2, n).
