@@ -1,8 +1,6 @@
 """The commands that look at a sweep, with a folder that holds a model known in closed form."""
 
 import json
-import sys
-import types
 
 import pytest
 import typer
@@ -35,9 +33,7 @@ def command(monkeypatch, tmp_path):
             raise InputError(f"{folder}: holds no sweep")
         return sweeps[folder.name]
 
-    store = types.ModuleType("ehlectric.sweep.store")
-    store.read_sweep = read_sweep
-    monkeypatch.setitem(sys.modules, "ehlectric.sweep.store", store)
+    monkeypatch.setattr("ehlectric.sweep.read_sweep", read_sweep)
     monkeypatch.chdir(tmp_path)
     app = typer.Typer()
     app.command("map")(draw_maps)

@@ -2,8 +2,6 @@
 
 import io
 import json
-import sys
-import types
 import zipfile
 
 import pytest
@@ -221,9 +219,7 @@ def test_a_workbook_is_no_profile(typed, tmp_path):
 )
 def test_temperatures_of_a_cut(monkeypatch, tmp_path, at, status, name):
     axes = {SPEED: (1.0, 2.0), LOAD: (5e5, 1e6), "bearing.temperature": (313.15, 343.15)}
-    store = types.ModuleType("ehlectric.sweep.store")
-    store.read_sweep = lambda _: grid(axes, breakdown)
-    monkeypatch.setitem(sys.modules, "ehlectric.sweep.store", store)
+    monkeypatch.setattr("ehlectric.sweep.read_sweep", lambda _: grid(axes, breakdown))
     monkeypatch.chdir(tmp_path)
     app = typer.Typer()
     app.command("map")(draw_maps)

@@ -72,7 +72,7 @@ def _geometry_of(rings):
                 return super().radii(angle, inner=inner)
             found = [type(geometry).radii(geometry, float(one), inner=inner) for one in angle]
             names = ("element_x", "element_y", "ring_x", "ring_y")
-            return ContactRadii(*(together(getattr(one, name) for one in found) for name in names))
+            return ContactRadii(**{name: together(getattr(one, name) for one in found) for name in names})
 
     return OfPoints(**vars(geometry))
 

@@ -60,7 +60,8 @@ def test_hashes_are_of_the_locked_versions():
     blocks = re.split(r"^(?=[a-z0-9-]+==)", text, flags=re.MULTILINE)[1:]
     assert all("--hash=sha256:" in block for block in blocks)
     # What users install is among them.
-    needed = {re.match(r"[A-Za-z0-9-]+", text)[0].lower() for text in PROJECT["dependencies"]}
+    names = (re.match(r"[A-Za-z0-9_-]+", text)[0] for text in PROJECT["dependencies"])
+    needed = {name.lower().replace("_", "-") for name in names}
     assert needed <= hashed.keys()
 
 

@@ -383,7 +383,7 @@ class Decay:
     --------
     Films alone, with nothing else at the shaft but a large coating, have the time constant C/G of their oil:
 
-    >>> decay = Decay(films=1e-10, conductance=1e-8, elastance=1e-3, beside=1e-20, leak=0.0)
+    >>> decay = Decay(films=1e-10, conductance=1e-8, elastance=1e-3, shaft=1e-20, leak=0.0)
     >>> round(decay.film_time_constant, 6)
     0.01
     """

@@ -73,9 +73,8 @@ class Case(CaseFile, book="case_file"):
     """Charged line or point contact: all inputs on which film and electric field depend.
 
     A case is made from a file by ``from_toml``, from nested tables by ``from_dict`` or by keywords, and from
-    the keys of its contact by ``Case.line`` or ``Case.point``. Wrong inputs raise an ``InputError`` that
-    names their keys. A case is frozen; ``replace`` returns a changed copy. Numbers are in SI units. All of
-    these methods except ``from_toml`` accept ``laws``, functions of your own for the oil.
+    the keys of its contact by ``Case.line`` or ``Case.point``. A case is frozen; ``replace`` returns a copy
+    with changes. Numbers are in SI units. All methods but ``from_toml`` accept ``laws``, functions of your own.
 
     Parameters
     ----------
