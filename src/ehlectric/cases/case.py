@@ -74,7 +74,7 @@ class Case(CaseFile, book="case_file"):
 
     A case is made from a file by ``from_toml``, from nested tables by ``from_dict`` or by keywords, and from
     the keys of its contact by ``Case.line`` or ``Case.point``. A case is frozen; ``replace`` returns a copy
-    with changes. Numbers are in SI units. All methods but ``from_toml`` accept ``laws``, functions of your own.
+    with changes. Numbers are in SI units. All methods but ``from_toml`` accept ``laws``, your own functions.
 
     Parameters
     ----------

@@ -478,19 +478,26 @@ def _dialect(
     rows = {d: [row for _, line in sample if d.is_row(row := d.fields(line))] for d in _DIALECTS}
     most = {d: max((sum(map(bool, row)) for row in rows[d]), default=0) for d in _DIALECTS}
     best = max(_DIALECTS, key=lambda d: (len(rows[d]), most[d]))
-    single = Dialect(";", ",")
-    certain = (line for _, line in filled if single.number(line.strip()) is None)
-    if best != Dialect(",") or any(best.is_row(best.fields(line)) for line in certain):
+    single = _single_column(best, filled)
+    if best != Dialect(",") or single is None:
         return best, rows[best]
-    # A pair such as "0,5" is one number with a decimal comma, too: the heads decide.
+    # A pair such as "0,5" or "1,500.25" is one number, too: the heads decide.
     heads = [row for _, line in filled if not best.is_row(row := best.fields(line))]
     if not heads or strict:
-        number, line = next((n, line) for n, line in filled if single.number(line.strip()) is not None)
-        got = f"line {number} is {shown(line.strip())}, one number with a decimal comma or two whole ones;"
+        number, line = next((n, line) for n, line in filled if "," in line and best.is_row(best.fields(line)))
+        mark = "a decimal comma" if single.decimal == "," else "a separator of thousands"
+        got = f"line {number} is {shown(line.strip())}, one number with {mark} or two numbers;"
         takes = "a semicolon or a tab between columns" + ", or heads above them" * (not strict)
         raise InputError(path, got, takes=takes)
     best = best if len(heads[-1]) >= most[best] else single
     return best, rows[best]
+
+
+def _single_column(best: Dialect, filled: Sequence[tuple[int, str]]) -> Dialect | None:
+    """Dialect in which each row of the best one is a single number; None if a row has no such reading."""
+    lines = [line.strip() for _, line in filled if best.is_row(best.fields(line))]
+    singles = (Dialect(";", ","), Dialect(";", "."))
+    return next((d for d in singles if all(d.number(line) is not None for line in lines)), None)
 
 
 def _first_row(

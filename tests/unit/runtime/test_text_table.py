@@ -83,6 +83,22 @@ def test_texts_without_a_table(text, message):
         layout(text)
 
 
+def test_heads_decide_whether_a_comma_separates_columns_or_thousands():
+    rows = ["500.00", "1,000.00", "2,000.00", "3,000.00"]
+    found = layout("\n".join(["u [V]", *rows]))
+    assert (found.dialect, found.columns) == (Dialect(";", "."), (0,))
+    text = "\n".join(rows)
+    assert found.numbers(PATH, (0,), text, 2)[0].tolist() == [500.0, 1000.0, 2000.0, 3000.0]
+    pairs = layout("t [s],u [V]\n1,500.25\n2,600.50")
+    assert (pairs.dialect, pairs.columns) == (Dialect(",", "."), (0, 1))
+    with pytest.raises(
+        InputError, match=r"line 2 is '1,000.00', one number with a separator of thousands or"
+    ):
+        layout(text)
+    # The second column of another row has no three digits before its point.
+    assert layout("1,500.25\n2,60.5").columns == (0, 1)
+
+
 TABLES = st.integers(1, 4).flatmap(
     lambda width: st.lists(
         st.lists(st.integers(-9_999_999, 9_999_999), min_size=width, max_size=width), min_size=2, max_size=30
