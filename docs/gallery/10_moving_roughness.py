@@ -16,7 +16,7 @@ import numpy as np
 import ehlectric
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import MotionRun, read_motion
-from ehlectric.motion.summary import instant_beside, summary_of
+from ehlectric.motion.summary import coincident_instant, summary_of
 
 case = ehlectric.Case.from_dict(
     {
@@ -47,7 +47,7 @@ with TemporaryDirectory() as folder:
 # more and less oil through, and this oil is carried through the contact with the surface: the film keeps the
 # waviness, and the pressure hardly varies.
 run = MotionRun.of(motion)
-frame = instant_beside(run)
+frame = coincident_instant(run)
 b = run.conditions.half_width
 x = motion["x"] / b
 panels = {
