@@ -39,8 +39,8 @@ _NONE = "\x1f"
 # Characters of a number, and its largest length [characters].
 _OF_NUMBERS, _LONGEST_NUMBER = frozenset("0123456789+-.,eE"), 100
 
-# Signs before a line of comment.
-_COMMENT = "#%/ \t"
+# Signs that begin a line of comment.
+_COMMENT = "#%/"
 
 # Largest number of lines of one record, whose quoted fields may contain line breaks.
 _MOST_LINES = 20
@@ -292,8 +292,15 @@ def record_at(lines: Sequence[str], place: int) -> tuple[str, int]:
 
 
 def uncommented(line: str) -> str:
-    """Line without signs of a comment before it."""
-    return line.lstrip(_COMMENT)
+    r"""Line without signs of a comment before it. Without them, a tab at its start ends an empty field.
+
+    Examples
+    --------
+    >>> uncommented("#\tt\tu"), uncommented("\tt\tu")
+    ('t\tu', '\tt\tu')
+    """
+    text = line.lstrip(" ")
+    return text.lstrip(f"{_COMMENT} \t") if text.startswith(tuple(_COMMENT)) else text
 
 
 def name_and_unit(head: str) -> tuple[str, str | None]:

@@ -45,6 +45,8 @@ TWO = {"speed": [1000 * RPM, 3000 * RPM], "capacitance": [260.5e-12, 190e-12]}
         "speed [rpm];capacitance [pF]\n1000;260,5\n3000;190\n",
         "Speed (1/min)\tCapacitance (nF)\n1000\t0.2605\n3000\t0.190\n",
         "# made by hand\n# speed [rpm], Cp [F]\n1000, 2.605e-10\n\n# a pause\n3000, 190e-12\n",
+        "\tspeed [rpm]\tcapacitance [pF]\n0\t1000\t260.5\n1\t3000\t190\n",  # to_csv of pandas, with its index
+        "#\tspeed [rpm]\tcapacitance [pF]\n1000\t260.5\n3000\t190\n",
         "LCR meter 7\nOperator;N. N.\nShaft_speed [U/min];CAPACITANCE [pF]\r\n1000;260.5\r\n3000;190.0\r\n",
     ],
 )
