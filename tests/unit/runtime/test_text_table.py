@@ -116,12 +116,8 @@ def files(draw):
             [(";", "."), (";", ","), ("\t", "."), ("\t", ","), (",", "."), (",", ","), (" ", ",")]
         )
     )
-    digits, quoted = (
-        draw(st.sampled_from([2, 3])),
-        separator != " " and (separator == "," or draw(st.booleans())),
-    )
-    # A single column of numbers such as 1,000.00 without quotes may be two columns.
-    grouped = (quoted or len(table[0]) > 1) and draw(st.booleans())
+    digits, grouped = draw(st.sampled_from([2, 3])), draw(st.booleans())
+    quoted = separator != " " and (separator == "," or draw(st.booleans()))
     marks = str.maketrans(".,", ",.") if decimal == "," else {}
 
     def field(number):
