@@ -269,10 +269,10 @@ def test_the_form_has_the_table_of_a_file_until_one_resistance_replaces_it():
     plain = Inputs(small_drive().to_dict())
     table = plain.changed({TABLE: {key: list(values) for key, values in BRUSH.items()}})
     assert [(one.shown(plain), one.shown(table)) for one in (number, ways)] == [(True, False), (False, True)]
-    assert ways.way(table) == 0
-    one = changed(table, ways.ways[1].changes)
+    assert ways.alternative(table) == 0
+    one = changed(table, ways.alternatives[1].changes)
     assert one.value(TABLE) is None
-    assert (one.value(RING), ways.way(one), number.shown(one)) == ("1 ohm", 1, True)
+    assert (one.value(RING), ways.alternative(one), number.shown(one)) == ("1 ohm", 1, True)
     assert changed(table, PRESETS["Grounding ring"]) == one
 
 
