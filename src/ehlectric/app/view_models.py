@@ -283,8 +283,21 @@ _MARKED = 1.0
 _SPEED_ACCURACY = 1.0
 
 
+class _Amount:
+    """Base class of values that a page shows with their bound and unit."""
+
+    text: str
+    unit: str
+    bound: str
+
+    @property
+    def with_unit(self) -> str:
+        """Bound, value and unit."""
+        return " ".join(filter(None, [self.bound, self.text, self.unit]))
+
+
 @dataclass(frozen=True)
-class Result:
+class Result(_Amount):
     """Result of one case."""
 
     group: str  # heading under which it stands
@@ -310,11 +323,6 @@ class Result:
         base = si_unit(unit)
         factor = known_factor(unit, base)
         return (parts[0], unit) if factor is None else (factor * parts[0], base)
-
-    @property
-    def shown(self) -> str:
-        """Bound, value and unit."""
-        return " ".join(filter(None, [self.bound, self.text, self.unit]))
 
 
 @dataclass(frozen=True)
@@ -386,7 +394,7 @@ class Effect:
     def same(self) -> bool:
         """Whether both cases show the same."""
         first, second = self.first, self.second
-        return first is not None and second is not None and first.shown == second.shown
+        return first is not None and second is not None and first.with_unit == second.with_unit
 
     @property
     def _accuracy(self) -> float:
@@ -470,7 +478,7 @@ def in_both(first: Side, second: Side) -> list[PageWarning]:
 
 
 @dataclass(frozen=True)
-class Number:
+class Number(_Amount):
     """Number of an answer, which its page shows in a row, and the one that decides large."""
 
     key: str
@@ -492,11 +500,6 @@ class Number:
         'Margin'
         """
         return re.split(r" \(|, ", self.label)[0]
-
-    @property
-    def with_unit(self) -> str:
-        """Bound, value and unit."""
-        return " ".join(filter(None, [self.bound, self.text, self.unit]))
 
 
 @dataclass(frozen=True)

@@ -103,7 +103,7 @@ def _cell(result: Result | None) -> str:
     if result is None:
         return "<td>–</td>"
     note = f"<span class=note>{escape(result.note)}</span>" if result.note else ""
-    return f"<td>{escape(result.shown)}{note}</td>"
+    return f"<td>{escape(result.with_unit)}{note}</td>"
 
 
 def _named(label: str, key: str) -> str:
