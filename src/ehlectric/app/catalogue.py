@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from functools import cache
 from typing import Any
 
@@ -42,7 +43,11 @@ def contradicts(designation: str, clearance_class: str) -> bool:
     >>> contradicts("6314-C3", "C4"), contradicts("6314-C3", "C3"), contradicts("6x14-C3", "C4")
     (True, False, False)
     """
-    return designated(designation).get("clearance_class", clearance_class) != clearance_class
+    from ehlectric.cases.bearing_inputs import is_of_another_class  # loads NumPy
+
+    with suppress(InputError):
+        return is_of_another_class(designation, clearance_class)
+    return False
 
 
 @cache
