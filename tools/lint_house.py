@@ -395,24 +395,17 @@ def words_in_names(root: Path) -> Iterator[Fault]:
 
 def names_of_faces(root: Path) -> Iterator[Fault]:
     """Yield names that a package offers to others in its ``__init__.pyi`` and that none of them imports."""
-    used = {
-        (node.module, name.name)
-        for module in modules(root)
-        for node in module.nodes
-        if isinstance(node, ast.ImportFrom) and node.module
-        for name in node.names
-    }
-    attributes = {
-        (f"ehlectric.{node.value.id}", node.attr)
-        for module in modules(root)
-        for node in module.nodes
-        if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name)
-    }
+    used: set[tuple[str, str]] = set()
+    for node in (node for module in modules(root) for node in module.nodes):
+        if isinstance(node, ast.ImportFrom) and node.module:
+            used |= {(node.module, name.name) for name in node.names}
+        elif isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
+            used.add((f"ehlectric.{node.value.id}", node.attr))
     for face in sorted((root / PACKAGE).glob("*/__init__.pyi")):
         package = f"ehlectric.{face.parent.name}"
         for node in ast.parse(face.read_text(encoding="utf-8")).body:
             for name in node.names if isinstance(node, ast.ImportFrom) else ():
-                if (package, name.name) not in used | attributes:
+                if (package, name.name) not in used:
                     yield Fault(face.relative_to(root), name.lineno, f"no other package imports {name.name}")
 
 
