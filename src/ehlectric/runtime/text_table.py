@@ -39,6 +39,9 @@ _NONE = "\x1f"
 # Characters of a number, and its largest length [characters].
 _OF_NUMBERS, _LONGEST_NUMBER = frozenset("0123456789+-.,eE"), 100
 
+# Characters of a line whose fields are all empty.
+_EMPTY = ' \t\r\f\v\u00a0;,"'
+
 # Signs that begin a line of comment.
 _COMMENT = "#%/"
 
@@ -455,7 +458,7 @@ def layout_of(path: object, lines: Sequence[str], *, strict: bool = False) -> La
     >>> table.dialect, table.columns, table.header
     (Dialect(separator=';', decimal=','), (0, 1), ('x [um];z [nm]',))
     """
-    filled = [(number, line) for number, line in enumerate(lines, 1) if line.strip()]
+    filled = [(number, line) for number, line in enumerate(lines, 1) if line.strip(_EMPTY)]
     if not filled:
         raise NoTableError(path, "is empty", takes="lines of numbers")
     if max(len(line) for _, line in filled) > _LONGEST:
@@ -527,4 +530,25 @@ def _first_row(
         raise InputError(
             path, f"line {number} is {shown(line.strip())}", takes="numbers below the first numbers"
         )
+    above = [dialect.fields(line) for _, line in filled[:begin]]
+    if above and _is_broken_row(above, dialect, columns, len(filled) - begin):
+        number, line = filled[begin - 1]
+        takes = "numbers in all columns as in the lines below it, or # before a line of the header"
+        raise InputError(path, f"line {number} is {shown(line.strip())}", takes=takes)
     return filled[begin][0] - 1
+
+
+def _is_broken_row(above: Sequence[list[str]], dialect: Dialect, columns: Sequence[int], count: int) -> bool:
+    """Whether the last line above the first row is a row that lacks a number, and not a part of the header.
+
+    A header may end with the number of rows; ``count`` is the number of known rows.
+    """
+    row = above[-1]
+    numbers = {k: dialect.number(field) for k, field in enumerate(row) if not is_void(field)}
+    if None not in numbers.values():
+        known = list(numbers.values())
+        return not (len(row) == 1 and known[0] is not None and known[0] >= count and known[0] % 1 == 0)
+    whole = len(row) > columns[-1] if dialect.separator else len(row) == columns[-1] + 1
+    below_row = len(above) > 1 and len(above[-2]) > columns[-1] and dialect.is_row(above[-2])
+    places = columns if below_row else columns[:1]
+    return whole and any(numbers.get(k) is not None for k in places)

@@ -64,6 +64,48 @@ def test_single_lines_of_numbers_above_the_heads_belong_to_the_header():
     assert layout("\n".join(["# t,u", "", "20", *rows])).header == ("t,u", "", "20")
 
 
+ROWS = "\n1e-6,2\n2e-6,3\n3e-6,4"
+
+
+@each(
+    "above, line",
+    [
+        ("t,u\n0.0", 2),
+        ("t,u\n\n0.0\n\n", 3),
+        ("0.0", 1),
+        ("t,u\n0.0,OL", 2),
+        ("t,u\n0,1\n1e-6,OL", 3),
+        ("t,u\n0,1\nOL,2", 3),
+        ("t,u\n,", None),
+        ("t,u\nnan,nan", 2),
+        ("t,u\n3", None),  # number of rows
+        ("t,u\n3.5", 2),
+        ("t,u\n2", 2),
+        ("Sample interval,1e-6", None),
+        ("# 0.0", None),
+    ],
+)
+def test_a_first_row_that_lacks_a_number_is_not_a_part_of_the_header(above, line):
+    if line is None:
+        assert layout(above + ROWS).first == len(above.split("\n"))
+        return
+    for strict in (False, True)[: 1 + (",2" not in above and "0,1" not in above)]:
+        with pytest.raises(InputError, match=f"line {line} is .*all columns"):
+            layout(above + ROWS, strict=strict)
+
+
+def test_an_empty_line_of_a_spreadsheet_separates_no_rows():
+    found = layout("t,u\n,\n0,1\n,\n1e-6,2\n2e-6,3\n")
+    assert found.first == 2
+    assert found.numbers(PATH, (0, 1), "0,1\n,\n1e-6,2", 3)[0].tolist() == [0.0, 1e-6]
+
+
+def test_words_above_columns_between_spaces_may_begin_with_a_number():
+    assert layout("6208 inner ring\n0 1\n1 2").first == 1
+    with pytest.raises(InputError, match="line 2 is '0 OL'"):
+        layout("t u\n0 OL\n1 2\n2 3")
+
+
 def test_a_header_may_be_longer_than_the_table():
     found = layout("\n".join([*(f"key {k}: value" for k in range(90)), "0;1,5", "1;2"]))
     assert (found.first, found.dialect) == (90, Dialect(";", ","))

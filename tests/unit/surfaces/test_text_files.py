@@ -81,6 +81,7 @@ DOUBTFUL = [
     (VALIDITY, [*[line + ";1" for line in rows_of(";")[:-1]], "99.50;1;"], "validity ''"),
     ([], [*rows_of(";")[:-1], "1e999;1"], "line 200\\b"),
     ([], [*rows_of(";")[:-1], "9e99;1"], " 10 m"),
+    (["x [um];z [nm]", "0.00"], rows_of(";")[1:], "line 2 is '0.00'"),
     # The rows above a wrong one are no header.
     ([], [*rows_of(";")[:1], "0.50;BAD", *rows_of(";")[2:]], "line 2\\b.*'BAD'|line 2 is"),
     (["x [um];z [nm]"], [*rows_of(";")[:1], "0.50;BAD", *rows_of(";")[2:]], "line 3\\b.*'BAD'"),

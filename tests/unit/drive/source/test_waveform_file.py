@@ -170,6 +170,8 @@ GOOD = [f"{k},{value:.4f}" for k, value in enumerate(wave(40))]
         (["a word", "and another"], "'and another'"),
         (["time [us],u [V]", *GOOD[:15]], "15 samples.* 16"),
         (["time [us],u [V]", GOOD[0]], " 1 samples"),
+        (["time [us],u [V]", "0", *GOOD[1:]], "line 2 is '0'"),
+        (["time [us],u [V]", *GOOD[:1], "1,OL", *GOOD[2:]], "line 3 is '1,OL'"),
         (["time [us],u [V]", *GOOD[:20], "overload", *GOOD[21:]], "line 22 .*column 2"),
         (["time [us],u [V]", *GOOD[:20], "20,abc", *GOOD[21:]], "line 22, column 2: .*'abc'"),
         (["time [us],u [V]", *GOOD[:20], "20,NaN", *GOOD[21:]], "line 22, column 2: .*'NaN'"),
