@@ -394,8 +394,12 @@ def words_in_names(root: Path) -> Iterator[Fault]:
 
 
 def names_of_faces(root: Path) -> Iterator[Fault]:
-    """Yield names that a package offers to others in its ``__init__.pyi`` and that none of them imports."""
-    used: set[tuple[str, str]] = set()
+    """Yield names that a package offers to others in its ``__init__.pyi`` and that none of them imports.
+
+    The ``__init__.pyi`` with the public names imports from the packages too.
+    """
+    public = root / PACKAGE / "__init__.pyi"
+    used = {(f"ehlectric.{node.module}", name.name) for node in _imports(public) for name in node.names}
     for node in (node for module in modules(root) for node in module.nodes):
         if isinstance(node, ast.ImportFrom) and node.module:
             used |= {(node.module, name.name) for name in node.names}
@@ -403,10 +407,15 @@ def names_of_faces(root: Path) -> Iterator[Fault]:
             used.add((f"ehlectric.{node.value.id}", node.attr))
     for face in sorted((root / PACKAGE).glob("*/__init__.pyi")):
         package = f"ehlectric.{face.parent.name}"
-        for node in ast.parse(face.read_text(encoding="utf-8")).body:
-            for name in node.names if isinstance(node, ast.ImportFrom) else ():
-                if (package, name.name) not in used:
-                    yield Fault(face.relative_to(root), name.lineno, f"no other package imports {name.name}")
+        for name in (name for node in _imports(face) for name in node.names):
+            if (package, name.name) not in used:
+                yield Fault(face.relative_to(root), name.lineno, f"no other package imports {name.name}")
+
+
+def _imports(face: Path) -> Iterator[ast.ImportFrom]:
+    """Yield the imports of an ``__init__.pyi``."""
+    nodes = ast.parse(face.read_text(encoding="utf-8")).body
+    return (node for node in nodes if isinstance(node, ast.ImportFrom))
 
 
 def renew(root: Path = ROOT) -> list[Fault]:

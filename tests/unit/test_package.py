@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from importlib import import_module
 
 import pytest
 
@@ -49,12 +50,34 @@ def test_a_sweep_of_contacts_begins_without_the_compiler_of_drives():
     assert not loaded & {"numba", "ehlectric.drive.discharges.march"}
 
 
-def test_public_names():
-    for name in ehlectric.__all__:
-        assert getattr(ehlectric, name) is not None
-    assert callable(ehlectric.solve)
-    with pytest.raises(AttributeError, match="nonsense"):
-        _ = ehlectric.nonsense
+NAMES = sorted({*ehlectric.__all__} - {"__version__"})
+
+
+def test_public_names_are_listed():
+    assert dir(ehlectric) == sorted(ehlectric.__all__)
+    assert {"solve", "Case", "film", "Laws", "InputError", "__version__"} <= {*ehlectric.__all__}
+    assert ehlectric.__version__ == ehlectric.version.__version__
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_public_name_is_the_object_of_its_module(name):
+    value = getattr(ehlectric, name)
+    assert value.__module__.startswith("ehlectric.")
+    assert value is getattr(import_module(value.__module__), name)
+
+
+def test_matplotlib_is_prepared_for_the_names_that_draw():
+    homes = {name: getattr(ehlectric, name).__module__.split(".")[1] for name in NAMES}
+    assert {name for name in NAMES if homes[name] in ("figures", "report")} == ehlectric._DRAWING
+
+
+def test_an_unknown_name_gets_the_nearest_one():
+    done = subprocess.run(
+        [sys.executable, "-c", "import ehlectric; ehlectric.solv"], capture_output=True, text=True
+    )
+    assert done.stderr.splitlines()[-1] == (
+        "AttributeError: module 'ehlectric' has no attribute 'solv'. Did you mean: 'solve'?"
+    )
 
 
 def test_help_of_cases_is_about_their_own_methods():

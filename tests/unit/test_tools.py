@@ -108,8 +108,11 @@ def test_an_entry_that_no_module_uses_is_found_with_its_line(tmp_path, rule, nam
 def test_a_name_of_a_face_that_no_other_package_imports_is_found(tmp_path):
     package(tmp_path, "film/__init__.py", "")
     (tmp_path / lint_house.PACKAGE / "film/__init__.pyi").write_text(
-        "from .mesh import Mesh as Mesh\nfrom .newton import newton as newton, step as step\n", "utf-8"
+        "from .mesh import Mesh as Mesh, Width as Width\nfrom .newton import newton, step\n",
+        "utf-8",
     )
+    public = tmp_path / lint_house.PACKAGE / "__init__.pyi"
+    public.write_text("from .film import Width as Width\n", "utf-8")
     (tmp_path / lint_house.PACKAGE / "a.py").write_text(
         "from ehlectric import film\nfrom ehlectric.film import Mesh\n\nfilm.step\n", "utf-8"
     )

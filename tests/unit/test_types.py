@@ -53,22 +53,25 @@ case = Case.line(lubricant="paper")
 solve(case).no_such_attribute
 solve(case, workers=2)
 """
+PUBLIC = sorted({*ehlectric.__all__} - {"__version__"})
+NAMES = "\n".join(["import ehlectric", *(f"reveal_type(ehlectric.{name})" for name in PUBLIC)])
 
 
 @pytest.fixture(scope="module")
 def told(tmp_path_factory):
     """Lines of mypy about scripts of a user, which have their own strict settings and no plugin.
 
-    Both scripts are checked at once, as most of the time goes into the package.
+    The scripts are checked at once, as most of the time goes into the package.
     """
     folder = tmp_path_factory.mktemp("user")
     (folder / "script.py").write_text(SCRIPT, encoding="utf-8")
     (folder / "wrong.py").write_text(WRONG, encoding="utf-8")
+    (folder / "names.py").write_text(NAMES, encoding="utf-8")
     # As of every installed package, what is wrong inside of this one is not looked for.
     settings = "[mypy]\nstrict = True\n[mypy-ehlectric.*]\nignore_errors = True\n"
     (folder / "mypy.ini").write_text(settings, encoding="utf-8")
     done = subprocess.run(
-        [sys.executable, "-m", "mypy", "--config-file", "mypy.ini", "script.py", "wrong.py"],
+        [sys.executable, "-m", "mypy", "--config-file", "mypy.ini", "script.py", "wrong.py", "names.py"],
         cwd=folder,
         env={"MYPYPATH": str(Path(ehlectric.__file__).parents[1]), "PATH": ""},
         capture_output=True,
@@ -100,3 +103,11 @@ def test_a_type_checker_finds_mistakes(told):
     lines = [line for line in told if line.startswith("wrong.py")]
     wrong = [line.split(":")[1] for line in lines if ": error" in line]
     assert {int(number) for number in wrong} == {4, 5, 6, 7, 9, 10}
+
+
+@pytest.mark.slow
+def test_a_type_checker_knows_every_public_name(told):
+    lines = [line for line in told if line.startswith("names.py")]
+    types = [line.partition("Revealed type is ")[2].strip('"') for line in lines]
+    assert len(types) == len(PUBLIC)
+    assert not [name for name, shown in zip(PUBLIC, types, strict=True) if shown in ("", "Any")]
