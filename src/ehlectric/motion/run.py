@@ -43,7 +43,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-def run(
+def solve_to_folder(
     case: Case, folder: str | Path, progress: Progress = silent, *, others: Sequence[str] = ()
 ) -> RunOutcome[xr.Dataset]:
     """Solve a contact with moving roughness, and write motion.nc and summary.json.

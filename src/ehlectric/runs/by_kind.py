@@ -154,7 +154,7 @@ def run_motion(
     measured: MeasuredFile | None = None,
 ) -> RunOutcome[xr.Dataset]:
     """Solve a transient contact, and write its results; the only solver is "ehlectric"."""
-    from ehlectric.motion.run import run
+    from ehlectric.motion.run import solve_to_folder
     from ehlectric.runtime.result_names import OF_MOTION
 
     solvers_of(solver, "--solver")
@@ -164,7 +164,7 @@ def run_motion(
         raise InputError("--solver", got=f"{shown(solver)} for a case with motion", takes="'ehlectric'")
     with alone_in(folder, locks=[RESULT_LOCK]) as folder:
         protect(folder, case)
-        return run(case, folder, progress, others=files_of_results(folder, keep=OF_MOTION))
+        return solve_to_folder(case, folder, progress, others=files_of_results(folder, keep=OF_MOTION))
 
 
 def solvers_of(given: str | Solvers, key: str = "solvers") -> Solvers:

@@ -15,7 +15,7 @@ from ehlectric.film.moving_patch import MovingFilm
 from ehlectric.film.newton import State
 from ehlectric.motion.motion_touching import Toucher, TouchHistory
 from ehlectric.motion.moving_contact import TransientContact
-from ehlectric.motion.run import run, run_motion
+from ehlectric.motion.run import run_motion, solve_to_folder
 from ehlectric.motion.solver import TransientSolver
 from ehlectric.motion.stored import TOUCHING, solved_part
 from ehlectric.motion.stored_run import MotionRun, read_motion
@@ -81,7 +81,7 @@ def written(tmp_path_factory):
         if text == "time steps" and done in (34, 41):
             files[done] = (folder / MOTION_JOURNAL).read_bytes()
 
-    return run(CASE, folder, progress), files
+    return solve_to_folder(CASE, folder, progress), files
 
 
 @pytest.mark.slow
@@ -181,7 +181,7 @@ def test_the_summary_tables_figures_and_warnings_say_it(written):
 @pytest.mark.slow
 def test_a_run_that_never_touches_says_nothing(tmp_path):
     """Its file, its table and its figure have nothing of asperities; its summary has no time with a spot."""
-    outcome = run(FULL, tmp_path)
+    outcome = solve_to_folder(FULL, tmp_path)
     assert not set(TOUCHING) & set(outcome.result.variables)
     found = outcome.summary["asperities"]
     assert (found["time_share"], found["load_share_mean"], found["load_share_largest_time"]) == (
@@ -281,7 +281,7 @@ def test_a_point_contact(tmp_path):
         if text == "time steps" and done >= 56:
             raise StoppedError
 
-    outcome = run(case, tmp_path / "whole")
+    outcome = solve_to_folder(case, tmp_path / "whole")
     with suppress(StoppedError):
         run_motion(case, tmp_path / "parts", progress=until)
     run_motion(case, tmp_path / "parts")

@@ -8,7 +8,7 @@ import pytest
 from ehlectric.errors import ConvergenceError
 from ehlectric.film.unsteady import UnsteadyFilm
 from ehlectric.motion.moving_contact import TransientContact
-from ehlectric.motion.run import run, run_motion
+from ehlectric.motion.run import run_motion, solve_to_folder
 from ehlectric.motion.stored_run import read_motion
 from ehlectric.runtime.result_names import MOTION
 from ehlectric.surfaces import rough_surfaces
@@ -58,7 +58,7 @@ def test_a_complete_run_without_a_summary_is_summed_up_alone(monkeypatch, comple
     """As it is left by who stops a run between its last step and its summary; files of others go."""
     (complete / "result.nc").write_text("of another result")
     calls = fail_at(monkeypatch, 1)
-    outcome = run(CASE, complete)
+    outcome = solve_to_folder(CASE, complete)
     assert not calls
     assert outcome.failure is None
     assert [path.name for path in outcome.files] == ["summary.json", MOTION]
@@ -71,7 +71,7 @@ def test_a_complete_run_without_a_summary_is_summed_up_alone(monkeypatch, comple
 def test_a_complete_run_with_a_summary_is_solved_again(monkeypatch, complete):
     (complete / "summary.json").write_text("{}")
     calls = fail_at(monkeypatch, 1)
-    outcome = run(CASE, complete)
+    outcome = solve_to_folder(CASE, complete)
     assert len(calls) == 1
     assert outcome.failure == "not converged: step 1 of 12: film not found"
 
@@ -80,7 +80,7 @@ def test_a_complete_run_with_a_summary_is_solved_again(monkeypatch, complete):
 def test_the_steps_before_a_failure_are_summed_up(monkeypatch, tmp_path):
     fail_at(monkeypatch, 7)
     told = []
-    outcome = run(CASE, tmp_path, lambda *what: told.append(what))
+    outcome = solve_to_folder(CASE, tmp_path, lambda *what: told.append(what))
     assert outcome.failure == "not converged: step 7 of 12: film not found"
     assert (outcome.summary["converged"], outcome.summary["motion"]["steps_done"]) == (False, 4)
     assert told[-1] == (4, 12, "time steps")
@@ -88,7 +88,7 @@ def test_the_steps_before_a_failure_are_summed_up(monkeypatch, tmp_path):
 
 def test_without_a_film_before_the_motion_there_is_nothing_to_sum_up(tmp_path):
     with pytest.raises(ConvergenceError, match=r"^film before the motion, "):
-        run(CASE.replace({"solver.max_iterations": 1}), tmp_path)
+        solve_to_folder(CASE.replace({"solver.max_iterations": 1}), tmp_path)
     assert not list(tmp_path.iterdir())
 
 
@@ -103,7 +103,9 @@ def test_a_run_reads_each_surface_once(tmp_path, monkeypatch):
 
     monkeypatch.setattr(rough_surfaces, "read_surface", counted)
     rough = {"surface": 1, "file": str(DEKTAK), "form": "parabola"}
-    run(moving(LINE, roughness=[rough], motion={"passes": 0.25, "steps": 2, "record": 2}), tmp_path)
+    solve_to_folder(
+        moving(LINE, roughness=[rough], motion={"passes": 0.25, "steps": 2, "record": 2}), tmp_path
+    )
     assert list(map(str, paths)) == [str(DEKTAK)]
 
 

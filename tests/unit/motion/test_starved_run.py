@@ -10,7 +10,7 @@ from ehlectric.contact.conditions import resolve
 from ehlectric.errors import ConvergenceError
 from ehlectric.film.moving_patch import MovingFilm
 from ehlectric.film.unsteady import UnsteadyFilm
-from ehlectric.motion.run import run
+from ehlectric.motion.run import solve_to_folder
 from ehlectric.motion.stored_run import read_motion
 from ehlectric.quantities.results import MOTION_KEYS
 from ehlectric.tables.motion_tables import run_rows
@@ -24,7 +24,7 @@ CASE = moving(LINE, inlet={"oil_layer": LAYER}, motion=SHORT)
 
 @pytest.fixture(scope="module")
 def outcome(tmp_path_factory):
-    return run(CASE, tmp_path_factory.mktemp("starved"))
+    return solve_to_folder(CASE, tmp_path_factory.mktemp("starved"))
 
 
 @pytest.mark.slow
@@ -76,9 +76,9 @@ def test_a_stopped_run_goes_on_as_if_it_had_not_been_stopped(outcome, monkeypatc
         return advance(self, history, length)
 
     monkeypatch.setattr(UnsteadyFilm, "advance", failing)
-    assert run(CASE, tmp_path).failure is not None
+    assert solve_to_folder(CASE, tmp_path).failure is not None
     monkeypatch.setattr(UnsteadyFilm, "advance", advance)
-    assert run(CASE, tmp_path).failure is None
+    assert solve_to_folder(CASE, tmp_path).failure is None
     resumed = read_motion(tmp_path)
     for name in ("central_thickness", "meniscus", "max_pressure"):
         np.testing.assert_array_equal(resumed[name].values, outcome.result[name].values)
@@ -87,7 +87,7 @@ def test_a_stopped_run_goes_on_as_if_it_had_not_been_stopped(outcome, monkeypatc
 @pytest.mark.slow
 def test_a_layer_that_floods_the_inlet_is_told(tmp_path):
     case = moving(LINE, inlet={"oil_layer": "20 um"}, motion={"passes": 0.1, "record": 2})
-    found = run(case, tmp_path)
+    found = solve_to_folder(case, tmp_path)
     assert found.summary["film"]["meniscus_before"] is None
     assert found.summary["film"]["meniscus_least"] is None
     assert "film_fraction" not in found.result
@@ -99,7 +99,7 @@ def test_a_point_contact_runs_with_a_layer_over_y(tmp_path):
     """More oil on one side: the film is thicker there, and the contact is solved without symmetry."""
     table = {"y": [-50e-6, 50e-6], "thickness": [80e-9, 160e-9]}
     case = moving(POINT, inlet={"layer_table": table}, motion={"passes": 0.2, "record": 2})
-    found = run(case, tmp_path)
+    found = solve_to_folder(case, tmp_path)
     assert found.failure is None
     assert found.summary["film"]["oil_layer"] == pytest.approx(120e-9, rel=1e-9)
     y = found.result["y"].values
@@ -110,7 +110,7 @@ def test_a_point_contact_runs_with_a_layer_over_y(tmp_path):
 
 @pytest.mark.slow
 def test_a_layer_thinner_than_the_boundary_film_leaves_the_load_to_asperities(tmp_path):
-    found = run(moving(LINE, inlet={"oil_layer": 1e-9}, motion=SHORT), tmp_path)
+    found = solve_to_folder(moving(LINE, inlet={"oil_layer": 1e-9}, motion=SHORT), tmp_path)
     assert found.failure is None
     assert found.result["asperity_load_share"].values[-1] > 0.9
 
