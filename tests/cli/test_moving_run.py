@@ -205,7 +205,7 @@ def test_a_step_that_is_not_solved(typed, tmp_path, monkeypatch, case_file):
     def failing(self, history, step):
         if history.now.time > 1.1:
             raise ConvergenceError("film not found at T = 1.3125")
-        # The companion of the run has steps twice as long.
+        # The coarse run has steps twice as long.
         if step < 0.3:
             done_before.append(history.now.time)
         return advance(self, history, step)

@@ -68,7 +68,7 @@ class TouchHistory:
     load_share: Array
     area_share: Array
     spots: Array
-    # Load share in the companion of the run; NaN between its steps, where it has no film, and where a file
+    # Load share in the coarse run; NaN between its steps, where it has no film, and where a file
     # has no such variable, as nothing touched, shape (steps,).
     coarse_share: Array
     # Steps that count for statistics: those from which on the roughness fills the contact, shape (steps,).
@@ -114,13 +114,13 @@ class TouchHistory:
 
     @property
     def coarser(self) -> float | None:
-        """Mean load share of the companion at its steps that count; None if it lacks one of them."""
+        """Mean load share of the coarse run at its steps that count; None if it lacks one of them."""
         steps = self._coarser_steps
         return None if steps is None else float(np.mean(self.coarse_share[steps]))
 
     @property
     def share_change(self) -> float:
-        """Change of the mean load share from the companion, at the same steps; NaN if unknown."""
+        """Change of the mean load share from the coarse run, at the same steps; NaN if unknown."""
         steps = self._coarser_steps
         if steps is None:
             return math.nan

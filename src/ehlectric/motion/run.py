@@ -13,7 +13,7 @@ from ehlectric.cases.case import Case
 from ehlectric.contact import PointResult, PreparedContact, Result, prepare, solve
 from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.film import History
-from ehlectric.motion.companion import Companion
+from ehlectric.motion.coarse_run import CoarseRun
 from ehlectric.motion.moving_contact import TransientContact
 from ehlectric.motion.solver import TransientSolver
 from ehlectric.motion.storage import (
@@ -142,19 +142,19 @@ def _steps(
     progress: Progress,
 ) -> bool:
     """Solve the time steps that a journal lacks; whether the run is complete."""
-    solver, companion = TransientSolver(contact), Companion(contact)
+    solver, coarse_run = TransientSolver(contact), CoarseRun(contact)
     if resumed is None:
         progress(0, contact.schedule.steps, "film before the motion")
-        resumed = 0, *_begin(journal, solver, companion, prepared)
+        resumed = 0, *_begin(journal, solver, coarse_run, prepared)
     done, history, coarse = resumed
-    coarse = companion.resumed(coarse, done)
+    coarse = coarse_run.resumed(coarse, done)
     try:
         progress(done, contact.schedule.steps, "time steps")
         started, rows = time.perf_counter(), list[TimeStep]()
         recorded = set(contact.schedule.recorded.tolist())
         for step, latest in solver.run(history, done):
-            coarse = companion.after(step, coarse)
-            rows.append(time_step(solver, latest, companion.films(step, coarse)))
+            coarse = coarse_run.after(step, coarse)
+            rows.append(time_step(solver, latest, coarse_run.films(step, coarse)))
             if step in recorded:
                 snapshot = solver.snapshot(latest.now)
                 since, started = started, time.perf_counter()
@@ -167,16 +167,16 @@ def _steps(
 
 
 def _begin(
-    journal: MotionJournal, solver: TransientSolver, companion: Companion, prepared: PreparedContact
+    journal: MotionJournal, solver: TransientSolver, coarse_run: CoarseRun, prepared: PreparedContact
 ) -> tuple[History, History | None]:
     """Write the film before the motion as the first instant, with the film of stationary roughness.
 
-    Returns the films before the motion of the run and of its companion, None where that did not converge.
+    Returns the films before the motion of the run and of its coarse run, None where that did not converge.
     """
     contact, started = solver.contact, time.perf_counter()
     at_rest = contact.case.replace(motion=None)
     still = solve(replace(prepared, case=at_rest), beside_smooth=False)
-    history, coarse = solver.start(), companion.start()
+    history, coarse = solver.start(), coarse_run.start()
     first = solver.snapshot(history.now)
     maps, numbers = _stationary(contact, still)
     attributes = {
@@ -189,7 +189,7 @@ def _begin(
         "rough": described(contact),
     }
     attributes |= warnings_as_attributes(motion_warnings(contact, still))
-    rows = [time_step(solver, history, companion.films(0, coarse))]
+    rows = [time_step(solver, history, coarse_run.films(0, coarse))]
     record = Record(0, rows, first, history, coarse, time.perf_counter() - started)
     journal.begin(record, attributes | contact.schedule.moments(), maps)
     return history, coarse

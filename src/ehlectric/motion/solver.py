@@ -25,7 +25,7 @@ from ehlectric.film import (
     meniscus_of,
     pressure_of,
 )
-from ehlectric.motion.companion import KeyFilms
+from ehlectric.motion.coarse_run import KeyFilms
 from ehlectric.motion.motion_touching import Touch, Toucher
 from ehlectric.motion.moving_contact import TransientContact
 from ehlectric.runtime.threads import quiet_solution
@@ -104,7 +104,7 @@ class TransientSolver:
         )
 
     def key_films(self, instant: Instant) -> KeyFilms:
-        """Film thicknesses of an instant that are compared with those of the companion."""
+        """Film thicknesses of an instant that are compared with those of the coarse run."""
         mesh, scale = self._moving.film.level.mesh, self.contact.problem.scales.thickness
         return KeyFilms.of(mesh, instant, scale)
 

@@ -21,7 +21,7 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.errors import DamagedError, UnreadableError
 from ehlectric.film import History, Instant, State
-from ehlectric.motion.companion import KeyFilms
+from ehlectric.motion.coarse_run import KeyFilms
 from ehlectric.motion.moving_contact import TransientContact
 from ehlectric.motion.solver import Snapshot, TransientSolver
 from ehlectric.motion.stored import (
@@ -52,7 +52,7 @@ from ehlectric.version import __version__
 
 
 def time_step(solver: TransientSolver, history: History, coarse: KeyFilms) -> TimeStep:
-    """Values of the last time step of a history, with the film thicknesses of the companion there."""
+    """Values of the last time step of a history, with the film thicknesses of the coarse run there."""
     contact, instant = solver.contact, history.now
     extremes, films, touch = solver.extremes(instant), solver.key_films(instant), solver.touch(instant)
     x, *y = np.atleast_1d(extremes.minimum_position).tolist()
@@ -84,7 +84,7 @@ class Record:
     """Recorded instant ``snapshot``, with the time steps since the recorded instant before it.
 
     ``rows`` are the values of these steps in order, up to ``step``. A run is resumed from ``history`` and
-    ``coarse``, the films of its last two steps and those of its companion, None where the companion did not
+    ``coarse``, the films of its last two steps and those of its coarse run, None where the coarse run did not
     converge. ``seconds`` is the computing time since the recorded instant before.
     """
 
@@ -179,7 +179,7 @@ class MotionJournal(Journal):
         )
 
     def resumed(self) -> tuple[int, History, History | None] | None:
-        """Last recorded step of a run of the same case, and films to resume run and companion.
+        """Last recorded step of a run of the same case, and films to resume run and coarse run.
 
         None if the journal is empty, or contains another run.
         """

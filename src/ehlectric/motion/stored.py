@@ -6,7 +6,7 @@ the computing time since the instant before [s], and ``numbers``, a JSON object 
 instant and lists with the numbers of the time steps since the instant before, by the names of the variables
 of motion.nc. ``arrays`` contains the raw bytes of arrays with their type of NumPy and their shape, by part,
 time step and name. The parts are "maps" of the instants, "still", the nodes and the maps of stationary
-roughness, and the films from which the run and its companion are resumed, "films" and "coarse films".
+roughness, and the films from which the run and its coarse run are resumed, "films" and "coarse films".
 ``seal`` is the CRC-32 of the row.
 """
 
@@ -84,7 +84,7 @@ STILL, MAPS, FILMS, COARSE = "still", "maps", "films", "coarse films"
 _SINCE = "time since the roughness began to enter"
 _LEAST, _STRONGEST = "position of the minimum film thickness", "position of the maximum field strength"
 _ALONG, _ACROSS = "along entrainment", "across entrainment"
-_OF_COMPANION, _IN_COMPANION = (f"{word} the companion, NaN between its steps" for word in ("of", "in"))
+_OF_COARSE_RUN, _IN_COARSE_RUN = (f"{word} the coarse run, NaN between its steps" for word in ("of", "in"))
 _BETWEEN = "minimum film thickness between the nodes"
 _CENTRAL = "film thickness at the centre"
 _CARRIED = "part of the load that asperities carry"
@@ -108,10 +108,10 @@ class TimeStep:
     lowest_thickness: float = field(metadata=stored("", "m", "finite", _BETWEEN))
     central_thickness: float = field(metadata=stored("", "m", "positive", f"{_CENTRAL} of the contact"))
     coarse_lowest_thickness: float = field(
-        metadata=stored("", "m", "finite or NaN", f"{_BETWEEN} {_OF_COMPANION}")
+        metadata=stored("", "m", "finite or NaN", f"{_BETWEEN} {_OF_COARSE_RUN}")
     )
     coarse_central_thickness: float = field(
-        metadata=stored("", "m", "not negative or NaN", f"{_CENTRAL} {_OF_COMPANION}")
+        metadata=stored("", "m", "not negative or NaN", f"{_CENTRAL} {_OF_COARSE_RUN}")
     )
     max_pressure: float = field(metadata=stored("", "Pa", "not negative", "maximum pressure"))
     thin_gap_strength: float = field(
@@ -124,7 +124,7 @@ class TimeStep:
     contact_area_share: float = field(metadata=stored("", "1", "not negative", _TOUCHED, needed=False))
     spots: int = field(metadata=stored("", "1", "whole", _SPOTS, needed=False))
     coarse_asperity_load_share: float = field(
-        metadata=stored("", "1", "not negative or NaN", f"{_CARRIED} {_IN_COMPANION}", needed=False)
+        metadata=stored("", "1", "not negative or NaN", f"{_CARRIED} {_IN_COARSE_RUN}", needed=False)
     )
     meniscus: float | None = field(metadata=stored("", "m", "finite or NaN", _MENISCUS, needed=False))
     temperature_rise: float | None = field(metadata=stored("", "K", "finite", _WARM, needed=False))
@@ -271,7 +271,7 @@ def layout_of(file: sqlite3.Connection) -> Layout:
 def _numbers_of(instants: Sequence[Mapping[str, Any]]) -> dict[str, Array]:
     """Values over the recorded instants, and over the time steps, by the names of their variables.
 
-    Those of asperities are left out if surfaces touch at no step of the run or of its companion.
+    Those of asperities are left out if surfaces touch at no step of the run or of its coarse run.
     """
     values: dict[str, Array] = {}
     for name, first in instants[0].items():

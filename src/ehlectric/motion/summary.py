@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 # The minimum counts as near its lowest value over time up to this multiple of it.
 _NEAR_LOWEST = 1.05
 
-# Part of the change from the companion that is the error of the run. With second order a third would be left.
+# Part of the change from the coarse run that is the error of the run. With second order it would be a third.
 # The minimum at the constriction converges more slowly, and so does a film wave that is short
 # against the grid; the order of the minimum covers both.
 _PART_LEFT = 1.0 / (2.0**MINIMUM_ORDER - 1.0)
@@ -53,10 +53,10 @@ class RunErrors:
 
 
 def run_errors(run: MotionRun) -> RunErrors | None:
-    """Discretisation errors of a run; None if its companion did not converge at all steps, or it has none.
+    """Discretisation errors of a run; None if its coarse run did not converge at all steps, or it has none.
 
-    Runs of earlier versions have no companion. A run whose surfaces touch has no errors either: its minimum
-    is the boundary film, and its load share is compared with that of the companion.
+    Runs of earlier versions have no coarse run. A run whose surfaces touch has no errors either: its minimum
+    is the boundary film, and its load share is compared with that of the coarse run.
     """
     names = ("lowest_thickness", "coarse_lowest_thickness", "central_thickness", "coarse_central_thickness")
     if any(name not in run.dataset for name in names) or TouchHistory.of(run) is not None:
@@ -70,10 +70,10 @@ def run_errors(run: MotionRun) -> RunErrors | None:
 
 
 def estimated(lowest: tuple[Array, Array], central: tuple[Array, Array], minimum: float) -> RunErrors:
-    """Errors of a run from its film thicknesses and those of its companion at the same instants.
+    """Errors of a run from its film thicknesses and those of its coarse run at the same instants.
 
     ``lowest`` and ``central`` are the minimum film thickness between the nodes and the central film thickness
-    over time, of the run and of its companion, in any unit, shape (n,).
+    over time, of the run and of its coarse run, in any unit, shape (n,).
 
     Two minima over time may agree by chance. Their change is therefore the largest one of all instants at
     which the minimum of either film is within 5 % of its lowest value over time. The distance of the lowest

@@ -1,9 +1,9 @@
-"""Estimate of the error of a run: its companion against a run of its own, and made-up films by hand."""
+"""Estimate of the error of a run: its coarse run against a run of its own, and made-up films by hand."""
 
 import numpy as np
 import pytest
 
-from ehlectric.motion.companion import Companion
+from ehlectric.motion.coarse_run import CoarseRun
 from ehlectric.motion.moving_contact import TransientContact
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import MotionRun, read_motion
@@ -17,8 +17,8 @@ def solved(case, folder):
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("table", "steps"), [(LINE, 32), (LINE, 33), (POINT, 8)])
-def test_the_companion_is_a_run_on_every_second_node_with_twice_the_step(table, steps, tmp_path):
-    """As solved from a case of its own; the last step of an odd number has no companion."""
+def test_the_coarse_run_is_a_run_on_every_second_node_with_twice_the_step(table, steps, tmp_path):
+    """As solved from a case of its own; the last step of an odd number has no coarse run."""
     duration = 1.2 * TransientContact.of(moving(table)).schedule.time
     fine = {"duration": duration, "steps": steps, "record": 2}
     coarse = {"duration": duration * (steps // 2 * 2) / steps, "steps": steps // 2, "record": 2}
@@ -31,7 +31,7 @@ def test_the_companion_is_a_run_on_every_second_node_with_twice_the_step(table, 
 
 
 def test_of_a_second_order_film_more_than_the_third_of_the_change_is_estimated():
-    """An error of e on the run is 4 e on its companion; here 1 % and 2 %."""
+    """An error of e on the run is 4 e on its coarse run; here 1 % and 2 %."""
     ones = np.ones(5)
     errors = estimated((0.99 * ones, 0.96 * ones), (1.02 * ones, 1.08 * ones), 0.99)
     assert 0.01 / 0.99 < errors.minimum < 3.0 * 0.01
@@ -53,10 +53,10 @@ def test_the_place_between_the_nodes_counts():
 
 
 @pytest.mark.slow
-def test_a_companion_that_does_not_converge_leaves_the_error_unknown(tmp_path, monkeypatch):
+def test_a_coarse_run_that_does_not_converge_leaves_the_error_unknown(tmp_path, monkeypatch):
     case = moving(motion={"passes": 0.25, "steps": 8, "record": 3})
-    after = Companion.after
-    monkeypatch.setattr(Companion, "after", lambda self, n, h: None if n == 6 else after(self, n, h))
+    after = CoarseRun.after
+    monkeypatch.setattr(CoarseRun, "after", lambda self, n, h: None if n == 6 else after(self, n, h))
     run = MotionRun.of(solved(case, tmp_path))
     assert run_errors(run) is None
     summary = summary_of(run.dataset)

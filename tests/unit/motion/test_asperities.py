@@ -222,7 +222,7 @@ def test_statistics_over_time():
     assert found["time_share"] == 0.5
 
 
-def test_the_load_share_of_the_companion():
+def test_the_load_share_of_the_coarse_run():
     """At every second step; a change of the share by above a tenth is told, and a lack of it."""
 
     def of(coarse):
@@ -241,7 +241,7 @@ def test_the_load_share_of_the_companion():
     assert "load-share-unresolved" in codes
 
 
-def test_spots_of_the_companion_alone_change_nothing():
+def test_spots_of_the_coarse_run_alone_change_nothing():
     """On its coarse grid a film may touch that does not on the grid of the run."""
     without = made(LONG, times=TIMES)
     coarse = touching([0] * 6, coarse=[0.5] * 6)

@@ -210,7 +210,7 @@ def test_a_run_that_was_stopped_goes_on_to_the_last_bit(tmp_path, whole, stopped
     assert done.attrs["seconds"] > spent
 
 
-# Parts of an instant in succession: maps, films of the run, films of its companion.
+# Parts of an instant in succession: maps, films of the run, films of its coarse run.
 @pytest.mark.parametrize(("instant", "parts"), [(1, 2), (2, 1), pytest.param(2, 3, marks=pytest.mark.slow)])
 def test_an_instant_that_is_half_written_does_not_count(
     tmp_path, monkeypatch, whole, stopped, instant, parts
@@ -513,7 +513,7 @@ def test_a_step_that_is_not_solved_leaves_what_was_found(tmp_path, monkeypatch, 
     own = TransientContact.of(CASE).schedule.step
 
     def failing(self, history, step):
-        if step > 1.5 * own:  # a step of the companion
+        if step > 1.5 * own:  # a step of the coarse run
             return advance(self, history, step)
         if len(solved) == 6:
             raise ConvergenceError("film not found at T = 1.3")

@@ -11,7 +11,7 @@ import pytest
 
 from ehlectric.film.newton import State
 from ehlectric.film.unsteady import History, Instant
-from ehlectric.motion.companion import Companion
+from ehlectric.motion.coarse_run import CoarseRun
 from ehlectric.motion.moving_contact import TransientContact
 from ehlectric.motion.solver import TransientSolver
 from ehlectric.motion.storage import MotionJournal, Record, described, time_step
@@ -41,9 +41,9 @@ def history(frame, *, touching=False):
 def first():
     """Contact, and the film before the motion as the first recorded instant."""
     contact = TransientContact.of(CASE)
-    solver, companion = TransientSolver(contact), Companion(contact)
-    start, coarse = solver.start(), companion.start()
-    row = time_step(solver, start, companion.films(0, coarse))
+    solver, coarse_run = TransientSolver(contact), CoarseRun(contact)
+    start, coarse = solver.start(), coarse_run.start()
+    row = time_step(solver, start, coarse_run.films(0, coarse))
     return contact, Record(0, [row], solver.snapshot(start.now), start, coarse, 0.25)
 
 
@@ -86,7 +86,7 @@ def test_films_come_back_to_the_last_bit(tmp_path, first, touching):
         same(found.before, expected.before)
 
 
-def test_a_companion_that_did_not_converge_is_not_kept(tmp_path, first):
+def test_a_coarse_run_that_did_not_converge_is_not_kept(tmp_path, first):
     contact, record = first
     assert kept(tmp_path, contact, record, replace(record, step=4, coarse=None))[2] is None
 

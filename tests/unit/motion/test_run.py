@@ -36,7 +36,7 @@ def complete(folder, tmp_path):
 def fail_at(monkeypatch, step):
     """Let the time step of a number fail, counted from the beginning or from where a run is resumed.
 
-    Steps of the companion, which are longer, are not counted.
+    Steps of the coarse run, which are longer, are not counted.
     """
     advance, calls = UnsteadyFilm.advance, []
     own = TransientContact.of(CASE).schedule.step

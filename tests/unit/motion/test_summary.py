@@ -243,7 +243,7 @@ def test_film_over_time():
         "minimum_position": 3e-5,
         "max_pressure": 5e9,
         "max_pressure_time": pytest.approx(scale),
-        "discretisation_error": None,  # a run of an earlier version, which has no companion
+        "discretisation_error": None,  # a run of an earlier version, which has no coarse run
         "minimum_thickness_error": None,
         "central_thickness_error": None,
     }

@@ -1,5 +1,5 @@
-"""Companion of a run: the same motion on every second node with steps twice as long, for an error
-estimate.
+"""Coarse run: the same motion on every second node with steps twice as long, for an estimate of the
+error.
 
 It is solved step by step with the run. It takes about a fifth of the time of the run: it has half the steps,
 each with half the nodes of a line contact or a quarter of those of a point contact.
@@ -18,19 +18,19 @@ from ehlectric.motion.motion_touching import Toucher
 from ehlectric.motion.moving_contact import TransientContact
 from ehlectric.runtime.threads import quiet_solution
 
-# Number of steps of the run in a step of the companion.
+# Number of steps of the run in a step of the coarse run.
 STRIDE = 2
 
 
 @dataclass(frozen=True)
 class KeyFilms:
-    """Film thicknesses and load share of asperities by which a run is compared with its companion."""
+    """Film thicknesses and load share of asperities by which a run is compared with its coarse run."""
 
-    # Minimum film thickness between the nodes [m]; NaN where the companion has no film.
+    # Minimum film thickness between the nodes [m]; NaN where the coarse run has no film.
     lowest: float = math.nan
-    # Film thickness at the centre of the contact [m]; NaN where the companion has no film.
+    # Film thickness at the centre of the contact [m]; NaN where the coarse run has no film.
     central: float = math.nan
-    # Part of the load that asperities carry; NaN where the companion has no film.
+    # Part of the load that asperities carry; NaN where the coarse run has no film.
     load_share: float = math.nan
 
     @classmethod
@@ -40,10 +40,10 @@ class KeyFilms:
         return cls(scale * lowest(mesh, thickness), scale * at_centre(mesh, thickness), load_share)
 
 
-class Companion:
+class CoarseRun:
     """Run on every second node with steps twice as long, advanced together with its run.
 
-    Its steps end with every second step of the run. A run whose companion does not converge goes on without
+    Its steps end with every second step of the run. A run whose coarse run does not converge goes on without
     it, and its error is unknown.
     """
 
@@ -62,9 +62,9 @@ class Companion:
             return None
 
     def resumed(self, history: History | None, done: int) -> History | None:
-        """Films from which the companion goes on after step ``done`` of the run.
+        """Films from which the coarse run goes on after step ``done`` of the run.
 
-        None where the stored films belong to an earlier step: the companion had not converged since.
+        None where the stored films belong to an earlier step: the coarse run had not converged since.
         """
         if history is None:
             return None
@@ -72,9 +72,9 @@ class Companion:
         return history if round(steps) == done // STRIDE else None
 
     def after(self, step: int, history: History | None) -> History | None:
-        """Films of the companion after a step of the run, from its ``history`` before.
+        """Films of the coarse run after a step of the run, from its ``history`` before.
 
-        Between two steps of the companion its films are returned unchanged. None if the companion does not
+        Between two steps of the coarse run its films are returned unchanged. None if the coarse run does not
         converge, now or before.
         """
         if history is None or step % STRIDE:
