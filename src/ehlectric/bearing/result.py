@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from ehlectric.bearing.bearing_discharges import shaft_voltage
 from ehlectric.bearing.bearing_kinds import kind_of
@@ -36,7 +36,7 @@ from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import readable
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.progress import Progress
-from ehlectric.runtime.values import Shown, headline, is_number, read_only_property
+from ehlectric.runtime.values import ResultKind, Shown, headline, is_number, read_only_property
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -76,6 +76,8 @@ class BearingResult(Shown):
     >>> result.converged, result.breaks()["first_break_at"]
     (True, 'inner contact of element 0')
     """
+
+    result_kind: ClassVar[ResultKind] = "bearing"
 
     solution: BearingSolution
     stored_duty: DutyResult | None = field(default=None, compare=False)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
 from scipy.special import stdtrit
@@ -19,7 +19,7 @@ from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
 from ehlectric.readable import readable
 from ehlectric.runtime.files import Content, column_head, csv_of, json_of, plain
 from ehlectric.runtime.result_names import MEASURED, MEASURED_ROWS
-from ehlectric.runtime.values import Shown, headline
+from ehlectric.runtime.values import ResultKind, Shown, headline
 from ehlectric.version import __version__
 
 if TYPE_CHECKING:
@@ -233,6 +233,8 @@ class FilmFactors(Shown):
     warnings : tuple of ResultWarning
         Warnings about the measurement and about the computed films.
     """
+
+    result_kind: ClassVar[ResultKind] = "measurement"
 
     title: str
     source: str

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Generic, TypeVar
+from typing import Any, ClassVar, Generic, TypeVar
 
 import numpy as np
 
@@ -29,7 +29,7 @@ from ehlectric.film import Film, PointFilm
 from ehlectric.quantities.field_metadata import stored
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.verdict import Verdict
-from ehlectric.runtime.values import Shown, Values, read_only_property
+from ehlectric.runtime.values import ResultKind, Shown, Values, read_only_property
 from ehlectric.surfaces.maps import Map
 from ehlectric.surfaces.maps import statistics as of_map
 from ehlectric.surfaces.profiles import FLAT, Profile
@@ -67,6 +67,8 @@ class Smooth(Values):
 @dataclass(frozen=True, eq=False, repr=False)
 class Solution(Shown, Generic[ConditionsT, FilmT, FieldT]):
     """Film and field of one contact."""
+
+    result_kind: ClassVar[ResultKind] = "contact"
 
     case: Case | Setup  # case that was solved, or setup if the contact was solved without a case
     conditions: ConditionsT  # operating conditions, SI units

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -25,7 +25,7 @@ from ehlectric.quantities.results import EVENT_COLUMNS, NAMES_OF_ENDS, SPECTRUM_
 from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import readable
 from ehlectric.runtime.progress import Progress, silent
-from ehlectric.runtime.values import Shown, headline
+from ehlectric.runtime.values import ResultKind, Shown, headline
 from ehlectric.version import __version__
 
 if TYPE_CHECKING:
@@ -55,6 +55,8 @@ class DriveResult(Shown):
     version : str
         Version of ehlectric that solved it.
     """
+
+    result_kind: ClassVar[ResultKind] = "drive"
 
     solution: DriveSolution
     remedies: tuple[tuple[str, dict[str, Any], DriveSolution], ...] = ()

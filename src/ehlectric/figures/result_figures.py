@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from matplotlib.figure import Figure
 
@@ -23,6 +23,7 @@ from ehlectric.figures.style import style as styled
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
 from ehlectric.runtime.undrawn import Drawn
+from ehlectric.runtime.values import ResultKind
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -274,25 +275,27 @@ def _of_sweeps() -> _Draws:
     )
 
 
-# Functions of the kinds of results, by the classes of the results.
-_KINDS: Mapping[str, Callable[[], _Draws]] = MappingProxyType(
+# Functions that draw each kind of result; a dataset is a stored run with moving roughness.
+_KINDS: Mapping[ResultKind | Literal["dataset"], Callable[[], _Draws]] = MappingProxyType(
     {
-        "ehlectric.contact.result.Result": _of_contacts,
-        "ehlectric.contact.result.PointResult": _of_contacts,
-        "ehlectric.bearing.result.BearingResult": _of_bearings,
-        "ehlectric.drive.result.DriveResult": _of_drives,
-        "ehlectric.cases.film_factors.FilmFactors": _of_measurements,
-        "ehlectric.motion.stored_run.MotionRun": _of_motions,
-        "xarray.core.dataset.Dataset": _of_datasets,
-        "ehlectric.sweep.result.SweepResults": _of_sweeps,
+        "contact": _of_contacts,
+        "bearing": _of_bearings,
+        "drive": _of_drives,
+        "motion": _of_motions,
+        "dataset": _of_datasets,
+        "sweep": _of_sweeps,
+        "measurement": _of_measurements,
     }
 )
 
 
 def _draws_of(result: AnyResult) -> _Draws:
-    """Functions that draw a result, by its class. Raises InputError if it is no result."""
-    names = (f"{kind.__module__}.{kind.__qualname__}" for kind in type(result).__mro__)
-    known = next((_KINDS[name] for name in names if name in _KINDS), None)
-    if known is None:
-        raise InputError("result", got=shown(type(result).__name__), takes="a result of ehlectric")
-    return known()
+    """Functions that draw a result, by its kind. Raises InputError if it is no result."""
+    kind = getattr(type(result), "result_kind", None)
+    if kind is not None:
+        return _KINDS[kind]()
+    import xarray as xr
+
+    if isinstance(result, xr.Dataset):
+        return _KINDS["dataset"]()
+    raise InputError("result", got=shown(type(result).__name__), takes="a result of ehlectric")

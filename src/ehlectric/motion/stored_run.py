@@ -8,7 +8,7 @@ import tomllib
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, ClassVar, Self
 
 import numpy as np
 
@@ -24,7 +24,7 @@ from ehlectric.runtime.folders import locked
 from ehlectric.runtime.journal import begun, lock_of, reading
 from ehlectric.runtime.netcdf import content_of, opened, read_dataset
 from ehlectric.runtime.result_names import MOTION, MOTION_CHANGES, MOTION_JOURNAL
-from ehlectric.runtime.values import Values, read_only_property
+from ehlectric.runtime.values import ResultKind, Values, read_only_property
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -229,6 +229,8 @@ class MotionRun(Values):
     conditions : Conditions or PointConditions
         Operating conditions of the case.
     """
+
+    result_kind: ClassVar[ResultKind] = "motion"
 
     dataset: xr.Dataset
     case: Case

@@ -18,7 +18,7 @@ from contextlib import suppress
 from dataclasses import fields, is_dataclass
 from functools import cached_property, partial
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeGuard, TypeVar, overload
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self, TypeGuard, TypeVar, overload
 
 import numpy as np
 
@@ -30,6 +30,9 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 R = TypeVar("R")
+
+# Kinds of results. The functions that draw a result are in a table by its kind.
+ResultKind = Literal["contact", "bearing", "drive", "motion", "sweep", "measurement"]
 
 # Longest representation [characters].
 WIDTH = 200
@@ -256,6 +259,8 @@ class Shown(Tabled, Values):
 
     Its arrays are read-only.
     """
+
+    result_kind: ClassVar[ResultKind]
 
     def __post_init__(self) -> None:
         self._make_read_only()

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from functools import cached_property, partial
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO, ClassVar
 
 import numpy as np
 
@@ -27,7 +27,7 @@ from ehlectric.runtime.files import Content, column_head, csv_of, write_together
 from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
 from ehlectric.runtime.netcdf import content_of
 from ehlectric.runtime.result_names import OF_SWEEPS, SWEEP_CSV, SWEEP_NETCDF, SWEEP_PARQUET
-from ehlectric.runtime.values import Shown, headline, is_number, read_only
+from ehlectric.runtime.values import ResultKind, Shown, headline, is_number, read_only
 from ehlectric.sweep.axis_labels import label_of, result_keys
 from ehlectric.sweep.points import Point, Range, Spacing, Status, SweepPoints, as_number, flat, kinds_of
 from ehlectric.sweep.verdict_rule import sweep_verdict
@@ -199,6 +199,8 @@ class SweepResults(Shown, SweepPoints):
     uncertainty_samples : int
         Samples of the probability of breakdown at each point; 0 where it is not computed.
     """
+
+    result_kind: ClassVar[ResultKind] = "sweep"
 
     def values(self, key: str) -> Array:
         """Value of a key of the summary at every point.

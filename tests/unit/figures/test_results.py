@@ -5,6 +5,7 @@ import subprocess
 import sys
 import threading
 import warnings
+from typing import get_args
 from xml.etree import ElementTree
 
 import matplotlib as mpl
@@ -13,10 +14,27 @@ import pytest
 from matplotlib.figure import Figure
 from PIL import Image
 
-from ehlectric import BearingCase, Case, InputError, figure, read_motion, save_figures, solve, solve_bearing
+from ehlectric import (
+    BearingCase,
+    BearingResult,
+    Case,
+    DriveResult,
+    FilmFactors,
+    InputError,
+    MotionResult,
+    PointResult,
+    Result,
+    SweepResults,
+    figure,
+    read_motion,
+    save_figures,
+    solve,
+    solve_bearing,
+)
 from ehlectric.figures import bearing_figure_files as of_bearings
 from ehlectric.figures import figure_names as known
 from ehlectric.figures import motion_figures as of_motions
+from ehlectric.figures import result_figures
 from ehlectric.figures import sweep_figures as of_sweeps
 from ehlectric.figures.line_figures import FIGURES
 from ehlectric.figures.point_figures import FIGURES as POINT_FIGURES
@@ -25,6 +43,7 @@ from ehlectric.figures.style import name_over, new_panels, style
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import MotionRun
 from ehlectric.quantities.palette import RED
+from ehlectric.runtime.values import ResultKind
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.moving_cases import moving
@@ -64,6 +83,27 @@ def test_names_are_those_of_the_tables_of_figures():
     assert tuple(of_bearings.SPEED_FIGURES) == known.SPEED_FIGURE_FILES
     assert tuple(of_motions.FIGURES) == known.MOTION_FIGURE_FILES
     assert [name.partition("_")[0] for name in known.map_files("film.error")] == list(of_sweeps.FIGURES)
+
+
+def test_each_class_of_results_has_its_figures():
+    classes = [Result, PointResult, BearingResult, DriveResult, MotionResult, SweepResults, FilmFactors]
+    assert {kind.result_kind for kind in [*classes, MotionRun]} == {*get_args(ResultKind)}
+    for kind in get_args(ResultKind):
+        assert callable(result_figures._KINDS[kind]().figure), kind
+
+
+def test_a_subclass_of_a_result_has_its_figures(bearing):
+    class Own(BearingResult):
+        pass
+
+    assert figure_names(Own(bearing.solution)) == figure_names(bearing)
+
+
+@pytest.mark.parametrize("value", [5, "film", {"kind": "contact"}, BALL, Figure, np.float64(1.0)], ids=repr)
+def test_what_is_no_result_is_refused(value):
+    name = type(value).__name__
+    with pytest.raises(InputError, match=f"^result: got '{name}'; expected a result of ehlectric$"):
+        figure_names(value)
 
 
 def test_names_need_no_matplotlib():
