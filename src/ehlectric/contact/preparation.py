@@ -94,9 +94,12 @@ class PreparedContact:
         yield from () if self.reach is None else self.reach.warnings()
 
     def surface_warnings(self, setup: Case | Setup) -> Iterator[ResultWarning]:
-        """Warnings about the rough surfaces on the grid of a setup."""
-        spacings = spacings_of(setup, self.conditions)
-        yield from surface_warnings(self.case.roughness, self.rough, self.domain, *spacings)
+        """Warnings about the rough surfaces on the grid of a setup, or on the grids of a refinement."""
+        spacings, finest = spacings_of(setup, self.conditions), tuple[float, ...]()
+        if self.rough and setup.grid.target is not None and len(self.refinement.grids) > 1:
+            last = replace(self.refinement.first, grid=self.refinement.grids[-1])
+            finest = spacings_of(last, self.conditions)
+        yield from surface_warnings(self.case.roughness, self.rough, self.domain, *spacings, finest=finest)
 
 
 def prepare(case: Case) -> PreparedContact:

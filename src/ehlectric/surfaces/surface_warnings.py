@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -85,26 +86,48 @@ def surface_warnings(
     rough: Sequence[RoughSurface | RoughMap],
     domain: Domain,
     *spacings: float,
+    finest: Sequence[float] = (),
 ) -> Iterator[ResultWarning]:
     """Warnings about the roughness of a contact on a grid with spacings along each axis [m].
 
-    They concern files and processing steps, continuation, and roughness that is finer than the grid.
+    They concern files and processing steps, continuation, and roughness that is finer than the grid. If the
+    grid is refined, ``finest`` are the spacings of the finest grid that is allowed [m].
     """
     for table, surface in zip(tables, rough, strict=True):
         yield from surface.warnings
         yield from _continued(table, surface, domain)
-        last = surface.steps[-1][1] if surface.steps else None
-        if last is None:
-            yield from _shape_warnings(table, domain, spacings)
-        elif isinstance(last, Map):
-            yield from _map_warnings(table, last, domain, spacings)
-        elif isinstance(surface, RoughMap) and table.direction == "y":
-            ends = -domain.side - table.shift_y, domain.side - table.shift_y
-            yield from profile_warnings(surface.surface, last, spacings[1], ends)
-        else:
-            ends = domain.inlet - table.shift, domain.outlet - table.shift
-            yield from profile_warnings(surface.surface, last, spacings[0], ends)
+        even = list(_grid_warnings(table, surface, domain, _Nodes(tuple(finest), "finest"))) if finest else []
+        nodes = _Nodes(spacings, "first" if finest else "only")
+        yield from even
+        for warning in _grid_warnings(table, surface, domain, nodes):
+            if warning.code not in {each.code for each in even}:
+                yield warning
     yield from same_seeds(tables)
+
+
+@dataclass(frozen=True)
+class _Nodes:
+    """Spacings of a grid along each axis [m], and its place in a refinement: "first", "finest" or "only"."""
+
+    spacings: tuple[float, ...]
+    place: str
+
+
+def _grid_warnings(
+    table: Roughness, surface: RoughSurface | RoughMap, domain: Domain, nodes: _Nodes
+) -> Iterator[ResultWarning]:
+    """Warnings about a rough surface that is finer than a grid."""
+    last = surface.steps[-1][1] if surface.steps else None
+    if last is None:
+        yield from _shape_warnings(table, domain, nodes)
+    elif isinstance(last, Map):
+        yield from _map_warnings(table, last, domain, nodes)
+    elif isinstance(surface, RoughMap) and table.direction == "y":
+        ends = -domain.side - table.shift_y, domain.side - table.shift_y
+        yield from _profile_warnings(surface.surface, last, _Nodes(nodes.spacings[1:], nodes.place), ends)
+    else:
+        ends = domain.inlet - table.shift, domain.outlet - table.shift
+        yield from _profile_warnings(surface.surface, last, _Nodes(nodes.spacings[:1], nodes.place), ends)
 
 
 def _continued(table: Roughness, surface: RoughSurface | RoughMap, domain: Domain) -> Iterator[ResultWarning]:
@@ -139,16 +162,17 @@ def _continued(table: Roughness, surface: RoughSurface | RoughMap, domain: Domai
         )
 
 
-def _shape_warnings(table: Roughness, domain: Domain, spacings: tuple[float, ...]) -> Iterator[ResultWarning]:
+def _shape_warnings(table: Roughness, domain: Domain, nodes: _Nodes) -> Iterator[ResultWarning]:
     """Warnings about exact shapes inside the domain that are finer than the grid."""
     whose = f"the {'rim of the ' if table.rim else ''}{table.generator} of surface {table.surface}, whose"
+    spacings = nodes.spacings
     if table.wavelength is not None:
         turn = np.deg2rad(table.orientation or 0.0)
         axes = zip("xy", spacings, (abs(np.cos(turn)), abs(np.sin(turn))), strict=False)
         name, spacing, waves = max(axes, key=lambda axis: axis[1] * axis[2])
         if spacing * waves > table.wavelength / LEAST_IN_SHAPE:
             along = f" along {name}" if len(spacings) > 1 else ""
-            yield unresolved(spacing, f"{whose} wavelength{along}", table.wavelength / waves)
+            yield _unresolved(nodes, spacing, f"{whose} wavelength{along}", table.wavelength / waves)
         return
     assert table.width is not None
     x, y = (table.position or 0.0) + table.shift, (table.position_y or 0.0) + table.shift_y
@@ -158,33 +182,32 @@ def _shape_warnings(table: Roughness, domain: Domain, spacings: tuple[float, ...
     # The rim of a pit is half as wide as the pit.
     finest = 0.5 * table.width if table.rim else table.width
     if max(spacings) > finest / LEAST_IN_SHAPE:
-        yield unresolved(max(spacings), f"{whose} width", finest)
+        yield _unresolved(nodes, max(spacings), f"{whose} width", finest)
 
 
-def _map_warnings(
-    table: Roughness, last: Map, domain: Domain, spacing: tuple[float, ...]
-) -> Iterator[ResultWarning]:
+def _map_warnings(table: Roughness, last: Map, domain: Domain, nodes: _Nodes) -> Iterator[ResultWarning]:
     """Warnings about a map that is finer than the grid along one of the axes of the grid."""
-    turn = table.orientation or 0.0
+    turn, spacing = table.orientation or 0.0, nodes.spacings
     lengths = _correlation_lengths(last, turn)
     worst = max((0, 1), key=lambda k: spacing[k] / lengths[k])
     if spacing[worst] > lengths[worst] / LEAST_IN_CORRELATION:
         whose = f"the map of surface {table.surface}, whose correlation length along {'xy'[worst]}"
-        yield unresolved(spacing[worst], whose, lengths[worst])
+        yield _unresolved(nodes, spacing[worst], whose, lengths[worst])
     within = _inside(table, last, domain)
     missed = map_variance_beyond(within, 0.5 / spacing[0], 0.5 / spacing[1], turn)
-    yield from _variance_missed(table.surface, missed, spacing)
+    yield from _variance_missed(table.surface, missed, nodes)
 
 
-def _variance_missed(surface: int, missed: float, spacings: tuple[float, ...]) -> Iterator[ResultWarning]:
-    """Warning about the part of the variance of a surface that a grid with these spacings [m] misses."""
+def _variance_missed(surface: int, missed: float, nodes: _Nodes) -> Iterator[ResultWarning]:
+    """Warning about the part of the variance of a surface that a grid misses."""
     if missed > MOST_MISSED:
         yield ResultWarning.of(
             "variance-missed",
-            spacings=" x ".join(f"{each * 1e6:.3g}" for each in spacings),
+            nodes.place,
+            spacings=" x ".join(f"{each * 1e6:.3g}" for each in nodes.spacings),
             percent=100 * missed,
             surface=surface,
-            cutoff=4e6 * max(spacings),
+            cutoff=4e6 * max(nodes.spacings),
         )
 
 
@@ -269,24 +292,26 @@ def same_seeds(tables: Iterable[Roughness]) -> Iterator[ResultWarning]:
             yield ResultWarning.of("seed-repeated", times=times, seed=seed)
 
 
-def unresolved(dx: float, what: str, length: float) -> ResultWarning:
-    """Warning that a grid with the spacing ``dx`` does not resolve a ``length`` of the roughness [m]."""
-    return ResultWarning.of("roughness-unresolved", spacing=dx * 1e6, what=what, length=length * 1e6)
+def _unresolved(nodes: _Nodes, spacing: float, what: str, length: float) -> ResultWarning:
+    """Warning that one of the spacings of a grid does not resolve a ``length`` of the roughness [m]."""
+    return ResultWarning.of(
+        "roughness-unresolved", nodes.place, spacing=spacing * 1e6, what=what, length=length * 1e6
+    )
 
 
-def profile_warnings(
-    surface: int, last: Profile, dx: float, ends: tuple[float, float]
+def _profile_warnings(
+    surface: int, last: Profile, nodes: _Nodes, ends: tuple[float, float]
 ) -> Iterator[ResultWarning]:
     """Warnings about a profile that is finer than the grid after its last processing step.
 
-    ``surface`` is the number of the surface, ``dx`` the spacing of the nodes [m], and ``ends`` the range of x
-    that the domain covers [m].
+    ``surface`` is the number of the surface, ``nodes`` has the spacing along the profile, and ``ends`` is
+    the range of positions that the domain covers [m].
     """
-    length = profiles_statistics(last).correlation_length
-    if dx > length / LEAST_IN_CORRELATION:
+    (spacing,), length = nodes.spacings, profiles_statistics(last).correlation_length
+    if spacing > length / LEAST_IN_CORRELATION:
         whose = f"the profile of surface {surface}, whose correlation length"
-        yield unresolved(dx, whose, length)
-    yield from _variance_missed(surface, profile_variance_beyond(last, 0.5 / dx, ends), (dx,))
+        yield _unresolved(nodes, spacing, whose, length)
+    yield from _variance_missed(surface, profile_variance_beyond(last, 0.5 / spacing, ends), nodes)
 
 
 def profile_variance_beyond(profile: Profile, frequency: float, ends: tuple[float, float]) -> float:

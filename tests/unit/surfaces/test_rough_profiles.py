@@ -6,6 +6,7 @@ import pytest
 from ehlectric import Case, InputError
 from ehlectric.contact.conditions import resolve
 from ehlectric.contact.problems import domain_of, spacings_of
+from ehlectric.runs.preview import preview_of
 from ehlectric.surfaces.profiles import Profile
 from ehlectric.surfaces.rough_surfaces import measured, rough_surfaces
 from ehlectric.surfaces.surface_warnings import profile_variance_beyond as variance_beyond
@@ -182,3 +183,39 @@ def test_one_seed_for_two_surfaces_is_said():
     (said,) = texts_of(GAUSSIAN, GAUSSIAN | {"surface": 2})
     assert "2 rough surfaces have the seed 3" in said
     assert texts_of(GAUSSIAN, GAUSSIAN | {"surface": 2, "seed": 4}) == []
+
+
+# Half-width by Hertz, (8 W R / (pi E'))^(1/2) [µm], and spacings of 401 nodes on 6 half-widths and of the
+# grid that is three times refined, by a half each time. A wave needs eight spacings.
+HALF_WIDTH = 1e6 * np.sqrt(8.0 * 3.925e5 * 0.0141 / (np.pi * 226e9))
+FIRST, FINEST = 6.0 * HALF_WIDTH / 400, 6.0 * HALF_WIDTH / 3200
+
+
+@each(
+    "wavelength, grid, refine, spacing",
+    [
+        (8.1 * FIRST, "", 0.05, 0.0),
+        (7.9 * FIRST, "first grid", 0.05, FIRST),
+        (8.1 * FINEST, "first grid", 0.05, FIRST),
+        (7.9 * FINEST, "finest grid", 0.05, FINEST),
+        (8.1 * FINEST, "grid spacing", None, FIRST),
+    ],
+)
+def test_a_check_names_the_grid_of_a_refinement_that_does_not_resolve_a_wave(
+    wavelength, grid, refine, spacing
+):
+    waves = {"surface": 1, "generator": "sinusoid", "amplitude": "10 nm", "wavelength": f"{wavelength} um"}
+    case = case_of(waves, nodes=401, **({} if refine is None else {"refine": refine}))
+    texts = [each.text for each in preview_of(case).warnings if each.code == "roughness-unresolved"]
+    assert len(texts) == bool(grid)
+    for text in texts:
+        assert grid in text
+        assert f"{spacing:.3g} µm" in text
+
+
+def test_a_check_compares_both_surfaces_with_the_grids_of_a_refinement():
+    """The finest grid of 1.87 µm resolves a correlation length of 4 µm, and misses one of 3 µm."""
+    made = [GAUSSIAN | {"surface": k, "correlation_length": f"{k + 2} um"} for k in (1, 2)]
+    case = case_of(*made, nodes=401, refine=0.05, most_nodes=801)
+    texts = [each.text for each in preview_of(case).warnings if each.code == "roughness-unresolved"]
+    assert [("surface 1" in text, "finest" in text) for text in texts] == [(True, True), (False, False)]

@@ -17,7 +17,7 @@ from ehlectric.app.view_models import PageWarning, StepFigure, SummitsTable, Sur
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
 from ehlectric.cases.roughness_inputs import Roughness, check_geometry
-from ehlectric.contact import FORMULA, KINDS, domain_of, formulas_of, spacings_of
+from ehlectric.contact import FORMULA, KINDS, PreparedContact, domain_of, formulas_of
 from ehlectric.errors import InputError
 from ehlectric.formulas.film_line import Thickness
 from ehlectric.quantities.units import to_si, unit_for
@@ -28,7 +28,7 @@ from ehlectric.surfaces.generated_profiles import Domain
 from ehlectric.surfaces.maps import Map, without_void_borders
 from ehlectric.surfaces.profiles import Profile
 from ehlectric.surfaces.rough_surfaces import RoughMap, RoughSurface, measured, measured_map
-from ehlectric.surfaces.surface_warnings import summit_statistics, surface_warnings
+from ehlectric.surfaces.surface_warnings import summit_statistics
 from ehlectric.tables.surface_tables import (
     SUMMITS_NOTE,
     SUMMITS_TITLE,
@@ -154,8 +154,8 @@ class _Contact:
         self.rough = self.kind.rough(case.roughness, self.domain) if rough is None else [rough]
 
     def warnings(self) -> tuple[PageWarning, ...]:
-        spacings = spacings_of(self.case, self.conditions)
-        warnings = surface_warnings(self.case.roughness, self.rough, self.domain, *spacings)
+        contact = PreparedContact(self.case, self.conditions, self.domain, self.rough)
+        warnings = contact.surface_warnings(self.case)
         table, rough = self.case.roughness[0], self.rough[0]
         # The formula that holds in all regimes.
         thin = too_rough(table, rough, formulas_of(self.conditions)[FORMULA[self.case.contact.geometry]])
