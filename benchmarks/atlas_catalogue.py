@@ -12,6 +12,7 @@ from ehlectric.bearing.preparation import prepare_bearing
 from ehlectric.bearing.ring_contacts import BallContact, RollerContact
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.library.bearing_catalogue import bearing_catalogue
+from ehlectric.contact import PointConditions
 from ehlectric.errors import InputError
 from ehlectric.film.atlas.atlas_films import OilGroups, atlas_film
 from ehlectric.film.atlas.atlas_groups import Groups, lubricant_coordinate
@@ -115,7 +116,9 @@ def _contact(name, ring, load):
     conditions = (BallContact if ball else RollerContact)(ring, load).conditions
     contact, oil = conditions.contact, ring.oil
     moved = replace(contact, pressure_viscosity_coefficient=_oil_groups(oil).alpha)
-    ratio = axis_ratio(conditions.radius_x, conditions.radius_y) if ball else None
+    ratio = None
+    if isinstance(conditions, PointConditions):
+        ratio = axis_ratio(conditions.radius_x, conditions.radius_y)
     groups = Groups(moved.moes_m, moved.moes_l, ratio)
     return CatalogueContact(name, groups, oil, contact.moes_l, conditions.max_pressure)
 

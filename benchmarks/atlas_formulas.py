@@ -6,6 +6,7 @@ to one half of them and judged on the other. With ``--figure`` the figure of the
 
 import argparse
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -21,7 +22,7 @@ FIGURE = Path(__file__).parents[1] / "docs" / "figures" / "atlas_formulas.png"
 # Speed parameter eta0 u_s/(E' R) with which formulas are evaluated; it cancels.
 SPEED = 1e-11
 
-FORMULAS = {
+FORMULAS: dict[str, tuple[Any, ...]] = {
     "points": tuple(film_point.FORMULAS.values()),
     "lines": tuple(film_line.FORMULAS.values()),
 }

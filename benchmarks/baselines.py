@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from functools import partial
+from unittest.mock import patch
+
 import numpy as np
 from scipy import sparse
 from scipy.constants import epsilon_0
@@ -10,51 +13,47 @@ from scipy.sparse.linalg import splu
 
 from ehlectric.arrays import Array
 from ehlectric.field.poisson import FieldProblem
-from ehlectric.film import film_solution as stationary
-from ehlectric.film import newton
+from ehlectric.film import isothermal_film, newton
 from ehlectric.film.face_flow import Fluid
-from ehlectric.film.gap import Gap
 from ehlectric.film.isothermal_film import Film, solve_film
-from ehlectric.film.levels import Level
 from ehlectric.film.multigrid import Linearised
 from ehlectric.film.newton import Residual, State
 from ehlectric.film.problem import FilmProblem
-from ehlectric.film.reynolds import ALONG, OFFSETS
+
+# Overflows of intermediate iterates are no warnings, as within ``quiet_solution``.
+_ON_ALL_THREADS = partial(np.errstate, over="ignore", invalid="ignore", divide="ignore")
 
 
 def dense_direction(
-    fluid: Fluid, levels: list[Level], state: State, now: Residual
+    fluid: Fluid,
+    jacobians: list[Linearised],
+    state: State,
+    now: Residual,
+    tolerance: float,  # noqa: ARG001  # as of the function that it replaces; LAPACK solves to rounding
 ) -> tuple[Array, float, int]:
     """Newton direction by LAPACK: the whole Jacobian is assembled and factorised."""
-    gap = Gap(levels[0], state.thickness)
-    jacobian = Linearised.of(gap, now.flow, now.full_film)
-    held = np.where(now.full_film, 0.0, fluid.ambient_pressure - state.pressure)
-    change, load = jacobian(held, 0.0)
-    n = state.pressure.size
+    jacobian = jacobians[0]
+    level, n = jacobian.level, state.pressure.size
+    resting = fluid.ambient_pressure + level.edge_excess
+    to_ambient = np.where(now.full_film, 0.0, resting - state.pressure)
+    change, load = jacobian(to_ambient, 0.0)
     matrix = np.zeros((n + 1, n + 1))
-    matrix[:n, :n] = jacobian.by_p.matrix()
-    deflection = gap.matrix()
-    for k, (offset, _) in enumerate(OFFSETS[:ALONG]):
-        rows = slice(max(0, -offset), n - max(0, offset))
-        columns = slice(max(0, offset), n + min(0, offset))
-        matrix[rows, :n] += jacobian.by_h.coefficients[k, rows] * deflection[columns]
-    matrix[:n, n] = jacobian.by_h.coefficients.sum(axis=0)[:, 0]
-    matrix[n, :n] = np.where(now.full_film, gap.load_weights(), 0.0)[:, 0]
-    fixed = np.flatnonzero(~now.full_film[:, 0])
-    matrix[fixed, fixed] = 1.0
+    matrix[:n, :n] = jacobian.by_p.matrix() + jacobian.by_h.times(level.deflection.matrix)
+    matrix[:n, n] = jacobian.by_h.coefficients.sum(axis=0).ravel()
+    matrix[n, :n] = np.where(now.full_film, level.weights, 0.0).ravel()
+    cavitated = np.flatnonzero(~now.full_film)
+    matrix[cavitated, cavitated] = 1.0
     right = np.append(np.where(now.full_film, -now.reynolds - change, 0.0), now.load - load)
     solution = lu_solve(lu_factor(matrix, overwrite_a=True, check_finite=False), right)
-    return held + np.where(now.full_film, solution[:n, np.newaxis], 0.0), float(solution[n]), 0
+    change_inside = np.where(now.full_film, solution[:n].reshape(state.pressure.shape), 0.0)
+    return to_ambient + change_inside, float(solution[n]), 0
 
 
 def solve_film_densely(problem: FilmProblem) -> Film:
     """``solve_film`` with every linear system solved by LAPACK on all threads."""
-    direction, threads = newton._direction, stationary.one_blas_thread
-    newton._direction, stationary.one_blas_thread = dense_direction, np.errstate
-    try:
+    dense = patch.object(newton, newton._direction.__name__, dense_direction)
+    with dense, patch.object(isothermal_film, "quiet_solution", _ON_ALL_THREADS):
         return solve_film(problem)
-    finally:
-        newton._direction, stationary.one_blas_thread = direction, threads
 
 
 def capacitance_by_superlu(problem: FieldProblem, across: int = 65) -> float:

@@ -32,23 +32,23 @@ def command(*arguments: str, repeats: int = 5) -> float:
     return best(lambda: subprocess.run([EHLECTRIC, *arguments], capture_output=True, check=True), repeats)
 
 
-def peak_memory(problem: str, solver: str) -> tuple[float, float]:
+def peak_memory(
+    solver: Callable[[Any], Any], problem_of: Callable[..., Any], *arguments: object
+) -> tuple[float, float]:
     """Peak resident memory of a fresh process that solves a problem, and the part that solving it adds [GB].
 
-    ``problem`` is an expression on ``benchmarks.cases``; ``solver`` is a function of the package with its
-    module, such as "film.line.solve_film".
+    ``problem_of(*arguments)`` is the problem. The process imports both functions by their names.
     """
-    module, _, function = solver.rpartition(".")
     # ru_maxrss is no measure here: a child process starts with the value of its parent.
     code = f"""
-from benchmarks import cases
-from ehlectric.{module} import {function}
+from {problem_of.__module__} import {problem_of.__name__} as problem_of
+from {solver.__module__} import {solver.__name__} as solve
 def resident(key):
     with open("/proc/self/status") as status:
         return next(int(line.split()[1]) for line in status if line.startswith(key))
-problem = cases.{problem}
+problem = problem_of(*{arguments!r})
 before = resident("VmRSS")
-{function}(problem)
+solve(problem)
 print(resident("VmHWM"), resident("VmHWM") - before)
 """
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)

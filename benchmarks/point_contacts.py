@@ -47,9 +47,7 @@ def film_rows() -> Iterator[tuple[str, ...]]:
                 film = solve_point_film(problem)
                 seconds = best(lambda p=problem: solve_point_film(p), REPEATS[nodes])
                 most, mean = iterations(film, nodes)
-                _, memory = peak_memory(
-                    f"point_film_problem({example!r}, {nodes}, {wedge!r})", "film.point.solve_point_film"
-                )
+                _, memory = peak_memory(solve_point_film, cases.point_film_problem, example, nodes, wedge)
                 yield (
                     f"{contact}, {wedge}",
                     f"{nodes} × {nodes}" + ("" if film.converged else f", {film.status}"),
@@ -83,9 +81,7 @@ def field_rows() -> Iterator[tuple[str, ...]]:
         problem = cases.point_field_problem(example, FIELD_COLUMNS)
         solved = solve_point_field(problem)
         seconds = best(lambda p=problem: solve_point_field(p).mirrored(), 5)
-        _, memory = peak_memory(
-            f"point_field_problem({example!r}, {FIELD_COLUMNS})", "field.point.solve_point_field"
-        )
+        _, memory = peak_memory(solve_point_field, cases.point_field_problem, example, FIELD_COLUMNS)
         yield (
             f"field, {contact}, {FIELD_COLUMNS} × {FIELD_COLUMNS} columns, degree {problem.degree}",
             f"{seconds:.2f}",

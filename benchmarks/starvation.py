@@ -78,7 +78,7 @@ def compute() -> list[dict[str, float]]:
             mass = at_centre(flooded.level.mesh, density * thickness)
             for part in PARTS:
                 layer = part * mass / float(density[0, 0])
-                supply = OilSupply(layer=lambda y, layer=layer: np.full(y.shape, layer))  # type: ignore[misc]
+                supply = OilSupply(layer=lambda y, layer=layer: np.full(y.shape, layer))
                 found = starved_solution(replace(problem, supply=supply), None)
                 assert found.last.status == "converged"
                 starved = found.starvation

@@ -91,7 +91,7 @@ def main() -> None:
     print("| --- | ---: | --- | ---: | ---: |")
     for row in rows:
         print("| " + " | ".join(row) + " |")
-    memory, _ = peak_memory("film_problem(102_401)", "film.line.solve_film")
+    memory, _ = peak_memory(solve_film, cases.film_problem, 102_401)
     print(f"\nPeak memory, film of 102 401 nodes: {memory:.2f} GB\n")
     point_contacts.print_tables()
 
