@@ -26,7 +26,7 @@ from ehlectric.app.calls import Call
 from ehlectric.app.processes import Bounds, Raised, Returned, Worker, new_context
 from ehlectric.errors import LostError
 from ehlectric.readable import readable
-from ehlectric.runtime.locks import RENAMES_OPEN, take
+from ehlectric.runtime.locks import RENAMES_OPEN, try_lock
 from ehlectric.runtime.memory import available_memory
 from ehlectric.runtime.progress import Remaining
 from ehlectric.runtime.worker_processes import cores
@@ -67,7 +67,7 @@ class Scratch:
         # The file gets its name when it is locked, so that no other server takes the folder for a dead one's.
         begun = self.folder / ("unlocked" if RENAMES_OPEN else _LOCK)
         self._lock = begun.open("wb")
-        take(self._lock.fileno())
+        try_lock(self._lock.fileno())
         if RENAMES_OPEN:
             begun.rename(self.folder / _LOCK)
         # At exit, and after multiprocessing has removed its folder in it.
@@ -115,7 +115,7 @@ def _left_behind(folder: Path) -> bool:
         if folder.is_symlink() or folder.lstat().st_uid != owner:
             return False
         with (folder / _LOCK).open("rb+") as file:
-            return take(file.fileno()) == "taken"
+            return try_lock(file.fileno()) == "taken"
     except OSError:
         # It is another user's, or it is being made or removed by its server.
         return False

@@ -96,7 +96,7 @@ def _draw(
 
 def _draw_sweep(results: SweepResults, folder: Path, home: Path, formats: Sequence[str], style: str) -> Drawn:
     """Draw the maps and lines of a sweep over one or two keys, or the sensitivity of a Sobol design."""
-    from ehlectric.sweep import main_value, ranked_value, sensitivity, sensitivity_warnings, take
+    from ehlectric.sweep import main_value, ranked_value, select_slice, sensitivity, sensitivity_warnings
 
     files: list[Path] = []
     if results.ranges:
@@ -111,7 +111,7 @@ def _draw_sweep(results: SweepResults, folder: Path, home: Path, formats: Sequen
         return Drawn(tuple(files), tuple(sensitivity_warnings(indices)), tuple(undrawn))
     value = main_value(results.case)
     x, y = _axes(results, home)
-    taken = take(results, x, y, value)
+    taken = select_slice(results, x, y, value)
     prepare(folder, in_formats((*map_files(value), *SPEED_FIGURE_FILES), formats))
     with kept_going() as undrawn:
         from ehlectric.figures.style import style as styled

@@ -260,11 +260,11 @@ def draw_maps(
 
         from ehlectric.figures.figure_names import SPEED_FIGURE_FILES, in_formats, map_files, of_cut
         from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
-        from ehlectric.sweep import main_value, read_sweep, take
+        from ehlectric.sweep import main_value, read_sweep, select_slice
 
         results, forms = read_sweep(folder), look["formats"]
         value = value or main_value(results.case)
-        taken = take(results, x, y, value, held)
+        taken = select_slice(results, x, y, value, held)
         names = in_formats(
             (*map_files(value, held), *(of_cut(name, held) for name in SPEED_FIGURE_FILES)), forms
         )

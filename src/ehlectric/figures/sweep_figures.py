@@ -55,9 +55,9 @@ from ehlectric.sweep import (
     main_value,
     numbers_of,
     ranked_value,
+    select_slice,
     sensitivity,
     spaced_log,
-    take,
 )
 
 
@@ -293,7 +293,7 @@ def figure(
     value: str = "",
     at: Mapping[str, str] | None = None,
 ) -> Figure:
-    """Figure of a sweep. Raises InputError where there is no figure of this name, or as ``take`` and
+    """Figure of a sweep. Raises InputError where there is no figure of this name, or as ``select_slice`` and
     ``sensitivity`` raise it.
     """
     (name,) = in_formats([name])
@@ -306,7 +306,7 @@ def figure(
         raise InputError("figure", got=shown(name), takes=allowed)
     if kind == "map" and y is None:
         raise InputError.missing("y", "a varied key, for a map")
-    taken = take(results, x, y, key, at)
+    taken = select_slice(results, x, y, key, at)
     with style():
         ax = new_panels(1, 1, _SIZES[kind])[0]
         FIGURES[kind](results, x, y, key, at=at, ax=ax)
@@ -324,8 +324,8 @@ def save_maps(
     at: Mapping[str, str] | None = None,
     formats: Sequence[str] = ("png",),
 ) -> list[Path]:
-    """Draw a value of a sweep as a map and as lines, as files. Raises InputError as ``take`` raises it."""
-    numeric = take(results, x, y, value, at).numeric
+    """Draw a value of a sweep as a map and as lines, as files. Raises InputError as ``select_slice`` does."""
+    numeric = select_slice(results, x, y, value, at).numeric
     names = dict(zip(map_files(value, at), map_files(value), strict=True))
     drawable = [file for file in names if (y is not None and numeric) or file.startswith("lines_")]
     return save_each(lambda file: figure(results, names[file], x=x, y=y, at=at), drawable, folder, formats)

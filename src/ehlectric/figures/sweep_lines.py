@@ -34,7 +34,7 @@ from ehlectric.figures.sweep_points import mark, mark_handles
 from ehlectric.quantities.formats import Scale
 from ehlectric.quantities.palette import GREY
 from ehlectric.readable import readable
-from ehlectric.sweep import Slice, SweepResults, take
+from ehlectric.sweep import Slice, SweepResults, select_slice
 
 # Points without a value are marked in a strip below the values. As fractions of the height of the axes: the
 # smallest height of the strip, the height of one mark if several have nearly the same x, and the largest
@@ -57,10 +57,10 @@ def value_lines(
     """Draw a value of the summaries over one varied key, with a line for each value of a second key.
 
     ``y``, second varied key, of numbers or texts; None for a single line; Returns axes with the lines,
-    interpolated between points as in a map. Raises InputError if ``ehlectric.sweep.slices.take`` refuses the
-    keys or values.
+    interpolated between points as in a map. Raises InputError if
+    ``ehlectric.sweep.slices.select_slice`` refuses the keys or values.
     """
-    selection = take(results, x, y, value, at)
+    selection = select_slice(results, x, y, value, at)
     ax = axes_or_new(ax)
     along, panel = lines_panel(results, selection, _shades)
     dots = [curve for curve in panel.curves if curve.marker == "dots"]

@@ -37,7 +37,7 @@ from ehlectric.figures.sweep_points import (
 )
 from ehlectric.quantities.palette import GREY, ON_MAP, ORANGE
 from ehlectric.readable import readable
-from ehlectric.sweep import SweepResults, take
+from ehlectric.sweep import SweepResults, select_slice
 
 # Hatches where the film breaks down, and where contacts open and close.
 _BREAKS, _OPENING = "////", "xxx"
@@ -66,10 +66,10 @@ def value_map(
     and of a bearing's breakdown voltages have a line on which the breakdown voltage equals the applied
     voltage; the side that breaks down is hatched. Maps of the share of time in which a bearing conducts have
     the colours of its regimes and lines at 1, 10, 50 and 99 %. Raises InputError if
-    ``ehlectric.sweep.slices.take`` refuses the keys or values, or values of ``y`` are not numbers.
+    ``ehlectric.sweep.slices.select_slice`` refuses the keys or values, or values of ``y`` are not numbers.
     """
     ax = axes_or_new(ax)
-    draw_map(map_panel(results, take(results, x, y, value, at)), ax)
+    draw_map(map_panel(results, select_slice(results, x, y, value, at)), ax)
     return ax
 
 

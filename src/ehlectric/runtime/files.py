@@ -24,7 +24,7 @@ from typing import Any, BinaryIO
 import numpy as np
 
 from ehlectric.errors import InputError, WriteError
-from ehlectric.runtime.locks import RENAMES_OPEN, held_back, take
+from ehlectric.runtime.locks import RENAMES_OPEN, held_back, try_lock
 
 # Content of a file, or a function that writes it to an open file.
 Content = bytes | Callable[[BinaryIO], object]
@@ -161,7 +161,7 @@ def _new_file(path: Path) -> Iterator[tuple[Path, Callable[[], None]]]:
         with writing(path, new):
             # The kernel takes the umask off this mode: the umask can only be read by changing it.
             fd = os.open(new, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
-            take(fd)
+            try_lock(fd)
             yield new, finish
     finally:
         if fd >= 0:
@@ -260,7 +260,7 @@ def clear_left_behind(folder: Path) -> None:
         with suppress(OSError):  # another command has removed it, or it belongs to another user
             fd = os.open(path, os.O_RDONLY | _SAFELY)
             try:
-                if take(fd) == "taken" and stat.S_ISREG(os.fstat(fd).st_mode):
+                if try_lock(fd) == "taken" and stat.S_ISREG(os.fstat(fd).st_mode):
                     Path(path).unlink()
             finally:
                 os.close(fd)

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from ehlectric.errors import InputError
 from ehlectric.runtime.files import clear_left_behind, prepare, refuse_special, writing
-from ehlectric.runtime.locks import take
+from ehlectric.runtime.locks import try_lock
 from ehlectric.runtime.progress import LOGGER
 
 # Files that are locked while results, or what is made from stored results, are written into their folder.
@@ -98,7 +98,7 @@ def _taken(folder: Path, path: Path, patience: float) -> int:
         with writing(path):
             fd = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
         try:
-            state = take(fd)
+            state = try_lock(fd)
             if state == "none":
                 LOGGER.warning("%s: has no locks; only one command at a time may write into it", folder)
             if state != "busy" and _same(fd, path):

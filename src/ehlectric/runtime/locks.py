@@ -58,7 +58,7 @@ def held_back() -> Iterator[None]:
             signal.raise_signal(came[0])
 
 
-Taken = Literal["taken", "busy", "none"]
+LockState = Literal["taken", "busy", "none"]
 
 # Whether the system renames files that are open. Windows does not.
 RENAMES_OPEN = os.name != "nt"
@@ -70,7 +70,7 @@ _FAR = 2**31 - 2
 _BUSY = (errno.EWOULDBLOCK, errno.EAGAIN, errno.EACCES, errno.EDEADLK)
 
 
-def take(fd: int) -> Taken:
+def try_lock(fd: int) -> LockState:
     """Try to lock an open file against every other process and every other open file of this one. Returns
     "taken"; "busy" where somebody else has the lock; "none" where the file system has no locks.
 
@@ -78,7 +78,7 @@ def take(fd: int) -> Taken:
     --------
     >>> from tempfile import NamedTemporaryFile
     >>> with NamedTemporaryFile() as one, open(one.name, "rb") as other:
-    ...     take(one.fileno()), take(other.fileno())
+    ...     try_lock(one.fileno()), try_lock(other.fileno())
     ('taken', 'busy')
     """
     try:

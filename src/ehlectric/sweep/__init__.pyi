@@ -32,9 +32,9 @@ from .slices import applied_at as applied_at
 from .slices import curve_of as curve_of
 from .slices import known_values as known_values
 from .slices import numbers_of as numbers_of
+from .slices import select_slice as select_slice
 from .slices import spaced_log as spaced_log
 from .slices import surface_of as surface_of
-from .slices import take as take
 from .slices import whole as whole
 from .store import NAME as NAME
 from .store import read_sweep as read_sweep

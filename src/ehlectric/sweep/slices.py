@@ -328,10 +328,10 @@ class Slice:
         return series
 
 
-def take(
+def select_slice(
     results: SweepResults, x: str, y: str | None, value: str, at: Mapping[str, str] | None = None
 ) -> Slice:
-    """Take a slice of a sweep over one or two varied keys. ``y``, second varied key, if any. Returns points
+    """Select a slice of a sweep over one or two varied keys. ``y``, second varied key, if any. Returns points
     of the slice, in the order of the design; varied keys with a single value are fixed too. Raises InputError
     if a key does not vary, or the values of ``x`` are not numbers.
     """

@@ -12,7 +12,7 @@ from ehlectric.app.pages.sweep_page import chosen_trace
 from ehlectric.figures.sweep_lines import value_lines
 from ehlectric.figures.sweep_maps import draw_map, value_map
 from ehlectric.figures.sweep_panels import lines_panel, map_panel
-from ehlectric.sweep.slices import take, whole
+from ehlectric.sweep.slices import select_slice, whole
 from tests.helpers.each import each
 from tests.helpers.sweep_models import LOAD, POTENTIAL, SPEED, breakdown, doubtful_where, grid
 from tests.unit.figures.sweep.test_save import VALUE, curves, line_of_breakdown
@@ -133,7 +133,7 @@ def test_logarithmic_axis_has_round_ticks():
 def test_a_map_has_the_same_numbers_in_files_and_on_pages():
     """Values, names, units and the line on which the margin is 1."""
     results = grid({SPEED: SPEEDS, LOAD: (2e5, 5e5, 2e6)})
-    panel = map_panel(results, take(results, SPEED, LOAD, VALUE))
+    panel = map_panel(results, select_slice(results, SPEED, LOAD, VALUE))
     np.testing.assert_allclose(panel.values, results.values(VALUE))
     ax, view = value_map(results, SPEED, LOAD, VALUE), view_of(results, VALUE)
     layout = view.figure["layout"]
@@ -162,7 +162,7 @@ def test_a_map_has_the_same_numbers_in_files_and_on_pages():
 def test_a_line_has_the_same_numbers_in_files_and_on_pages():
     """Between the points too, and the applied voltage, V_2 + 1 V."""
     results = grid({POTENTIAL: (1.0, 2.0, 4.0)})
-    along, panel = lines_panel(results, take(results, POTENTIAL, None, VALUE))
+    along, panel = lines_panel(results, select_slice(results, POTENTIAL, None, VALUE))
     ax, layout = value_lines(results, POTENTIAL, None, VALUE), view_of(results, VALUE).figure["layout"]
     assert ax.get_xlabel() == f"{along.name} [{along.unit}]"
     assert layout["xaxis"]["title"]["text"] == plain(along.name, along.unit) == "potential of surface 2 [V]"

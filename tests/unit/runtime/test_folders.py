@@ -121,7 +121,7 @@ def test_folders_that_were_made_for_nothing_are_removed(tmp_path):
 
 
 def test_a_file_system_without_locks_is_told_and_used(tmp_path, monkeypatch, caplog):
-    monkeypatch.setattr(folders, "take", lambda _: "none")
+    monkeypatch.setattr(folders, "try_lock", lambda _: "none")
     with caplog.at_level(logging.WARNING, "ehlectric"), alone_in(tmp_path, locks=[RESULT_LOCK]):
         pass
     assert caplog.messages == [f"{tmp_path}: has no locks; only one command at a time may write into it"]

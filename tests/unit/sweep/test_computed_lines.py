@@ -11,7 +11,7 @@ from ehlectric.bearing.many_points import columns_of
 from ehlectric.figures.sweep_lines import value_lines
 from ehlectric.figures.sweep_panels import LinePath, lines_of
 from ehlectric.sweep.computed_lines import computed_line
-from ehlectric.sweep.slices import take
+from ehlectric.sweep.slices import select_slice
 from tests.unit.bearing.curves.test_computed_curves import SPEED, random_between, rollers
 
 mpl.use("Agg")
@@ -34,7 +34,7 @@ def results(tmp_path_factory):
 @pytest.mark.slow
 @pytest.mark.parametrize("value", VALUES)
 def test_lines_of_quick_bearings_are_the_bearings_between_the_points(results, value):
-    selection = take(results, SPEED, TEMPERATURE, value)
+    selection = select_slice(results, SPEED, TEMPERATURE, value)
     path = LinePath(results, selection, True, False)
     for line in lines_of(results, selection)[0]:
         x, drawn = path.values(line)
@@ -54,7 +54,7 @@ def test_lines_of_quick_bearings_are_the_bearings_between_the_points(results, va
 @pytest.mark.slow
 def test_lines_of_other_points_are_interpolated(results):
     """Numbers of another version, a point without a result, and contacts that are solved."""
-    selection = take(results, SPEED, TEMPERATURE, "bearing.capacitance")
+    selection = select_slice(results, SPEED, TEMPERATURE, "bearing.capacitance")
     (_, numbers), _ = selection.series()
     how = {"log_x": True, "log": True}
     assert computed_line(results, selection, numbers, **how) is not None

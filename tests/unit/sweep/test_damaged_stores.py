@@ -12,7 +12,7 @@ from ehlectric.errors import DamagedError
 from ehlectric.sweep.engine import Outcome, plan
 from ehlectric.sweep.result import write_tables
 from ehlectric.sweep.sensitivity_indices import sensitivity
-from ehlectric.sweep.slices import take
+from ehlectric.sweep.slices import select_slice
 from ehlectric.sweep.store import NAME, Store, saved_points
 from ehlectric.sweep.sweep_inputs import breakdown_of
 from tests.helpers.damage import edited_json, scrambled, with_damaged_bytes
@@ -89,7 +89,7 @@ def use(folder):
     if results.ranges:
         sensitivity(results, value)
     else:
-        take(results, SPEED, LOAD, value)
+        select_slice(results, SPEED, LOAD, value)
 
 
 def changed(path, statement, *values):

@@ -21,7 +21,7 @@ from ehlectric.figures.sweep_points import held_text
 from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.points import Range
 from ehlectric.sweep.sensitivity_indices import sensitivity
-from ehlectric.sweep.slices import take
+from ehlectric.sweep.slices import select_slice
 from ehlectric.sweep.sweep_inputs import CONTACT, FIRST_BREAK, THROUGH, breakdown_of
 from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.each import each
@@ -117,14 +117,14 @@ def test_temperatures_are_in_degrees_celsius():
     (named,) = [child for child in lines.artists if hasattr(child, "get_title")]
     assert [text.get_text() for text in named.get_texts()] == ["130", "70", "20"]
     assert (
-        held_text(found, take(found, SPEED, None, "bearing.first_break", {TEMPERATURE: "343"}))
+        held_text(found, select_slice(found, SPEED, None, "bearing.first_break", {TEMPERATURE: "343"}))
         == "temperature of the oil = 70 °C"
     )
 
 
 def test_words_that_are_held_are_read_as_words():
     found = over(contacts=("formula",))
-    assert held_text(found, take(found, SPEED, None, "bearing.first_break")) == "contacts by formula"
+    assert held_text(found, select_slice(found, SPEED, None, "bearing.first_break")) == "contacts by formula"
 
 
 def test_without_a_motor_there_is_no_voltage_of_the_shaft():
@@ -153,11 +153,11 @@ def test_the_share_of_samples_below_the_voltage_of_the_shaft():
 @pytest.mark.slow
 def test_speeds_alone_are_drawn_as_capacitance_and_breakdown_voltages(tmp_path):
     found = over(**{TEMPERATURE: (300.0, 330.0)})
-    held = take(found, SPEED, None, "bearing.first_break", {TEMPERATURE: "330"})
+    held = select_slice(found, SPEED, None, "bearing.first_break", {TEMPERATURE: "330"})
     files = save_speeds(found, held, tmp_path)
     assert [file.name for file in files] == list(SPEED_FIGURE_FILES)
     assert all(file.read_bytes().startswith(b"\x89PNG") for file in files)
-    assert save_speeds(found, take(found, SPEED, TEMPERATURE, "bearing.first_break"), tmp_path) == []
+    assert save_speeds(found, select_slice(found, SPEED, TEMPERATURE, "bearing.first_break"), tmp_path) == []
 
 
 @pytest.mark.slow

@@ -9,7 +9,7 @@ from ehlectric import InputError
 from ehlectric.quantities.formats import scale_for
 from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.points import Range
-from ehlectric.sweep.slices import spaced_log, surface_of, take
+from ehlectric.sweep.slices import select_slice, spaced_log, surface_of
 from ehlectric.sweep.sweep_inputs import CONTACT
 from tests.helpers.each import each
 from tests.helpers.sweep_models import LOAD, POTENTIAL, SPEED, breakdown, case, grid, paired, sobol
@@ -24,7 +24,7 @@ def cube(**how):
 
 @each("text", ["4 V", "4", "4000 mV", "3.2 V"])
 def test_the_nearest_value_is_held(text):
-    taken = take(cube(), SPEED, LOAD, VALUE, {POTENTIAL: text})
+    taken = select_slice(cube(), SPEED, LOAD, VALUE, {POTENTIAL: text})
     assert taken.at == {POTENTIAL: 4.0}
     assert {point.inputs[POTENTIAL] for point in taken.points} == {4.0}
     assert len(taken.points) == 12
@@ -38,16 +38,16 @@ def test_the_nearest_value_is_held(text):
 
 
 def test_a_key_of_one_value_is_held_by_itself():
-    taken = take(grid({SPEED: SPEEDS, LOAD: LOADS, POTENTIAL: (3.0,)}), SPEED, LOAD, VALUE)
+    taken = select_slice(grid({SPEED: SPEEDS, LOAD: LOADS, POTENTIAL: (3.0,)}), SPEED, LOAD, VALUE)
     assert taken.at == {POTENTIAL: 3.0}
-    assert take(grid({SPEED: SPEEDS, LOAD: (1e6,)}), SPEED, None, VALUE).at == {LOAD: 1e6}
+    assert select_slice(grid({SPEED: SPEEDS, LOAD: (1e6,)}), SPEED, None, VALUE).at == {LOAD: 1e6}
     ends = grid({SPEED: SPEEDS, "grid.field_range": ([-1.0, 1.0],)})
-    assert take(ends, SPEED, None, VALUE).at == {"grid.field_range": "[-1.0, 1.0]"}
+    assert select_slice(ends, SPEED, None, VALUE).at == {"grid.field_range": "[-1.0, 1.0]"}
 
 
 def test_a_design_that_holds_nothing_says_so():
     span = {SPEED: Range(1.0, 4.0), LOAD: Range(2e5, 2e6, "log"), POTENTIAL: Range(1.0, 4.0)}
-    taken = take(sobol(span, 4, breakdown), SPEED, LOAD, VALUE)
+    taken = select_slice(sobol(span, 4, breakdown), SPEED, LOAD, VALUE)
     assert (taken.free, len(taken.points)) == ((POTENTIAL,), 20)
     assert taken.grid() is None
     assert surface_of(taken, log_x=False, log_y=True) is None
@@ -55,12 +55,14 @@ def test_a_design_that_holds_nothing_says_so():
 
 def test_texts_are_lines_and_no_map():
     oils = ("paper", "turbine", "gear")
-    taken = take(grid({SPEED: SPEEDS, "lubricant.base": oils}), SPEED, "lubricant.base", VALUE)
+    taken = select_slice(grid({SPEED: SPEEDS, "lubricant.base": oils}), SPEED, "lubricant.base", VALUE)
     assert [value for value, _ in taken.series()] == list(oils)
     assert all(list(taken.along[numbers]) == list(SPEEDS) for _, numbers in taken.series())
     with pytest.raises(InputError, match="a map needs numbers"):
         taken.check_numeric()
-    held = take(grid({SPEED: SPEEDS, "lubricant.base": oils}), SPEED, None, VALUE, {"lubricant.base": "gear"})
+    held = select_slice(
+        grid({SPEED: SPEEDS, "lubricant.base": oils}), SPEED, None, VALUE, {"lubricant.base": "gear"}
+    )
     assert held.at == {"lubricant.base": "gear"}
 
 
@@ -81,7 +83,7 @@ def test_texts_are_lines_and_no_map():
 )
 def test_what_cannot_be_drawn_is_refused_in_one_line(arguments, key, names):
     with pytest.raises(InputError) as refused:
-        take(cube(), *arguments)
+        select_slice(cube(), *arguments)
     text = str(refused.value)
     assert text.startswith(f"{key}: ")
     assert [name for name in names if name not in text] == []
@@ -93,7 +95,7 @@ def test_what_cannot_be_drawn_is_refused_in_one_line(arguments, key, names):
 def test_hostile_values_to_hold_are_refused_in_a_short_line(key, text):
     results = grid({SPEED: (1.0, 2.0), LOAD: (1e6, 2e6), "grid.nodes": (401, 801)})
     with pytest.raises(InputError, match=r"^at: ") as refused:
-        take(results, LOAD, None, CONTACT.value, {key: text})
+        select_slice(results, LOAD, None, CONTACT.value, {key: text})
     assert len(str(refused.value)) < 500
 
 
@@ -103,15 +105,17 @@ def test_other_refusals():
         (grid({SPEED: SPEEDS}, lambda _: {"film": {"x": 1.0}}), VALUE, r"the case has no \[discharge\]"),
     ):
         with pytest.raises(InputError, match=message):
-            take(results, SPEED, None, key)
+            select_slice(results, SPEED, None, key)
     with pytest.raises(InputError, match="expected one of paper, gear"):
-        take(
+        select_slice(
             grid({SPEED: SPEEDS, "lubricant.base": ("paper", "gear")}),
             *(SPEED, None, VALUE),
             {"lubricant.base": "geer"},
         )
     with pytest.raises(InputError, match="a sobol design has no two points alike"):
-        take(sobol({SPEED: Range(1, 2), LOAD: Range(1, 2)}, 4, breakdown), SPEED, None, VALUE, {LOAD: "1"})
+        select_slice(
+            sobol({SPEED: Range(1, 2), LOAD: Range(1, 2)}, 4, breakdown), SPEED, None, VALUE, {LOAD: "1"}
+        )
 
 
 def test_margin_is_the_ratio_of_the_voltages():
@@ -135,7 +139,7 @@ def test_what_is_linear_in_the_axes_is_met_between_the_points(xs, ys, logs, seed
     def plane(x, y):
         return a + b * (np.log(x) if logs[0] else x) + c * (np.log(y) if logs[1] else y)
 
-    taken = take(grid({SPEED: xs, LOAD: ys}), SPEED, LOAD, VALUE)
+    taken = select_slice(grid({SPEED: xs, LOAD: ys}), SPEED, LOAD, VALUE)
     surface = surface_of(taken, log_x=logs[0], log_y=logs[1])
     values = plane(taken.along, np.array(taken.across))
     nodes, whole = surface.at_nodes(values)
@@ -150,7 +154,7 @@ def test_what_is_linear_in_the_axes_is_met_between_the_points(xs, ys, logs, seed
 
 def test_powers_are_met_on_logarithmic_axes():
     """The breakdown voltage of the model is a product of powers: its logarithm is linear."""
-    taken = take(grid({SPEED: SPEEDS, LOAD: LOADS}), SPEED, LOAD, VALUE)
+    taken = select_slice(grid({SPEED: SPEEDS, LOAD: LOADS}), SPEED, LOAD, VALUE)
     surface = surface_of(taken, log_x=True, log_y=True)
     nodes, _ = surface.at_nodes(taken.values, log=True)
     np.testing.assert_allclose(nodes, 10.0 * (surface.x / 4.0) ** 0.7 * (surface.y / 1e6) ** -0.1, rtol=1e-12)
@@ -168,7 +172,7 @@ def test_a_point_that_is_not_solved_leaves_the_cells_around_it_out():
     results = grid(
         {SPEED: xs, LOAD: ys}, status=lambda i: "failed" if i[SPEED] == 2.0 and i[LOAD] == 3.0 else "solved"
     )
-    taken = take(results, SPEED, LOAD, VALUE)
+    taken = select_slice(results, SPEED, LOAD, VALUE)
     surface = surface_of(taken, log_x=False, log_y=False)
     _, whole = surface.at_nodes(taken.values)
     # The four cells between x = 1 and 4 and y = 1.5 and 4.
@@ -185,7 +189,7 @@ def test_scattered_points_have_triangles_between_them():
     rng = np.random.default_rng(0)
     xs = np.concatenate([[1.0, 1.0, 9.0, 9.0], rng.uniform(1.0, 9.0, 40)])
     ys = np.concatenate([[1.0, 100.0, 1.0, 100.0], 10.0 ** rng.uniform(0.0, 2.0, 40)])
-    taken = take(paired({SPEED: list(xs), LOAD: list(ys)}), SPEED, LOAD, VALUE)
+    taken = select_slice(paired({SPEED: list(xs), LOAD: list(ys)}), SPEED, LOAD, VALUE)
     surface = surface_of(taken, log_x=False, log_y=True)
     values = 3.0 + xs - 2.0 * np.log(ys)
     nodes, whole = surface.at_nodes(values)
@@ -204,7 +208,7 @@ def test_scattered_points_have_triangles_between_them():
 def test_points_on_a_line_have_nothing_between_them():
     speeds = [1.0, 2.0, 4.0]
     for loads in ([1e5, 1e5, 1e5], [1e5, 2e5, 4e5]):
-        taken = take(paired({SPEED: speeds, LOAD: loads}), SPEED, LOAD, VALUE)
+        taken = select_slice(paired({SPEED: speeds, LOAD: loads}), SPEED, LOAD, VALUE)
         assert surface_of(taken, log_x=True, log_y=True) is None
 
 

@@ -13,7 +13,7 @@ from ehlectric.sweep.engine import solve_point
 from ehlectric.sweep.point_groups import plan_together
 from ehlectric.sweep.result import columns_of
 from ehlectric.sweep.run import run_sweep
-from ehlectric.sweep.slices import take
+from ehlectric.sweep.slices import select_slice
 from ehlectric.sweep.sweep_inputs import Sweep
 from tests.helpers.bearings import ROLLERS, bearing_case
 from tests.helpers.each import each
@@ -252,8 +252,8 @@ def test_contacts_have_no_probability():
 def test_a_wrong_key_names_the_nearest(tmp_path):
     found = run_sweep(swept({SPEED: ["1500 rpm", "6000 rpm"]}), tmp_path, workers=1)
     with pytest.raises(InputError, match=rf"nearest is {PROBABILITY}$"):
-        take(found, SPEED, None, "uncertainty.breakdown_probabilty")
-    assert np.isfinite(take(found, SPEED, None, PROBABILITY).values).all()
+        select_slice(found, SPEED, None, "uncertainty.breakdown_probabilty")
+    assert np.isfinite(select_slice(found, SPEED, None, PROBABILITY).values).all()
 
 
 @pytest.mark.slow

@@ -8,7 +8,7 @@ from ehlectric.figures.sweep_lines import value_lines
 from ehlectric.figures.sweep_maps import value_map
 from ehlectric.sweep.points import Point
 from ehlectric.sweep.result import SweepResults
-from ehlectric.sweep.slices import take
+from ehlectric.sweep.slices import select_slice
 from tests.helpers.bearings import BALLS, bearing_case
 
 SPEED, TEMPERATURE, MARGIN = "bearing.inner_speed", "bearing.temperature", "bearing.margin"
@@ -59,6 +59,6 @@ def test_lines_mark_where_contacts_open(rough):
 
 
 def test_the_title_says_how_many_touch(rough):
-    text = of_slice(rough, take(rough, SPEED, TEMPERATURE, MARGIN))
+    text = of_slice(rough, select_slice(rough, SPEED, TEMPERATURE, MARGIN))
     assert text.startswith("No breakdown expected at all 6 points with a voltage: ")
     assert text.endswith("; at 3 more, contacts open and close, discharges are likely")

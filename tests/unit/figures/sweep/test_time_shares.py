@@ -12,7 +12,7 @@ from ehlectric.figures.sweep_maps import value_map
 from ehlectric.figures.sweep_panels import TIME_SHARES, quantile_of, share_of
 from ehlectric.sweep.points import Point
 from ehlectric.sweep.result import SweepResults
-from ehlectric.sweep.slices import take
+from ehlectric.sweep.slices import select_slice
 from tests.helpers.bearings import BALLS, bearing_case
 
 SPEED, TEMPERATURE, SHARE = "bearing.inner_speed", "bearing.temperature", "bearing.contact_time_share"
@@ -92,7 +92,7 @@ def test_the_curve_between_points_is_close_to_the_law(results):
 
 
 def test_the_title_names_the_ends(results):
-    text = of_slice(results, take(results, SPEED, TEMPERATURE, SHARE))
+    text = of_slice(results, select_slice(results, SPEED, TEMPERATURE, SHARE))
     assert (
         text == f"Contacts short the bearing less than 0.01 % to {100.0 * share_at(10.0):.3g} % of the time"
     )
