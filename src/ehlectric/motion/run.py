@@ -26,7 +26,7 @@ from ehlectric.motion.storage import (
     time_step,
 )
 from ehlectric.motion.stored import SCHEMA, Maps, TimeStep
-from ehlectric.motion.stored_run import read_motion
+from ehlectric.motion.stored_run import read_motion, refuse_other_case
 from ehlectric.motion.summary import summary_of
 from ehlectric.motion.warnings import motion_warnings
 from ehlectric.quantities.result_warnings import warnings_of
@@ -56,6 +56,7 @@ def solve_to_folder(
     contact = TransientContact.of(case, prepared.rough)
     failure = None
     with alone_in(folder, (MOTION, *FILES, *others), locks=[RESULT_LOCK]) as folder:
+        refuse_other_case(folder, case)
         # A run that was stopped between its last step and its summary has no summary.json.
         again = (folder / SUMMARY).is_file()
         with alone_in(folder, locks=[FIGURE_LOCK]):
@@ -84,7 +85,7 @@ def run_motion(case: Case, folder: str | Path, *, again: bool = True, progress: 
         A case with ``motion``.
     folder : str or Path
         Folder of the files; made if it is not there. An unfinished run of the same case there is resumed from
-        the last recorded instant; any other run is replaced.
+        the last recorded instant. A complete run of the same case, or one of another version, is replaced.
     again : bool
         True to solve a complete run of the same case again.
     progress : callable, optional
@@ -98,14 +99,15 @@ def run_motion(case: Case, folder: str | Path, *, again: bool = True, progress: 
     Raises
     ------
     InputError
-        If the case or the folder cannot be used, another command writes into the folder, or it contains a
-        stopped run without motion.sqlite.
+        If the case or the folder cannot be used, another command writes into the folder, or it contains
+        recorded steps of another case, or a stopped run without motion.sqlite.
     ConvergenceError
         If a time step does not converge; motion.nc contains the recorded instants before this step.
     """
     prepared = prepare(case)
     contact = TransientContact.of(case, prepared.rough)
     with alone_in(folder, (MOTION,), locks=[RESULT_LOCK]) as folder:
+        refuse_other_case(folder, case)
         _solve(contact, prepared, folder, again=again, progress=progress)
     return folder / MOTION
 

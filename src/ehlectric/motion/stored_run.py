@@ -216,6 +216,21 @@ def saved_run(folder: Path) -> tuple[int, str]:
         return 0, ""
 
 
+def refuse_other_case(folder: Path, case: Case | None) -> None:
+    """Refuse a folder with recorded steps of another case, as their computation may have taken hours.
+
+    ``case`` is a case with moving roughness, or None for any other run. Raises InputError.
+    """
+    steps, saved_case = saved_run(folder)
+    if steps and not (case is not None and saved_case == case.to_toml()):
+        names = [name for name in (MOTION, MOTION_JOURNAL) if (folder / name).is_file()]
+        raise InputError(
+            folder,
+            f"has {steps} saved steps of another case with moving roughness",
+            takes=f"another folder, as with -o; or remove {' and '.join(names)} from this one",
+        )
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class MotionRun(Values):
     """Stored run of a contact with moving roughness, SI units.

@@ -108,17 +108,10 @@ def protect(folder: str | Path, case: Case | None = None, *, sweep: bool = False
             f"has a sweep of {points[1]} points, of which {points[0]} are saved",
             takes=f"another folder, as with -o; or remove {SWEEP} from this one",
         )
-    if not (names := [name for name in (MOTION, MOTION_JOURNAL) if (folder / name).is_file()]):
-        return
-    from ehlectric.motion.stored_run import saved_run
+    if any((folder / name).is_file() for name in (MOTION, MOTION_JOURNAL)):
+        from ehlectric.motion.stored_run import refuse_other_case
 
-    steps, saved_case = saved_run(folder)
-    if steps and not (case is not None and saved_case == case.to_toml()):
-        raise InputError(
-            folder,
-            f"has {steps} saved steps of another case with moving roughness",
-            takes=f"another folder, as with -o; or remove {' and '.join(names)} from this one",
-        )
+        refuse_other_case(folder, case)
 
 
 def _points(path: Path) -> tuple[int, int] | None:

@@ -21,6 +21,7 @@ from ehlectric.film.unsteady import UnsteadyFilm
 from ehlectric.motion import storage
 from ehlectric.motion.moving_contact import LINE, TransientContact
 from ehlectric.motion.run import run_motion
+from ehlectric.motion.run import solve_to_folder as run_and_sum_up
 from ehlectric.motion.solver import TransientSolver
 from ehlectric.motion.storage import MotionJournal
 from ehlectric.motion.stored_run import MotionRun, is_stored, read_motion, saved_run
@@ -330,14 +331,19 @@ def test_another_case_is_not_gone_on_with(stopped, changes):
     assert found(path, CASE.replace(changes)) is None
 
 
-@pytest.mark.slow
-def test_another_case_is_solved_in_the_place_of_the_first(tmp_path, stopped):
-    stopped(4)
-    other = CASE.replace({"electric.potential_2": 3.0})
-    assert run(other, tmp_path, 0) == ANEW[:2]
-    replaced = read_motion(tmp_path)
-    assert MotionRun.of(replaced).case == other
-    assert dict(replaced.sizes) == {"x": 65, "step": 1, "frame": 1}
+@pytest.mark.gate
+@pytest.mark.parametrize("complete", [False, True])
+def test_the_run_of_another_case_is_not_replaced(tmp_path, stopped, complete):
+    stopped(12 if complete else 4)
+    if complete:
+        run_motion(CASE, tmp_path)
+    before = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
+    names = MOTION if complete else MOTION_JOURNAL
+    text = f"has {12 if complete else 4} saved steps of another case .* another folder.* remove {names} from"
+    for solved in (run_motion, run_and_sum_up):
+        with pytest.raises(InputError, match=text):
+            solved(CASE.replace({"electric.potential_2": 3.0}), tmp_path)
+    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
 
 
 @pytest.mark.slow
