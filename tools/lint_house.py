@@ -201,8 +201,8 @@ def _warnings_given(root: Path) -> Iterator[tuple[Module, ast.Call, tuple[Any, A
     """Yield calls that give a warning, with code and situation, None where they are computed."""
     for module in _warning_modules(root):
         calls = [(call, call.args) for call in module.calls("ResultWarning.of")]
-        # The first argument of a flag is its condition.
-        calls += [(call, call.args[1:]) for call in module.calls("Flag.of")]
+        # The first argument of a condition of a warning says where it holds.
+        calls += [(call, call.args[1:]) for call in module.calls("WarningCondition.of")]
         for call, arguments in calls:
             keys = [each.value if isinstance(each, ast.Constant) else None for each in arguments]
             code, situation = (*keys, "")[:2]

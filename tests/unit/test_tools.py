@@ -63,7 +63,7 @@ def package(root, name, line):
         ("texts_of_warnings", "a.py", 'ResultWarning.of("regime", "line")', "no text"),
         ("texts_of_warnings", "a.py", 'ResultWarning.of("regime", "line", regime=1, h=2)', "values h"),
         ("texts_of_warnings", "a.py", 'ResultWarning.of("regime", "line", **values)', "name the values"),
-        ("texts_of_warnings", "a.py", 'Flag.of(low, "regime", "line", regime=1)', None),
+        ("texts_of_warnings", "a.py", 'WarningCondition.of(low, "regime", "line", regime=1)', None),
         ("warnings_with_written_texts", "a.py", 'ResultWarning("regime", "a text")', "warning_texts.toml"),
         ("warnings_with_written_texts", "a.py", 'ResultWarning(warning.code, "a text")', None),
         ("keys_in_texts_of_errors", "a.py", 'raise InputError(f"{key}: got {x}")', "give the key"),

@@ -33,7 +33,7 @@ from ehlectric.discharge.discharge_laws import (
     volume_of_pit,
 )
 from ehlectric.quantities.formats import amount
-from ehlectric.quantities.result_warnings import Flag
+from ehlectric.quantities.result_warnings import WarningCondition
 from ehlectric.readable import readable
 
 
@@ -332,15 +332,15 @@ def conducting_areas(solution: BearingSolution) -> Array:
 WHITE_ETCHING = 1e3
 
 
-def current_flags(solution: BearingSolution) -> Iterator[Flag]:
+def current_warning_conditions(solution: BearingSolution) -> Iterator[WarningCondition]:
     """Warning of an apparent current density above the lowest of the published limits, or so low that only
     white etching cracks are known of it.
     """
     density = bearing_costs(solution).current_density
     if density is not None:
         low = np.logical_and(density > 1e-3 * WHITE_ETCHING, density < WHITE_ETCHING)
-        yield Flag.of(low, "white-etching", density=1e-6 * density)
-        yield Flag.of(
+        yield WarningCondition.of(low, "white-etching", density=1e-6 * density)
+        yield WarningCondition.of(
             density > CURRENT_DENSITY_LIMITS[0],
             "current-density-high",
             "bearing",
@@ -505,7 +505,7 @@ def oil_conductance(solution: BearingSolution, tau: Numbers) -> Numbers:
     return mean
 
 
-def leakage_flags(solution: BearingSolution) -> Iterator[Flag]:
+def leakage_warning_conditions(solution: BearingSolution) -> Iterator[WarningCondition]:
     """Warning of a shaft voltage that leaks away through the oil within a period of the inverter."""
     leaks, motor = shaft_leakage(solution), solution.case.motor
     if leaks is None or motor is None:
@@ -514,7 +514,7 @@ def leakage_flags(solution: BearingSolution) -> Iterator[Flag]:
     period = 1.0 / (TYPICAL[0] if frequency is None else frequency)
     tau, shaft = oil_relaxation_time(solution), shaft_voltage(solution)
     coated = shaft_path(solution).coated
-    yield Flag.of(
+    yield WarningCondition.of(
         leaks.film_time_constant < period,
         "shaft-leaks",
         relaxation=lambda: amount(float(tau or 0.0), "s"),

@@ -42,7 +42,7 @@ from ehlectric.formulas.inlet_supply import (
 )
 from ehlectric.lubricant.heat_laws import ASSUMED_CONDUCTIVITY, USUAL_CONDUCTIVITY
 from ehlectric.lubricant.oil import Oil
-from ehlectric.quantities.result_warnings import Flag
+from ehlectric.quantities.result_warnings import WarningCondition
 from ehlectric.quantities.units import rpm
 from ehlectric.readable import readable
 from ehlectric.runtime.progress import LOGGER
@@ -453,7 +453,7 @@ _HEAT: Mapping[object, str] = {
 _SPARSE = ("grease", "oil-air")
 
 
-def film_note(solution: BearingSolution) -> Iterator[Flag]:
+def film_note(solution: BearingSolution) -> Iterator[WarningCondition]:
     """Note about the effects that the films neglect, and whether they are bounds or best estimates."""
     bearing, whole = solution.case.bearing, solution.conditions.film_factor == 1.0
     factor = bearing.film_factor
@@ -461,10 +461,10 @@ def film_note(solution: BearingSolution) -> Iterator[Flag]:
     smooth = not np.any(bearing.summit_height)
     surfaces = "smooth" if smooth else "rough"
     unknown = factor == "none" and not viscosity_follows(solution.case.lubricant)
-    yield Flag.of(
+    yield WarningCondition.of(
         whole, "isothermal-film", "viscosity" if unknown else "given", factor=name, surfaces=surfaces
     )
-    yield Flag.of(
+    yield WarningCondition.of(
         np.logical_not(whole),
         "smooth-film",
         "bound" if bearing.bounding else "estimate",
@@ -475,11 +475,11 @@ def film_note(solution: BearingSolution) -> Iterator[Flag]:
     )
 
 
-def conductivity_flag(solution: BearingSolution) -> Flag:
+def conductivity_warning_condition(solution: BearingSolution) -> WarningCondition:
     """Note about a thermal conductivity that is assumed for the heat of the inlet."""
     heated = solution.case.bearing.film_factor == "inlet-shear"
     low, high = USUAL_CONDUCTIVITY
-    return Flag.of(
+    return WarningCondition.of(
         heated and solution.conditions.oil.thermal_conductivity is None,
         "conductivity-assumed",
         value=ASSUMED_CONDUCTIVITY,
@@ -526,18 +526,20 @@ def supply_words(solution: BearingSolution) -> str:
     return f"{readable(float(share or 1.0))} of the flooded thickness{by}{more}"
 
 
-def supply_flags(solution: BearingSolution) -> Iterator[Flag]:
+def supply_warning_conditions(solution: BearingSolution) -> Iterator[WarningCondition]:
     """Warnings of a film factor by rule, of a starved film, and of a film that supply has to maintain."""
     total = solution.conditions.film_factor
-    yield Flag.of(total < _FAR, "film-factor-low", factor=total)
+    yield WarningCondition.of(total < _FAR, "film-factor-low", factor=total)
     supply, share = solution.case.bearing.supply, solution.conditions.part_of_film_factor("supply_factor")
     if (isinstance(supply, str) and supply == "flooded") or share is None:
         return
     rule = solution.case.bearing.by_supply_rule
-    yield Flag.of(rule, "supply-rule", supply=supply, share=share)
-    yield Flag.of(share < _LOW, "supply-low", share=share)
+    yield WarningCondition.of(rule, "supply-rule", supply=supply, share=share)
+    yield WarningCondition.of(share < _LOW, "supply-low", share=share)
     solved = solution.case.bearing.film_factor == "solved"
-    yield Flag.of(solved and solution.conditions.inner.friction is None, "starved-film-unsolved", share=share)
+    yield WarningCondition.of(
+        solved and solution.conditions.inner.friction is None, "starved-film-unsolved", share=share
+    )
     time = half_time(solution) if isinstance(supply, str) and supply in _SPARSE else None
     if time is not None:
-        yield Flag.of(time < _SOON, "film-decays", seconds=time, supply=supply)
+        yield WarningCondition.of(time < _SOON, "film-decays", seconds=time, supply=supply)

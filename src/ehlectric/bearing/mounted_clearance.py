@@ -14,7 +14,7 @@ from ehlectric.cases import library
 from ehlectric.cases.bearing_inputs import PLAY, Bearing, Fits
 from ehlectric.cases.library.bearing_catalogue import clearance_range
 from ehlectric.errors import InputError
-from ehlectric.quantities.result_warnings import Flag
+from ehlectric.quantities.result_warnings import WarningCondition
 from ehlectric.quantities.units import to_si
 from ehlectric.readable import readable
 
@@ -99,7 +99,7 @@ def _temperatures(bearing: Bearing, fits: Fits) -> Temperatures:
     )
 
 
-def class_flags(bearing: Bearing) -> Iterator[Flag]:
+def class_warning_conditions(bearing: Bearing) -> Iterator[WarningCondition]:
     """Warning of a clearance that is the middle of a class."""
     if bearing.clearance_class is None or bearing.bore is None:
         return
@@ -107,22 +107,22 @@ def class_flags(bearing: Bearing) -> Iterator[Flag]:
     low, high, middle = (1e6 * value for value in (allowed.least, allowed.most, allowed.middle))
     name, half = bearing.clearance_class, 0.5 * (high - low)
     mounted = bearing.fits is not None
-    yield Flag.of(
+    yield WarningCondition.of(
         not mounted, "clearance-class", "before_mounting", name=name, low=low, high=high, middle=middle
     )
-    yield Flag.of(
+    yield WarningCondition.of(
         mounted, "clearance-class", "in_operation", name=name, low=low, high=high, middle=middle, half=half
     )
 
 
-def fit_flags(clearance: MountedClearance | None) -> Iterator[Flag]:
+def fit_warning_conditions(clearance: MountedClearance | None) -> Iterator[WarningCondition]:
     """Warnings of fits and temperatures that preload a bearing, or loosen one of its rings. ``clearance``,
     clearances of the bearing; None without fits.
     """
     if clearance is None:
         return
     mounted, running = clearance.mounted, clearance.running
-    yield Flag.of(
+    yield WarningCondition.of(
         running.clearance < 0.0,
         "clearance-negative",
         running=1e6 * running.clearance,
@@ -133,4 +133,4 @@ def fit_flags(clearance: MountedClearance | None) -> Iterator[Flag]:
         ("housing", mounted.housing_interference, running.housing_interference),
     ):
         loose = (after <= 0.0) & (before > 0.0)
-        yield Flag.of(loose, "fit-loose", fit, before=1e6 * before, after=1e6 * after)
+        yield WarningCondition.of(loose, "fit-loose", fit, before=1e6 * before, after=1e6 * after)

@@ -51,7 +51,7 @@ from ehlectric.formulas.load_ratings import (
     thrust_roller_dynamic_rating,
     thrust_roller_static_rating,
 )
-from ehlectric.quantities.result_warnings import Flag
+from ehlectric.quantities.result_warnings import WarningCondition
 from ehlectric.quantities.units import rpm
 from ehlectric.runtime.values import is_number
 
@@ -407,7 +407,7 @@ def _required_viscosity(bearing: Bearing) -> Numbers:
     return _at_points(rated_viscosity)(rpm(bearing.inner_speed), bearing.pitch_diameter)
 
 
-def life_flags(solution: BearingSolution) -> Iterator[Flag]:
+def life_warning_conditions(solution: BearingSolution) -> Iterator[WarningCondition]:
     """Notes of inputs for which the rating lives have no value, or are beyond what the standards cover."""
     bearing = solution.case.bearing
     life = bearing.life
@@ -417,17 +417,17 @@ def life_flags(solution: BearingSolution) -> Iterator[Flag]:
     ratio, film = fatigue.viscosity / _required_viscosity(bearing), _film_ratio(fatigue.lambda_ratio)
     limit, static = rated.fatigue_load_limit, rated.static_rating
     part = rated.equivalent_load / rated.dynamic_rating
-    yield Flag.of(np.isnan(part), "life-outside", "angle")
-    yield Flag.of(ratio < LOWEST_RATIO, "life-outside", "oil", ratio=ratio)
-    yield Flag.of(film < LOWEST_RATIO, "life-outside", "film", ratio=film)
-    yield Flag.of(part > _MOST_LOAD, "life-outside", "load", part=part)
-    yield Flag.of(limit > static, "life-outside", "limit", limit=limit, static=static)
+    yield WarningCondition.of(np.isnan(part), "life-outside", "angle")
+    yield WarningCondition.of(ratio < LOWEST_RATIO, "life-outside", "oil", ratio=ratio)
+    yield WarningCondition.of(film < LOWEST_RATIO, "life-outside", "film", ratio=film)
+    yield WarningCondition.of(part > _MOST_LOAD, "life-outside", "load", part=part)
+    yield WarningCondition.of(limit > static, "life-outside", "limit", limit=limit, static=static)
     given = life.static_rating is not None and life.fatigue_load_limit is not None
-    yield Flag.of(solution.conditions.ceramic and not given, "life-outside", "ceramic")
+    yield WarningCondition.of(solution.conditions.ceramic and not given, "life-outside", "ceramic")
     grooves = (bearing.inner_groove, bearing.outer_groove)
     wide = [
         groove > most * (1.0 + _ROUNDING)
         for groove, most in zip(grooves, _RULES[bearing.kind].grooves, strict=False)
         if groove is not None
     ]
-    yield Flag.of(any_of(*wide) & (life.dynamic_rating is None), "life-outside", "grooves")
+    yield WarningCondition.of(any_of(*wide) & (life.dynamic_rating is None), "life-outside", "grooves")

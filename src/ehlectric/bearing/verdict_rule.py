@@ -12,7 +12,7 @@ from ehlectric.bearing.bearing_discharges import (
     Breakdown,
     breakdown_of,
     first_margin,
-    leakage_flags,
+    leakage_warning_conditions,
     margin_with_films,
     shaft_leakage,
     shaft_voltage,
@@ -53,7 +53,7 @@ from ehlectric.discharge.film_verdict import (
     unusable,
     weibull_part,
 )
-from ehlectric.quantities.result_warnings import raised
+from ehlectric.quantities.result_warnings import active
 from ehlectric.quantities.statement import Bound, Fact, Level, Statement
 from ehlectric.quantities.verdict import Verdict
 
@@ -234,7 +234,7 @@ def _coating(solution: BearingSolution, shaft: float) -> Iterator[Statement]:
 def _leaks(solution: BearingSolution) -> Iterator[Statement]:
     """Statement on films that discharge through the oil within a period; none where they do not."""
     leakage = shaft_leakage(solution)
-    if leakage is None or not any(raised(leakage_flags(solution))):
+    if leakage is None or not any(active(leakage_warning_conditions(solution))):
         return
     motor, time = solution.case.motor, leakage.film_time_constant
     frequency = None if motor is None else motor.switching_frequency

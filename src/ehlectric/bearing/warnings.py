@@ -12,19 +12,19 @@ import numpy as np
 from ehlectric.arrays import Array, Mask, Numbers, where
 from ehlectric.bearing.bearing_discharges import (
     breakdown_of,
-    current_flags,
+    current_warning_conditions,
     film_voltage,
-    leakage_flags,
+    leakage_warning_conditions,
     shaft_voltage,
     strength_per_volt,
 )
 from ehlectric.bearing.bearing_touching import BearingDuty, duty_of
-from ehlectric.bearing.film_factor import conductivity_flag, film_note, supply_flags
+from ehlectric.bearing.film_factor import conductivity_warning_condition, film_note, supply_warning_conditions
 from ehlectric.bearing.impedance import shaft_path
 from ehlectric.bearing.input_changes import estimated_keys
-from ehlectric.bearing.mounted_clearance import class_flags, fit_flags
+from ehlectric.bearing.mounted_clearance import class_warning_conditions, fit_warning_conditions
 from ehlectric.bearing.preparation import TAKEN, groove_ratio, shoulder_angle
-from ehlectric.bearing.rating_life import dynamic_rating, life_flags
+from ehlectric.bearing.rating_life import dynamic_rating, life_warning_conditions
 from ehlectric.bearing.ring_contacts import ContactSolution
 from ehlectric.bearing.solution import (
     CONDUCTING,
@@ -49,14 +49,21 @@ from ehlectric.cases.library.designations import parts_of, seals_of
 from ehlectric.cases.library.estimated_bearings import WITHOUT_KNOWN
 from ehlectric.cases.library.printed_ratings import printed_ratings
 from ehlectric.cases.oil_inputs import OilTemperature
-from ehlectric.cases.plausibility import PLAUSIBLE, extreme, oil_doubts, rq_flag, unusual, unusual_machine
+from ehlectric.cases.plausibility import (
+    PLAUSIBLE,
+    extreme,
+    oil_doubts,
+    rq_warning_condition,
+    unusual,
+    unusual_machine,
+)
 from ehlectric.contact import PERMANENT
 from ehlectric.discharge.discharge_laws import known, known_of
-from ehlectric.discharge.film_breakdown import field_flags, strength_flags
-from ehlectric.discharge.film_verdict import breakdown_flag
+from ehlectric.discharge.film_breakdown import field_warning_conditions, strength_warning_conditions
+from ehlectric.discharge.film_verdict import breakdown_warning_condition
 from ehlectric.lubricant.data_sheet import GRADE_WIDTH, LEAST_AT_100, viscosity_index
 from ehlectric.quantities.formats import CELSIUS, time_share_text
-from ehlectric.quantities.result_warnings import Flag, ResultWarning, raised
+from ehlectric.quantities.result_warnings import ResultWarning, WarningCondition, active
 from ehlectric.quantities.units import rpm
 from ehlectric.readable import readable
 
@@ -82,29 +89,31 @@ _COLD = 0.0
 def bearing_warnings(solution: BearingSolution) -> list[ResultWarning]:
     """Warnings that tell where the result of a bearing is unreliable, each once."""
     warnings = [
-        *raised(flags_of(solution)),
+        *active(warning_conditions(solution)),
         *contact_warnings(dict(zip(("inner", "outer"), with_light(solution.curves), strict=True))),
     ]
     return list(dict.fromkeys(warnings))
 
 
-def flags_of(solution: BearingSolution) -> Iterator[Flag]:
+def warning_conditions(solution: BearingSolution) -> Iterator[WarningCondition]:
     """Conditions of the warnings of a whole bearing, at one or many points; without those of its contacts."""
     oil = solution.conditions.oil
-    yield from input_flags(solution.case, oil.viscosity)
-    yield from (flag for flag in oil_doubts(oil) if flag.values["name"] != PLAUSIBLE["viscosity"].name)
+    yield from input_warning_conditions(solution.case, oil.viscosity)
+    yield from (
+        condition for condition in oil_doubts(oil) if condition.values["name"] != PLAUSIBLE["viscosity"].name
+    )
     yield from unusual("viscosity", np.minimum(oil.viscosity, _MOST_VISCOUS))
     mounted = solution.conditions.clearance
     given = solution.case.bearing.radial_clearance
     yield from unusual("clearance", given if mounted is None else mounted.running.clearance)
-    yield from film_flags(solution)
-    yield from voltage_flags(solution)
-    yield from edge_flags(solution)
+    yield from film_warning_conditions(solution)
+    yield from voltage_warning_conditions(solution)
+    yield from edge_warning_conditions(solution)
 
 
 def codes_of(solution: BearingSolution) -> Iterator[tuple[str, Mask]]:
     """Codes of the warnings of many points with quick contacts, and which points have them, shape (...)."""
-    yield from ((flag.code, flag.where) for flag in flags_of(solution))
+    yield from ((condition.code, condition.where) for condition in warning_conditions(solution))
     yield from _contact_codes(solution)
 
 
@@ -125,17 +134,17 @@ def _contact_codes(solution: BearingSolution) -> Iterator[tuple[str, Mask]]:
         yield from ring.oil.codes(pressure)
 
 
-def film_flags(solution: BearingSolution) -> Iterator[Flag]:
+def film_warning_conditions(solution: BearingSolution) -> Iterator[WarningCondition]:
     """Warnings of the films of a whole bearing: how they are computed, oil, temperature and clearance."""
     case, error = solution.case, partial(error_text, solution)
-    yield Flag.of(case.contacts == "formula", "formula-contacts", "bearing", error=error)
-    yield Flag.of(case.contacts == "atlas", "atlas-contacts", "bearing", error=error)
+    yield WarningCondition.of(case.contacts == "formula", "formula-contacts", "bearing", error=error)
+    yield WarningCondition.of(case.contacts == "atlas", "atlas-contacts", "bearing", error=error)
     yield from film_note(solution)
-    yield conductivity_flag(solution)
-    yield from supply_flags(solution)
+    yield conductivity_warning_condition(solution)
+    yield from supply_warning_conditions(solution)
     base, follows = library_viscosity(case.lubricant), viscosity_over_temperature(case.lubricant) is not None
     is_typed = base is None or np.isnan(base)
-    yield Flag.of(
+    yield WarningCondition.of(
         np.logical_not(is_typed),
         "viscosity-of-base",
         viscosity=known(mul, 1e3, base),
@@ -143,7 +152,7 @@ def film_flags(solution: BearingSolution) -> Iterator[Flag]:
         temperature=lambda: CELSIUS.text(case.bearing.oil_temperature),
     )
     given = [f"bearing.{key}" for key in case.bearing.temperatures()]
-    yield Flag.of(
+    yield WarningCondition.of(
         np.logical_and(is_typed, not follows),
         "temperature-unused",
         "bearing",
@@ -154,13 +163,13 @@ def film_flags(solution: BearingSolution) -> Iterator[Flag]:
         for key, temperature in case.bearing.temperatures().items():
             # The viscosity is extrapolated far.
             celsius = CELSIUS.of(temperature)
-            yield Flag.of(
+            yield WarningCondition.of(
                 np.logical_and(is_typed, celsius < _COLD), "temperature-low", key=key, celsius=celsius
             )
-    yield from fit_flags(solution.conditions.clearance)
+    yield from fit_warning_conditions(solution.conditions.clearance)
     geometry = solution.conditions.geometry
     if not geometry.follows_films:
-        yield clearance_flag(geometry.room, solution.positions[0])
+        yield clearance_warning_condition(geometry.room, solution.positions[0])
 
 
 def library_viscosity(oil: Lubricant) -> Numbers | None:
@@ -177,7 +186,7 @@ def library_viscosity(oil: Lubricant) -> Numbers | None:
     return where(oil.viscosity == of_base, of_base)
 
 
-def input_flags(case: BearingCase, viscosity: Numbers) -> Iterator[Flag]:
+def input_warning_conditions(case: BearingCase, viscosity: Numbers) -> Iterator[WarningCondition]:
     """Warnings of inputs that a machine hardly has, and of inputs that stand for a range of values.
     ``viscosity``, dynamic viscosity of the oil at the temperature of the bearing [Pa s], shape (...).
     """
@@ -188,7 +197,7 @@ def input_flags(case: BearingCase, viscosity: Numbers) -> Iterator[Flag]:
         1e3 * bearing.pitch_diameter,
     )
     factor, most = turns * pitch, _most_speed(bearing)
-    yield Flag.of(
+    yield WarningCondition.of(
         factor > most,
         "speed-high",
         speed=turns,
@@ -199,30 +208,32 @@ def input_flags(case: BearingCase, viscosity: Numbers) -> Iterator[Flag]:
     )
     load, rating = np.hypot(bearing.radial_load, bearing.axial_load), _static_rating(bearing)
     tiny = load < _LEAST_LOAD * rating
-    yield Flag.of(tiny, "load-low", load=load, rating=rating)
-    yield _minimum_load_flag(bearing, load, tiny)
+    yield WarningCondition.of(tiny, "load-low", load=load, rating=rating)
+    yield _minimum_load_warning_condition(bearing, load, tiny)
     for key, temperature in bearing.temperatures().items():
         yield extreme(f"bearing.{key}", temperature)
-    yield Flag.of(
+    yield WarningCondition.of(
         viscosity > _MOST_VISCOUS, "viscosity-high", viscosity=viscosity, celsius=celsius, limit=_MOST_VISCOUS
     )
     yield from unusual("roughness", bearing.composite_rq)
-    yield from rq_flag("bearing.composite_ra", bearing.composite_ra, bearing.rq_over_ra)
+    yield from rq_warning_condition("bearing.composite_ra", bearing.composite_ra, bearing.rq_over_ra)
     around = np.pi * bearing.pitch_diameter
     yield from unusual("filling", bearing.elements * bearing.element_diameter / around)
     yield from unusual("strength", case.discharge.dielectric_strength)
     if case.motor is not None:
         yield from unusual_machine({f"motor.{key}": value for key, value in case.motor})
-    yield from class_flags(bearing)
-    yield from _geometry_flags(bearing)
-    yield from _maker_flags(bearing)
-    yield from _seal_flags(bearing)
+    yield from class_warning_conditions(bearing)
+    yield from _geometry_warning_conditions(bearing)
+    yield from _maker_warning_conditions(bearing)
+    yield from _seal_warning_conditions(bearing)
     oil = case.lubricant.temperature
     if oil is not None and oil.iso_vg is not None:
         low, high = (1e6 * oil.at_40() * (1.0 + part) for part in (-GRADE_WIDTH, GRADE_WIDTH))
         index = partial(_index_of, oil)
         graded = oil.iso_vg > 0
-        yield Flag.of(graded, "viscosity-grade", grade=oil.iso_vg, low=low, high=high, index=index)
+        yield WarningCondition.of(
+            graded, "viscosity-grade", grade=oil.iso_vg, low=low, high=high, index=index
+        )
 
 
 def _most_speed(bearing: Bearing) -> Numbers:
@@ -233,20 +244,22 @@ def _most_speed(bearing: Bearing) -> Numbers:
     return np.interp(bearing.contact_angle, (_FLAT, _STEEP), (most, _SPEED_STEEP))
 
 
-def _minimum_load_flag(bearing: Bearing, load: Numbers, tiny: Mask) -> Flag:
+def _minimum_load_warning_condition(bearing: Bearing, load: Numbers, tiny: Mask) -> WarningCondition:
     """Note of a load [N] below the minimum load of catalogues; a preload is a sufficient load."""
     kind = KINDS_OF_BEARINGS[bearing.kind]
     least = _MINIMUM_LOAD[kind.elements] * dynamic_rating(bearing)
     preload = None if bearing.pair is None else bearing.pair.preload
     free = True if preload is None else np.equal(preload, 0.0)
     below = np.logical_and(load < least, np.logical_not(tiny))
-    return Flag.of(below & free, "load-below-minimum", load=load, least=least, elements=kind.elements)
+    return WarningCondition.of(
+        below & free, "load-below-minimum", load=load, least=least, elements=kind.elements
+    )
 
 
-def _geometry_flags(bearing: Bearing) -> Iterator[Flag]:
+def _geometry_warning_conditions(bearing: Bearing) -> Iterator[WarningCondition]:
     """Note of a geometry that is estimated from load ratings."""
     rollers = KINDS_OF_BEARINGS[bearing.kind].rollers
-    yield Flag.of(
+    yield WarningCondition.of(
         bool(estimated_keys(bearing)),
         "geometry-estimated",
         "as_widest" if bearing.kind in WITHOUT_KNOWN else "of_known",
@@ -257,7 +270,7 @@ def _geometry_flags(bearing: Bearing) -> Iterator[Flag]:
     )
 
 
-def _maker_flags(bearing: Bearing) -> Iterator[Flag]:
+def _maker_warning_conditions(bearing: Bearing) -> Iterator[WarningCondition]:
     """Note of load ratings that another maker prints than the maker in the designation."""
     maker = parts_of(bearing.designation).maker if bearing.designation else ""
     printed, life = printed_ratings(bearing.base), bearing.life
@@ -265,7 +278,7 @@ def _maker_flags(bearing: Bearing) -> Iterator[Flag]:
         return
     ratings = () if life is None else (life.dynamic_rating, life.static_rating)
     used = None in ratings or (life is None and bool(estimated_keys(bearing)))
-    yield Flag.of(
+    yield WarningCondition.of(
         used and printed.maker != maker,
         "ratings-of-other-maker",
         name=printed.designation.replace("-", " "),
@@ -274,11 +287,11 @@ def _maker_flags(bearing: Bearing) -> Iterator[Flag]:
     )
 
 
-def _seal_flags(bearing: Bearing) -> Iterator[Flag]:
+def _seal_warning_conditions(bearing: Bearing) -> Iterator[WarningCondition]:
     """Note of a bearing with two seals or shields, greased for life, whose film is fully flooded."""
     seals = seals_of(bearing.designation) if bearing.designation else ""
     closed = seals.startswith("two") and isinstance(bearing.supply, str) and bearing.supply == "flooded"
-    yield Flag.of(closed, "sealed-flooded", name=bearing.designation, seals=seals)
+    yield WarningCondition.of(closed, "sealed-flooded", name=bearing.designation, seals=seals)
 
 
 def _index_of(oil: OilTemperature) -> str:
@@ -297,15 +310,15 @@ def _static_rating(bearing: Bearing) -> Numbers:
     return kind.static * bearing.rows * bearing.elements * diameter * across
 
 
-def voltage_flags(solution: BearingSolution) -> Iterator[Flag]:
+def voltage_warning_conditions(solution: BearingSolution) -> Iterator[WarningCondition]:
     """Warnings of the capacitance and the voltages of a bearing: lubrication, ceramics, Weibull strength."""
     yield from _contact_of_asperities(solution)
-    yield Flag.of(capacitance_is_bound(solution), "capacitance-bound")
+    yield WarningCondition.of(capacitance_is_bound(solution), "capacitance-bound")
     breakdown, shaft, per_volt = breakdown_of(solution), shaft_voltage(solution), strength_per_volt(solution)
     field = known(mul, film_voltage(solution), per_volt)
     first, scattered = known_of(breakdown, "shaft_first_break"), solution.case.discharge.weibull is not None
     margin, converged = known(truediv, first, shaft), solution.converged
-    yield breakdown_flag(
+    yield breakdown_warning_condition(
         "shaft voltage",
         shaft,
         lambda: f"first breakdown at {readable(first)} V",
@@ -313,16 +326,18 @@ def voltage_flags(solution: BearingSolution) -> Iterator[Flag]:
         field=None if scattered else field,
     )
     if converged:
-        yield from strength_flags(solution.conditions.discharge)
-        yield from field_flags(field, "the motor")
-    yield from _coating_flags(solution, shaft)
-    yield from leakage_flags(solution)
-    yield from current_flags(solution)
-    yield from life_flags(solution)
-    yield Flag.of(scattered & insulating(solution), "weibull-voltage")
+        yield from strength_warning_conditions(solution.conditions.discharge)
+        yield from field_warning_conditions(field, "the motor")
+    yield from _coating_warning_conditions(solution, shaft)
+    yield from leakage_warning_conditions(solution)
+    yield from current_warning_conditions(solution)
+    yield from life_warning_conditions(solution)
+    yield WarningCondition.of(scattered & insulating(solution), "weibull-voltage")
 
 
-def _coating_flags(solution: BearingSolution, shaft: Numbers | None) -> Iterator[Flag]:
+def _coating_warning_conditions(
+    solution: BearingSolution, shaft: Numbers | None
+) -> Iterator[WarningCondition]:
     """Warnings of a coating: assumed values, and a shaft voltage [V] that breaks it down.
 
     The coating breaks down alone after the films have broken down.
@@ -330,10 +345,10 @@ def _coating_flags(solution: BearingSolution, shaft: Numbers | None) -> Iterator
     coating = solution.case.bearing.coating
     if coating is not None:
         values = partial(_assumed_text, coating)
-        yield Flag.of(coating.any_assumed, "coating-assumed", coating=coating.base, values=values)
+        yield WarningCondition.of(coating.any_assumed, "coating-assumed", coating=coating.base, values=values)
     withstands = shaft_path(solution).coating_breakdown
     if withstands is not None and shaft is not None:
-        yield Flag.of(withstands < shaft, "coating-breakdown", withstands=withstands, shaft=shaft)
+        yield WarningCondition.of(withstands < shaft, "coating-breakdown", withstands=withstands, shaft=shaft)
 
 
 def _assumed_text(coating: Coating) -> str:
@@ -348,25 +363,27 @@ def _touching_text(duty: BearingDuty) -> str:
     return time_share_text(float(duty.touching_time_share))
 
 
-def _contact_of_asperities(solution: BearingSolution) -> Iterator[Flag]:
+def _contact_of_asperities(solution: BearingSolution) -> Iterator[WarningCondition]:
     """Warning of surfaces that touch all or some of the time."""
     state, ratio = lubrication(solution), partial(lambda_text, solution)
     conducts, nearly_always = state == "conducting", lambda_ratio(solution) < CONDUCTING
-    yield Flag.of(conducts & nearly_always, "touching", "steel", ratio=ratio)
+    yield WarningCondition.of(conducts & nearly_always, "touching", "steel", ratio=ratio)
     height = solution.case.bearing.summit_height
-    yield Flag.of(conducts & ~np.asarray(nearly_always), "touching", "summits", ratio=ratio, height=height)
-    yield Flag.of(state == "touching", "touching", "ceramic", ratio=ratio)
+    yield WarningCondition.of(
+        conducts & ~np.asarray(nearly_always), "touching", "summits", ratio=ratio, height=height
+    )
+    yield WarningCondition.of(state == "touching", "touching", "ceramic", ratio=ratio)
     partly = state == "partial film"
     if solution.conditions.ceramic:
-        yield Flag.of(partly, "partial-film", "ceramic", ratio=ratio)
+        yield WarningCondition.of(partly, "partial-film", "ceramic", ratio=ratio)
         return
     duty = duty_of(solution)
     partly = (partly | (duty.regime != "capacitive")) & (state != "conducting")
     share = partial(_touching_text, duty)
-    yield Flag.of(partly, "partial-film", "steel", ratio=ratio, share=share)
+    yield WarningCondition.of(partly, "partial-film", "steel", ratio=ratio, share=share)
 
 
-def edge_flags(solution: BearingSolution) -> Iterator[Flag]:
+def edge_warning_conditions(solution: BearingSolution) -> Iterator[WarningCondition]:
     """Warnings of contact ellipses that reach over the shoulder of a groove, at most one per ring.
 
     Of the contacts that reach over, the warning names the one with the largest load.
@@ -381,7 +398,7 @@ def edge_flags(solution: BearingSolution) -> Iterator[Flag]:
         ends = np.stack([_end(*pair, groove) for pair in zip(rings, angles, strict=True)], axis=-2)
         loads = np.stack([ring.load for ring in rings], axis=-2)
         over = np.where(ends > np.asarray(shoulder)[..., np.newaxis, np.newaxis], loads, 0.0)
-        yield Flag.of(
+        yield WarningCondition.of(
             np.any(over > 0.0, axis=(-2, -1)),
             "shoulder-reached",
             ring=name,
@@ -402,7 +419,7 @@ def _reached(over: Array, ends: Array) -> float:
     return math.degrees(ends.flat[np.argmax(over)])
 
 
-def clearance_flag(clearance: Numbers, position: Position) -> Flag:
+def clearance_warning_condition(clearance: Numbers, position: Position) -> WarningCondition:
     """Warning of films that take up much of the clearance, an effect that the equilibrium neglects.
     ``clearance``, room for the films [m], the full diametral play of one row; 0 or negative with a preload.
     """
@@ -417,7 +434,7 @@ def clearance_flag(clearance: Numbers, position: Position) -> Flag:
     # Preloaded elements have no clearance: the films are compared with the elastic approach.
     preloaded = np.asarray(clearance) <= 0.0
     room = np.where(preloaded, of_most(at.inner_approach + at.outer_approach), clearance)
-    return Flag.of(
+    return WarningCondition.of(
         films > TAKEN * room,
         "clearance-taken-up",
         films=1e6 * films,

@@ -17,7 +17,7 @@ from ehlectric.cases.plausibility import PLAUSIBLE, modulus_of_steel, unusual
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
 from ehlectric.quantities.alternatives import CONTACT_ALTERNATIVES, ONLY
-from ehlectric.quantities.result_warnings import ResultWarning, raised
+from ehlectric.quantities.result_warnings import ResultWarning, active
 
 
 def radius_doubt(key: str, radius: float) -> Iterator[ResultWarning]:
@@ -31,7 +31,7 @@ def radius_doubt(key: str, radius: float) -> Iterator[ResultWarning]:
     if radius > PLAUSIBLE["radius"].high:
         yield ResultWarning.of("radius-large", key=key, radius=radius)
     else:
-        yield from raised(unusual("radius", radius))
+        yield from active(unusual("radius", radius))
 
 
 def modulus_doubt(modulus: float) -> Iterator[ResultWarning]:
@@ -45,8 +45,8 @@ def modulus_doubt(modulus: float) -> Iterator[ResultWarning]:
     if modulus < PLAUSIBLE["modulus"].low:
         yield ResultWarning.of("modulus-low", modulus=modulus / 1e6)
     else:
-        yield from raised(unusual("modulus", modulus))
-    yield from raised(modulus_of_steel(modulus))
+        yield from active(unusual("modulus", modulus))
+    yield from active(modulus_of_steel(modulus))
 
 
 def warn_of(contact: Contact, *, level: int) -> None:

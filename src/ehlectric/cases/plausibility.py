@@ -16,7 +16,7 @@ from ehlectric.arrays import Mask, Numbers
 from ehlectric.cases.mean_heights import GAUSSIAN, rq_of
 from ehlectric.lubricant.oil import Oil
 from ehlectric.quantities.formats import CELSIUS, amount
-from ehlectric.quantities.result_warnings import Flag
+from ehlectric.quantities.result_warnings import WarningCondition
 from ehlectric.readable import readable
 
 
@@ -91,10 +91,10 @@ PLAUSIBLE: Mapping[str, Plausible] = MappingProxyType(
 _STEEL = (208e9, 237e9)
 
 
-def rq_flag(key: str, ra: Numbers | None, factor: Numbers | None) -> Iterator[Flag]:
+def rq_warning_condition(key: str, ra: Numbers | None, factor: Numbers | None) -> Iterator[WarningCondition]:
     """Note that an Rq follows from an Ra [m] of a key, with a given factor or, for None, an assumed one."""
     if ra is not None:
-        yield Flag.of(
+        yield WarningCondition.of(
             np.greater(ra, 0.0),
             "rq-of-ra",
             "assumed" if factor is None else "given",
@@ -105,13 +105,13 @@ def rq_flag(key: str, ra: Numbers | None, factor: Numbers | None) -> Iterator[Fl
         )
 
 
-def unusual(key: str, value: Numbers | None) -> Iterator[Flag]:
+def unusual(key: str, value: Numbers | None) -> Iterator[WarningCondition]:
     """Condition of the warning about a value, or about many, outside the range of ``PLAUSIBLE``.
 
     Examples
     --------
-    >>> from ehlectric.quantities.result_warnings import raised
-    >>> print(*raised(unusual("speed", 3000.0)))
+    >>> from ehlectric.quantities.result_warnings import active
+    >>> print(*active(unusual("speed", 3000.0)))
     the entrainment speed is 3000 m/s, above the 300 m/s of machines: is it in m/s, and no rotational speed?
     """
     if value is None:
@@ -121,7 +121,7 @@ def unusual(key: str, value: Numbers | None) -> Iterator[Flag]:
         ("below", entry.low, np.less(value, entry.low)),
         ("above", entry.high, np.greater(value, entry.high)),
     ):
-        yield Flag.of(
+        yield WarningCondition.of(
             where,
             "value-unusual",
             name=entry.name,
@@ -160,13 +160,14 @@ USUAL: Mapping[str, Usual] = MappingProxyType(
 )
 
 
-def unusual_machine(values: Mapping[str, Numbers | None]) -> Iterator[Flag]:
+def unusual_machine(values: Mapping[str, Numbers | None]) -> Iterator[WarningCondition]:
     """Conditions of the warning about values of a machine by key, at one or many points; see ``USUAL``.
 
     Examples
     --------
-    >>> from ehlectric.quantities.result_warnings import raised
-    >>> [flag.code for flag in raised(unusual_machine({"motor.winding_rotor_capacitance": 40e-9}))]
+    >>> from ehlectric.quantities.result_warnings import active
+    >>> values = {"motor.winding_rotor_capacitance": 40e-9}
+    >>> [warning.code for warning in active(unusual_machine(values))]
     ['machine-unusual']
     """
     for key, value in values.items():
@@ -174,7 +175,7 @@ def unusual_machine(values: Mapping[str, Numbers | None]) -> Iterator[Flag]:
         if entry is None or value is None:
             continue
         outside = np.less(value, entry.low) | np.greater(value, entry.high)
-        yield Flag.of(
+        yield WarningCondition.of(
             outside,
             "machine-unusual",
             key=key,
@@ -196,13 +197,13 @@ def _first_amount(value: Numbers, where: Mask, unit: str) -> str:
 _COLDEST, _HOTTEST = -40.0, 150.0
 
 
-def extreme(key: str, temperature: Numbers) -> Flag:
+def extreme(key: str, temperature: Numbers) -> WarningCondition:
     """Condition of the warning about a temperature [K], with its key, that steel and oil do not stand.
 
     A temperature in kelvin that is given in degrees Celsius also has it.
     """
     celsius = CELSIUS.of(temperature)
-    return Flag.of(
+    return WarningCondition.of(
         (celsius < _COLDEST) | (celsius > _HOTTEST),
         "temperature-extreme",
         key=key,
@@ -212,22 +213,22 @@ def extreme(key: str, temperature: Numbers) -> Flag:
     )
 
 
-def modulus_of_steel(modulus: float) -> Iterator[Flag]:
+def modulus_of_steel(modulus: float) -> Iterator[WarningCondition]:
     """Note about a reduced modulus [Pa] that is half or twice the modulus of steel on steel.
 
     Examples
     --------
-    >>> from ehlectric.quantities.result_warnings import raised
-    >>> [flag.situation for flag in modulus_of_steel(115.4e9) if flag.where]
+    >>> from ehlectric.quantities.result_warnings import active
+    >>> [condition.situation for condition in modulus_of_steel(115.4e9) if condition.where]
     ['half']
     """
     low, high = _STEEL
     for name, factor in (("half", 0.5), ("twice", 2.0)):
         where = factor * low <= modulus <= factor * high
-        yield Flag.of(where, "modulus-factor", name, modulus=modulus / 1e9)
+        yield WarningCondition.of(where, "modulus-factor", name, modulus=modulus / 1e9)
 
 
-def oil_doubts(oil: Oil) -> Iterator[Flag]:
+def oil_doubts(oil: Oil) -> Iterator[WarningCondition]:
     """Conditions of the warnings about numbers of an oil at its temperature, at one or at many points."""
     yield from unusual("viscosity", oil.viscosity)
     # An oil whose viscosity does not change with pressure has the coefficient 0.

@@ -30,12 +30,12 @@ from ehlectric.contact.starvation import starvation_warnings
 from ehlectric.contact.touching import Coarser, makes_oil, spot_warnings
 from ehlectric.contact.warnings import accuracy_warnings, case_warnings, film_warnings
 from ehlectric.discharge.assessment import discharge_warnings, margin_warnings
-from ehlectric.discharge.film_breakdown import field_flags
+from ehlectric.discharge.film_breakdown import field_warning_conditions
 from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.field import Field, PointField
 from ehlectric.film import FilmProblem, OnGrid, Progress, with_far_field
 from ehlectric.lubricant.oil import Oil
-from ehlectric.quantities.result_warnings import ResultWarning, raised
+from ehlectric.quantities.result_warnings import ResultWarning, active
 from ehlectric.runtime.files import now
 from ehlectric.runtime.progress import LOGGER
 from ehlectric.surfaces.rough_surfaces import RoughMap, RoughSurface
@@ -266,7 +266,7 @@ def _field_warnings(
         return
     yield from discharge_warnings(discharge, film)
     yield from margin_warnings(discharge, contact.conditions.semi_axes, film, field)
-    yield from raised(field_flags(field.max_strength, "the potentials"))
+    yield from active(field_warning_conditions(field.max_strength, "the potentials"))
     if film.converged:
         yield from accuracy_warnings(films.setup.grid, field, estimated=estimated)
 

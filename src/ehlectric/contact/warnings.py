@@ -15,7 +15,7 @@ from ehlectric.cases.case_oil import viscosity_over_temperature
 from ehlectric.cases.contact_inputs import modulus_doubt, radius_doubt
 from ehlectric.cases.film_inputs import CONSTANTS
 from ehlectric.cases.grid_inputs import MOST_DEGREE, Grid
-from ehlectric.cases.plausibility import PLAUSIBLE, extreme, oil_doubts, rq_flag, unusual
+from ehlectric.cases.plausibility import PLAUSIBLE, extreme, oil_doubts, rq_warning_condition, unusual
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.contact_heat import physics_of, unconverged_heat
 from ehlectric.contact.problems import Setup
@@ -25,7 +25,7 @@ from ehlectric.formulas import film_line as film_formulas
 from ehlectric.formulas import film_point as point_formulas
 from ehlectric.lubricant.oil import Oil
 from ehlectric.quantities.formats import CELSIUS
-from ehlectric.quantities.result_warnings import Flag, ResultWarning, raised
+from ehlectric.quantities.result_warnings import ResultWarning, WarningCondition, active
 from ehlectric.readable import readable
 
 # Hertz pressure at which bearing steel deforms permanently in line and in point contacts (ISO 76) [Pa].
@@ -43,7 +43,7 @@ def case_warnings(setup: Case | Setup, conditions: Conditions | PointConditions)
     given = setup.contact.reduced_modulus if isinstance(setup, Case) else conditions.reduced_modulus
     # The moduli of two bodies, such as glass and steel, contain no factor 2.
     yield from () if given is None else modulus_doubt(given)
-    yield from raised(_doubts(setup, conditions))
+    yield from active(_doubts(setup, conditions))
     yield from user_law_warnings(setup, conditions)
     yield from temperature_warnings(setup)
     yield from rheology_warnings(setup)
@@ -58,7 +58,7 @@ def case_warnings(setup: Case | Setup, conditions: Conditions | PointConditions)
     yield from hardness_warnings(conditions)
 
 
-def _doubts(setup: Case | Setup, conditions: Conditions | PointConditions) -> Iterator[Flag]:
+def _doubts(setup: Case | Setup, conditions: Conditions | PointConditions) -> Iterator[WarningCondition]:
     """Conditions of warnings about values that no machine has."""
     yield from unusual("speed", conditions.entrainment_speed)
     if isinstance(setup, Case) and setup.contact.temperature is not None:
@@ -69,9 +69,9 @@ def _doubts(setup: Case | Setup, conditions: Conditions | PointConditions) -> It
     yield from () if setup.discharge is None else unusual("strength", setup.discharge.dielectric_strength)
     for surface in setup.roughness:
         yield from unusual("roughness", surface.rq if surface.rescale_rq is None else surface.rescale_rq)
-        yield from rq_flag("roughness.ra", surface.ra, surface.rq_over_ra)
+        yield from rq_warning_condition("roughness.ra", surface.ra, surface.rq_over_ra)
     if isinstance(setup, Case) and setup.meter is not None:
-        yield from rq_flag("meter.ra", setup.meter.ra, setup.meter.rq_over_ra)
+        yield from rq_warning_condition("meter.ra", setup.meter.ra, setup.meter.rq_over_ra)
 
 
 def user_law_warnings(

@@ -24,14 +24,14 @@ from ehlectric.discharge.film_breakdown import (
     FieldUtilisation,
     breakdown,
     breakdown_zone,
-    strength_flags,
+    strength_warning_conditions,
 )
 from ehlectric.discharge.film_capacitance import Capacitances, capacitances
-from ehlectric.discharge.film_verdict import breakdown_flag
+from ehlectric.discharge.film_verdict import breakdown_warning_condition
 from ehlectric.field import Field, PointField
 from ehlectric.film import Film, PointFilm
 from ehlectric.lubricant.oil import Oil
-from ehlectric.quantities.result_warnings import ResultWarning, raised
+from ehlectric.quantities.result_warnings import ResultWarning, active
 from ehlectric.readable import readable
 
 
@@ -126,14 +126,14 @@ def margin_warnings(
         return
     size, utilisation = Size.of(semi_axes, discharge), FieldUtilisation.of(discharge, film, field)
     result = breakdown(discharge, utilisation, field.voltage, size)
-    flag = breakdown_flag(
+    condition = breakdown_warning_condition(
         "applied voltage",
         field.voltage,
         lambda: f"breakdown voltage {readable(result.breakdown_voltage or 0.0)} V",
         result.margin,
         field=None if discharge.weibull is not None else field.max_strength,
     )
-    yield from raised([flag, *strength_flags(discharge)])
+    yield from active([condition, *strength_warning_conditions(discharge)])
 
 
 def discharge_warnings(discharge: Discharge | None, film: Film | PointFilm) -> Iterator[ResultWarning]:

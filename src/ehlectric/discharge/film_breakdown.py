@@ -20,7 +20,7 @@ from ehlectric.discharge.discharge_laws import (
 from ehlectric.discharge.film_capacitance import at_columns
 from ehlectric.field import ATOM, Field, PointField, areas
 from ehlectric.film import Film, PointFilm
-from ehlectric.quantities.result_warnings import Flag
+from ehlectric.quantities.result_warnings import WarningCondition
 
 # Field strength that no film of a liquid between rough metals carries [V/m]. By Fowler and Nordheim's law of
 # field emission, in the form of Proc. R. Soc. A 124 (1929) 699, a metal with a work function of 4.5 eV emits
@@ -28,12 +28,12 @@ from ehlectric.quantities.result_warnings import Flag
 MOST_OF_LIQUIDS = 1e9
 
 
-def field_flags(max_strength: Numbers | None, check: str) -> Iterator[Flag]:
+def field_warning_conditions(max_strength: Numbers | None, check: str) -> Iterator[WarningCondition]:
     """Warning of a maximum field strength that no film of a liquid carries. ``max_strength``, maximum field
     strength at the applied voltage [V/m], shape (...); None where there is none.
     """
     if max_strength is not None:
-        yield Flag.of(
+        yield WarningCondition.of(
             max_strength > MOST_OF_LIQUIDS,
             "field-above-insulators",
             field=max_strength / 1e6,
@@ -42,7 +42,7 @@ def field_flags(max_strength: Numbers | None, check: str) -> Iterator[Flag]:
         )
 
 
-def strength_flags(discharge: Discharge | None) -> Iterator[Flag]:
+def strength_warning_conditions(discharge: Discharge | None) -> Iterator[WarningCondition]:
     """Warning of a dielectric strength above the field that any film of a liquid carries."""
     if discharge is None:
         return
@@ -53,7 +53,7 @@ def strength_flags(discharge: Discharge | None) -> Iterator[Flag]:
     elif law is not None:
         strength = law.scale
     if strength is not None:
-        yield Flag.of(
+        yield WarningCondition.of(
             strength > MOST_OF_LIQUIDS,
             "strength-above-liquids",
             strength=strength / 1e6,

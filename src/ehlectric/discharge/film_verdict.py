@@ -16,7 +16,7 @@ from ehlectric.discharge.breakdown_rule import (
 )
 from ehlectric.discharge.film_breakdown import Breakdown
 from ehlectric.quantities.quantity import data_file
-from ehlectric.quantities.result_warnings import Flag, ResultWarning
+from ehlectric.quantities.result_warnings import ResultWarning, WarningCondition
 from ehlectric.quantities.statement import Fact, Statement
 from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import ratio_text
@@ -151,14 +151,14 @@ def weibull_part(shape: float, probability: float) -> float:
     return math.pow(-math.log1p(-probability), 1.0 / shape)
 
 
-def breakdown_flag(
+def breakdown_warning_condition(
     kind: str,
     voltage: Numbers | None,
     at: Callable[[], str],
     margin: Numbers | None,
     *,
     field: Numbers | None = None,
-) -> Flag:
+) -> WarningCondition:
     """Warning of a margin below 1. ``voltage`` [V]; ``margin``, dimensionless, shape (...), or None;
     ``field``, maximum field strength at this voltage [V/m], which exceeds the dielectric strength.
     """
@@ -168,10 +168,10 @@ def breakdown_flag(
         return ratio_text(margin)
 
     if field is None:
-        return Flag.of(
+        return WarningCondition.of(
             below, "breakdown-expected", "voltage", kind=kind, voltage=voltage, breakdown=at, margin=ratio
         )
-    return Flag.of(
+    return WarningCondition.of(
         below,
         "breakdown-expected",
         "field",

@@ -17,7 +17,7 @@ from ehlectric.drive.drive_record import FEW, FILM, ON, DriveSolution
 from ehlectric.drive.motor_circuit import oscillations
 from ehlectric.quantities.formats import amount, rpm_text
 from ehlectric.quantities.inputs import ENDS
-from ehlectric.quantities.result_warnings import ResultWarning, raised
+from ehlectric.quantities.result_warnings import ResultWarning, active
 
 # Share of time from which films are said to conduct on.
 MOSTLY = 0.2
@@ -75,7 +75,7 @@ def machine_warnings(case: DriveCase, bearings: Sequence[BearingElement]) -> Ite
         )
         yield ResultWarning.of("capacitances-estimated", capacitances=values)
     for table in ("source", "circuit", "breakdown"):
-        yield from raised(unusual_machine({f"{table}.{key}": value for key, value in getattr(case, table)}))
+        yield from active(unusual_machine({f"{table}.{key}": value for key, value in getattr(case, table)}))
     yield from _of_ring(case)
     yield from _of_oscillations(case, bearings)
     yield from _of_conduction(case, bearings)

@@ -116,13 +116,13 @@ class ResultWarning:
 
 
 @dataclass(frozen=True)
-class Flag:
+class WarningCondition:
     """Condition of a warning at one or at many points of operation, and what its text says at a single one.
 
     Examples
     --------
-    >>> flag = Flag.of(True, "seed-repeated", times=2, seed=lambda: 5)
-    >>> [warning.code for warning in raised([flag, Flag.of(False, "seed-repeated")])]
+    >>> condition = WarningCondition.of(True, "seed-repeated", times=2, seed=lambda: 5)
+    >>> [warning.code for warning in active([condition, WarningCondition.of(False, "seed-repeated")])]
     ['seed-repeated']
     """
 
@@ -138,12 +138,12 @@ class Flag:
         return cls(where, code, situation, values)
 
 
-def raised(flags: Iterable[Flag]) -> Iterator[ResultWarning]:
+def active(conditions: Iterable[WarningCondition]) -> Iterator[ResultWarning]:
     """Warnings of a single point: those whose condition holds."""
-    for flag in flags:
-        if flag.where:
-            values = {name: value() if callable(value) else value for name, value in flag.values.items()}
-            yield ResultWarning.of(flag.code, flag.situation, **values)
+    for condition in conditions:
+        if condition.where:
+            values = {name: value() if callable(value) else value for name, value in condition.values.items()}
+            yield ResultWarning.of(condition.code, condition.situation, **values)
 
 
 # Keys of summary.json, and attributes of files, with the texts of warnings and their codes.

@@ -7,9 +7,9 @@ import pytest
 
 from ehlectric import evaluate
 from ehlectric.bearing.result import solve_bearing
-from ehlectric.bearing.warnings import _most_speed, input_flags, library_viscosity
+from ehlectric.bearing.warnings import _most_speed, input_warning_conditions, library_viscosity
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.quantities.result_warnings import raised
+from ehlectric.quantities.result_warnings import active
 from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
@@ -22,7 +22,9 @@ CLASS = {"bearing__radial_clearance": "C2", "bearing__bore": "40 mm"}
 
 
 def told(viscosity=0.01, **changes):
-    return {w.code: str(w) for w in raised(input_flags(bearing_case(BALLS, **changes), viscosity))}
+    return {
+        w.code: str(w) for w in active(input_warning_conditions(bearing_case(BALLS, **changes), viscosity))
+    }
 
 
 def test_an_ordinary_bearing_has_none():
@@ -149,7 +151,7 @@ def test_the_minimum_load_of_rollers_is_larger_and_a_preload_is_a_load():
         ({"bearing.axial_load": 0.0}, 0.5, False),
     ):
         case = rollers.replace(changes | {"bearing.radial_load": part * least})
-        codes = [warning.code for warning in raised(input_flags(case, 0.01))]
+        codes = [warning.code for warning in active(input_warning_conditions(case, 0.01))]
         assert ("load-below-minimum" in codes) == told_of, (changes, part)
 
 

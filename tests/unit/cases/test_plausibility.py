@@ -3,14 +3,14 @@
 import pytest
 
 from ehlectric import BearingCase, Case, DriveCase, load, save, solve
-from ehlectric.bearing.warnings import bearing_warnings, input_flags
+from ehlectric.bearing.warnings import bearing_warnings, input_warning_conditions
 from ehlectric.cases.plausibility import PLAUSIBLE, modulus_of_steel, unusual, unusual_machine
 from ehlectric.contact.conditions import resolve, resolve_point
 from ehlectric.contact.warnings import case_warnings
 from ehlectric.drive.warnings import machine_warnings
 from ehlectric.formulas.capacitances import Machine, machine_capacitances
 from ehlectric.formulas.hertz import body_compliance, reduced_modulus
-from ehlectric.quantities.result_warnings import raised
+from ehlectric.quantities.result_warnings import active
 from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
@@ -85,9 +85,9 @@ SMALL |= {"liner_width": 5e-3, "liner": 2e-4}
 def test_capacitances_of_machines_are_not_doubted(sizes, factor):
     found = machine_capacitances(Machine(**AIR_AND_PAPER, **sizes))
     values = {f"circuit.{name}_capacitance": getattr(found, name) for name in NAMES}
-    assert list(raised(unusual_machine(values))) == []
+    assert list(active(unusual_machine(values))) == []
     # A wrong prefix of a unit is a factor of 1000.
-    assert len(list(raised(unusual_machine({key: factor * value for key, value in values.items()})))) == 3
+    assert len(list(active(unusual_machine({key: factor * value for key, value in values.items()})))) == 3
 
 
 @each(
@@ -100,9 +100,11 @@ def test_capacitances_of_machines_are_not_doubted(sizes, factor):
 )
 def test_motors(key, value, words):
     case = BearingCase.from_toml(EXAMPLES / "bearing_6208.toml")
-    assert "machine-unusual" not in {one.code for one in raised(input_flags(case, 0.01))}
+    assert "machine-unusual" not in {one.code for one in active(input_warning_conditions(case, 0.01))}
     changed = case.replace({key: value})
-    (found,) = [one for one in raised(input_flags(changed, 0.01)) if one.code == "machine-unusual"]
+    (found,) = [
+        one for one in active(input_warning_conditions(changed, 0.01)) if one.code == "machine-unusual"
+    ]
     assert [word for word in (key, *words) if word not in found.text.replace("\xa0", " ")] == []
 
 
@@ -162,15 +164,15 @@ def test_bearings(changes, word):
 @each("key", list(PLAUSIBLE))
 def test_limits_are_allowed_and_values_beyond_are_not(key):
     entry = PLAUSIBLE[key]
-    assert not list(raised(unusual(key, entry.low)))
-    assert not list(raised(unusual(key, entry.high)))
+    assert not list(active(unusual(key, entry.low)))
+    assert not list(active(unusual(key, entry.high)))
     beyond = [entry.low - 0.01 * abs(entry.low), entry.high * 1.01]
-    assert [one.code for value in beyond for one in raised(unusual(key, value))] == ["value-unusual"] * 2
+    assert [one.code for value in beyond for one in active(unusual(key, value))] == ["value-unusual"] * 2
 
 
 def test_steel_is_no_multiple_of_itself():
-    assert not list(raised(modulus_of_steel(226e9)))
-    assert not list(raised(modulus_of_steel(70e9)))
+    assert not list(active(modulus_of_steel(226e9)))
+    assert not list(active(modulus_of_steel(70e9)))
 
 
 @pytest.mark.slow

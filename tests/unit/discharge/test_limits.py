@@ -6,8 +6,12 @@ import pytest
 
 from ehlectric import Case, solve
 from ehlectric.cases.discharge_inputs import Discharge
-from ehlectric.discharge.film_breakdown import MOST_OF_LIQUIDS, field_flags, strength_flags
-from ehlectric.quantities.result_warnings import raised
+from ehlectric.discharge.film_breakdown import (
+    MOST_OF_LIQUIDS,
+    field_warning_conditions,
+    strength_warning_conditions,
+)
+from ehlectric.quantities.result_warnings import active
 from tests.helpers.each import each
 
 LINE = {
@@ -38,7 +42,7 @@ def test_the_limit_is_where_rough_metals_begin_to_emit():
 
 @pytest.mark.parametrize(("field", "count"), [(None, 0), (0.99e9, 0), (3.3e9, 1)])
 def test_fields(field, count):
-    found = list(raised(field_flags(field, "the potentials")))
+    found = list(active(field_warning_conditions(field, "the potentials")))
     assert [one.code for one in found] == count * ["field-above-insulators"]
 
 
@@ -53,7 +57,7 @@ def test_fields(field, count):
     ],
 )
 def test_strengths(strength, count):
-    found = list(raised(strength_flags(Discharge.from_dict(strength))))
+    found = list(active(strength_warning_conditions(Discharge.from_dict(strength))))
     assert [one.code for one in found] == count * ["strength-above-liquids"]
 
 

@@ -5,10 +5,14 @@ import re
 import pytest
 
 from ehlectric import InputError
-from ehlectric.bearing.mounted_clearance import class_flags, fit_flags, mounted_clearance
+from ehlectric.bearing.mounted_clearance import (
+    class_warning_conditions,
+    fit_warning_conditions,
+    mounted_clearance,
+)
 from ehlectric.bearing.preparation import resolve_bearing
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.quantities.result_warnings import raised
+from ehlectric.quantities.result_warnings import active
 from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.sweep_inputs import Sweep
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
@@ -63,7 +67,7 @@ def test_a_class_is_the_clearance_before_mounting():
     assert um(of_class) == um(fitted())
     assert of_class.bearing.radial_clearance is None
     assert BearingCase.from_dict(of_class.to_dict()) == of_class
-    (warning,) = raised(class_flags(of_class.bearing))
+    (warning,) = active(class_warning_conditions(of_class.bearing))
     assert "15 to 33 µm" in str(warning)
     assert " 9 µm" in str(warning)
     as_clearance = fitted(bearing__fits__unmounted_clearance=None, bearing__radial_clearance="C3")
@@ -76,14 +80,14 @@ def test_rollers_have_fits_too():
 
 
 def test_a_preload_and_a_loose_ring_are_warned_of():
-    assert list(raised(fit_flags(None))) == []
-    assert list(raised(fit_flags(mounted_clearance(fitted().bearing)))) == []
+    assert list(active(fit_warning_conditions(None))) == []
+    assert list(active(fit_warning_conditions(mounted_clearance(fitted().bearing)))) == []
     tight = fitted(bearing__inner_ring_temperature="120 degC")
-    (preload,) = raised(fit_flags(mounted_clearance(tight.bearing)))
+    (preload,) = active(fit_warning_conditions(mounted_clearance(tight.bearing)))
     assert preload.code == "clearance-negative"
     assert f"{um(tight)[1]:.3g} µm" in preload.text
     loose = fitted(bearing__fits__housing_interference="10 um", bearing__fits__housing_diameter="120 mm")
-    (warning,) = raised(fit_flags(mounted_clearance(loose.bearing)))
+    (warning,) = active(fit_warning_conditions(mounted_clearance(loose.bearing)))
     assert warning.code == "fit-loose"
     # (22 - 12.5) 1e-6/K 50 K 80 mm = 38 um.
     assert "10 µm" in warning.text

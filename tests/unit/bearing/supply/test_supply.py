@@ -5,7 +5,13 @@ import math
 import numpy as np
 import pytest
 
-from ehlectric.bearing.film_factor import film_note, half_time, supply_flags, supply_words, track_length
+from ehlectric.bearing.film_factor import (
+    film_note,
+    half_time,
+    supply_warning_conditions,
+    supply_words,
+    track_length,
+)
 from ehlectric.bearing.measured_capacitance import OperatingPoint
 from ehlectric.bearing.preparation import prepare_bearing, resolve_bearing, with_film_factor
 from ehlectric.bearing.result import solve_bearing
@@ -14,7 +20,7 @@ from ehlectric.bearing.summary import summary_of
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import InputError
 from ehlectric.formulas.inlet_supply import replenishment_factor
-from ehlectric.quantities.result_warnings import raised
+from ehlectric.quantities.result_warnings import active
 from ehlectric.tables.bearing_tables import film_factor_note
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, numbers_of
 from tests.helpers.each import each
@@ -79,7 +85,7 @@ def test_flooded_is_what_it_was(tables):
     conditions = flooded.conditions
     assert (conditions.film_factor, *parts_of(conditions)) == (1.0, 1.0, 1.0)
     assert half_time(flooded) is None
-    assert not list(raised(supply_flags(flooded)))
+    assert not list(active(supply_warning_conditions(flooded)))
 
 
 @pytest.mark.slow
@@ -115,7 +121,7 @@ def test_starved_films_are_told():
 )
 def test_parts_of_a_film_factor_are_all_named(factor, note, row):
     solution = solve_bearing(case(bearing__film_factor=factor, bearing__supply=0.8)).solution
-    (told,) = raised(film_note(solution))
+    (told,) = active(film_note(solution))
     assert note in told.text
     inputs = {"film_factor": factor, "supply": 0.8}
     summary = {"bearing": {"film_factor": 0.72}, "inputs": {"bearing": inputs}}
