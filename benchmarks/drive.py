@@ -25,7 +25,7 @@ DRIVES = {
 
 
 def main() -> None:
-    """Print the table of docs/performance.md."""
+    """Print the table of docs/validation/performance.md."""
     print(processor())
     example = DriveCase.from_toml(EXAMPLE).replace({"remedies": ()})
     solve_drive(example.replace({"drive.duration": "1 ms"}))

@@ -108,7 +108,6 @@ html_extra_path = ["_generated/extra"]  # filled before anything is read
 html_css_files = ["ehlectric.css"]
 html_show_sourcelink = False
 html_copy_source = False
-html_sidebars = {"verification": [], "measurement": [], "paper": []}  # they have no pages below them
 html_theme_options = {
     "header_links_before_dropdown": 9,
     "navbar_persistent": ["search-button"],  # a field with a text would take a second row

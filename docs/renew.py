@@ -17,11 +17,9 @@ from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-ROOT = Path(__file__).parents[1]
-TUTORIAL = Path("docs/guide/first_bearing.md")
-BEARING = Path("docs/guide/bearing.md")
-PAGES = (Path("README.md"), Path("docs/index.md"), TUTORIAL, BEARING)
+from docs.pages import block_with, blocks, page, pages
 
+ROOT = Path(__file__).parents[1]
 _BLOCK = re.compile(r"(<!--(\w+)-->\n+```text\n)(.*?)(```)", re.DOTALL)
 _NUMBER = re.compile(r"(<!--(\w+): ([^>]+)-->)(.*?)(<!--/-->)")
 _ROW = re.compile(r"(\s*)(\S.*?\S)(\s{2,})\S.*")
@@ -40,22 +38,15 @@ def by_command(words: list[str], folder: Path) -> str:
 
 def _tutorial(command: str, run: Run, folder: Path, *, grade: int = 46) -> str:
     """Output of a command for the file of the tutorial, with an ISO viscosity grade."""
-    file = _file_in(TUTORIAL, "[bearing]")
+    (file,) = (block for block in blocks(page("first_bearing.md"), "toml") if "[bearing]" in block)
     (folder / "bearing.toml").write_text(file.replace("iso_vg = 46", f"iso_vg = {grade}"), "utf-8")
     return run(shlex.split(command), folder)
-
-
-def _file_in(page: Path, table: str) -> str:
-    """The one file of a page that has a table."""
-    blocks = re.findall(r"^```toml\n(.*?)^```", (ROOT / page).read_text("utf-8"), re.DOTALL | re.MULTILINE)
-    (file,) = (block for block in blocks if table in block)
-    return str(file)
 
 
 def _fits(command: str, run: Run, folder: Path, *, inner: int = 85) -> str:
     """Output of a command for the bearing with fits, at a temperature of its inner ring [degC]."""
     example = (ROOT / "examples" / "bearing_6208.toml").read_text("utf-8")
-    file = _file_in(BEARING, "[bearing.fits]").replace('"85 degC"', f'"{inner} degC"')
+    file = block_with("[bearing.fits]", "toml").replace('"85 degC"', f'"{inner} degC"')
     (folder / "bearing.toml").write_text(f"{file}\n{example[example.index('[lubricant]') :]}", "utf-8")
     return run(shlex.split(command), folder)
 
@@ -63,7 +54,7 @@ def _fits(command: str, run: Run, folder: Path, *, inner: int = 85) -> str:
 def _coated(command: str, run: Run, folder: Path) -> str:
     """Output of a command for the example with the coating of the page."""
     example = (ROOT / "examples" / "bearing_6208.toml").read_text("utf-8")
-    coating = _file_in(BEARING, "schaeffler-j20aa")
+    coating = block_with('base = "schaeffler-j20aa"', "toml")
     (folder / "bearing.toml").write_text(f"{example}\n{coating}", "utf-8")
     return run(shlex.split(command), folder)
 
@@ -181,10 +172,11 @@ def _after(label: str, shown: str, printed: str) -> str:
 
 def main() -> None:
     """Renew all pages."""
-    pages = {ROOT / page: (ROOT / page).read_text("utf-8") for page in PAGES}
-    printed = outputs(set().union(*map(runs_of, pages.values())))
-    for path, page in pages.items():
-        path.write_text(renewed(page, printed), "utf-8")
+    texts = {path: path.read_text("utf-8") for path in pages()}
+    printed = outputs(set().union(*map(runs_of, texts.values())))
+    for path, text in texts.items():
+        if runs_of(text):
+            path.write_text(renewed(text, printed), "utf-8")
 
 
 if __name__ == "__main__":

@@ -371,7 +371,7 @@ def _check_tests(app: Sphinx) -> None:
 _PUBLIC = """# API
 
 These names are imported from `ehlectric` itself, and are the stable public API. A script needs no others.
-[From Python](../guide/python.md) shows their use. Everything else is in the [internal modules](internals.md),
+[From Python](../howto/python.md) shows their use. Everything else is in the [internal modules](internals.md),
 which may change between versions.
 
 {}
@@ -384,8 +384,8 @@ internals
 _INTERNAL = """# Internal modules
 
 A script does not need these modules: [API](index.md) has the public names. They may change between versions.
-A package imports from those below it on this page, never from those above; [Architecture](../architecture.md)
-has the map.
+A package imports from those below it on this page, never from those above;
+[Architecture](../project/architecture.md) has the map.
 """
 
 # Headings of the page of the public names, each with its names in the order of their use.

@@ -4,18 +4,16 @@ import re
 import shlex
 
 import pytest
-from docs.renew import BEARING, TUTORIAL, outputs, renewed, runs_of
+from docs import pages
+from docs.renew import RUNS, outputs, renewed, runs_of
 
 from tests.helpers.commands import run_command
 from tests.helpers.places import ROOT
 
-GUIDE = ROOT / "docs" / "guide"
 
-
-def blocks(page, language):
+def blocks(name, language):
     """Blocks of a page in a language, in their order."""
-    text = (GUIDE / page).read_text(encoding="utf-8")
-    return re.findall(rf"^```{language}\n(.*?)^```", text, flags=re.S | re.M)
+    return pages.blocks(pages.page(name), language)
 
 
 def words(text):
@@ -46,7 +44,7 @@ def test_the_page_of_oils_has_the_output_of_its_command(tmp_path):
 
 @pytest.mark.slow
 def test_the_bearing_page_has_the_output_of_its_command(bearing_output):
-    verdict, totals, contacts, *others = blocks("bearing.md", "text")
+    verdict, totals, contacts, *others = blocks("reference/bearing.md", "text")
     (probability,) = (block for block in others if "within what is uncertain" in block)
     assert words(verdict) in bearing_output
     for line in (*totals.splitlines(), *contacts.splitlines(), *probability.splitlines()):
@@ -55,7 +53,7 @@ def test_the_bearing_page_has_the_output_of_its_command(bearing_output):
 
 def kind_commands():
     """Commands of the bearings of several kinds, and the lines that the page has of their output."""
-    shown = [block.splitlines() for block in blocks("bearing.md", "text") if block.startswith("$")]
+    shown = [block.splitlines() for block in blocks("reference/bearing.md", "text") if block.startswith("$")]
     return {command.removeprefix("$ ehlectric "): lines for command, *lines in shown}
 
 
@@ -70,52 +68,36 @@ def test_the_bearing_page_has_the_output_of_each_kind(command, tmp_path):
         assert words(line) in printed
 
 
-def agrees(run, page):
-    """Check that a page has the blocks and the numbers that a run prints."""
-    text = (ROOT / page).read_text(encoding="utf-8")
-    assert run in runs_of(text)
+def agrees(run):
+    """Check that the pages that name a run contain the blocks and the numbers that it prints."""
+    texts = [text for text in (file.read_text("utf-8") for file in pages.pages()) if run in runs_of(text)]
+    assert texts
     printed = outputs({run}, lambda words, folder: run_command(*words, cwd=folder).stdout)
-    assert renewed(text, printed) == text, "python -m docs.renew"
+    for text in texts:
+        assert renewed(text, printed) == text, "python -m docs.renew"
 
 
 @pytest.mark.slow
 @pytest.mark.gate
-def test_the_tutorial_has_the_output_of_check():
-    agrees("check", TUTORIAL)
+@pytest.mark.parametrize("run", ["check", "readme"])
+def test_blocks_and_numbers_of_the_first_pages_are_those_of_their_runs(run):
+    agrees(run)
 
 
 @pytest.mark.slow
-def test_the_tutorial_has_the_output_of_check_with_the_thicker_oil():
-    agrees("thicker", TUTORIAL)
+@pytest.mark.parametrize("run", sorted(set(RUNS) - {"check", "readme"}))
+def test_blocks_and_numbers_of_pages_are_those_of_their_runs(run):
+    agrees(run)
 
 
-@pytest.mark.slow
-def test_the_tutorial_has_the_verdict_of_the_solved_bearing():
-    agrees("solved", TUTORIAL)
-
-
-@pytest.mark.slow
-def test_the_first_page_of_the_documentation_has_the_verdict_of_its_bearing():
-    agrees("index", "docs/index.md")
-
-
-@pytest.mark.slow
-@pytest.mark.gate
-def test_the_answer_of_the_readme_is_that_of_the_command():
+def test_the_readme_names_the_command_of_its_output():
     text = (ROOT / "README.md").read_text(encoding="utf-8")
     assert "ehlectric bearing examples/bearing_6208.toml --contacts atlas -o" in text
-    agrees("readme", "README.md")
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("run", ["readme", "index", "fits", "even", "coated"])
-def test_the_numbers_in_the_sentences_of_the_bearing_page_are_those_of_its_runs(run):
-    agrees(run, BEARING)
 
 
 def test_every_speed_in_the_sentences_of_the_tutorial_is_of_the_file_or_of_a_run():
     """Four values of one critical speed stood in blocks and sentences."""
-    text = (ROOT / TUTORIAL).read_text(encoding="utf-8")
+    text = pages.page("first_bearing.md")
     sentences = re.sub(r"^```.*?^```|<!--\w+: .*?<!--/-->|`[^`]*`", "", text, flags=re.S | re.M)
     assert set(re.findall(r"\d+ rpm", sentences)) <= {"4000 rpm"}
 
@@ -192,7 +174,7 @@ def test_the_discharge_page_has_the_output_of_its_case(tmp_path):
     printed = printed_by(
         "run", str(ROOT / "examples" / "discharge.toml"), "--no-plots", "-o", "o", cwd=tmp_path
     )
-    table, verdict = blocks("discharge.md", "text")
+    table, verdict = blocks("howto/discharge.md", "text")
     for line in table.splitlines():
         assert words(line) in printed
     assert words(verdict) in printed

@@ -9,6 +9,7 @@ import time
 from pathlib import Path
 
 import pytest
+from docs import pages
 
 from ehlectric.paper.paper_contacts import table_3
 from tests.helpers.commands import COMMAND
@@ -157,7 +158,7 @@ def test_workers_do_not_outlive_a_study_that_is_killed(tmp_path):
 
 def test_the_page_states_no_time_that_was_typed():
     """The build of the documentation measures its own run: the time cannot be of another version."""
-    before, _, _ = (ROOT / "docs" / "paper.md").read_text(encoding="utf-8").partition("\n## ")
+    before, _, _ = pages.page("paper.md").partition("\n## ")
     assert "_generated/paper_time.md" in before
     assert not re.search(r"\b(seconds?|minutes?)\b", before)
     assert "paper_time.md" in (ROOT / "docs" / "_ext" / "paper_tables.py").read_text(encoding="utf-8")

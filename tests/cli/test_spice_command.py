@@ -4,11 +4,12 @@ import re
 import shlex
 
 import pytest
+from docs import pages
 
 from ehlectric import BearingCase, solve_bearing
 from tests.cli.test_mistakes_commands import BEARING
 from tests.helpers.ngspice import run_netlist
-from tests.helpers.places import EXAMPLES, ROOT
+from tests.helpers.places import EXAMPLES
 
 DRIVE = 'switching_frequency = "10 kHz"\nrise_time = "0.2 us"\n'
 ARC = ("--arc-resistance", "1 ohm", "--extinction-voltage", "1 V")
@@ -63,8 +64,8 @@ def test_nothing_is_said_when_quiet_and_files_are_replaced(ehlectric, tmp_path):
 
 @pytest.mark.slow
 def test_the_guide_has_the_lines_of_its_command(ehlectric, tmp_path):
-    """The parameters that docs/guide/spice.md prints."""
-    page = (ROOT / "docs" / "guide" / "spice.md").read_text(encoding="utf-8")
+    """The parameters that docs/howto/spice.md prints."""
+    page = pages.page("spice.md")
     command, *_ = re.findall(r"^ehlectric (spice .*)$", page, re.MULTILINE)
     words = shlex.split(command.replace("examples/", f"{EXAMPLES}/"))
     assert ehlectric(*words).returncode == 0
@@ -76,7 +77,7 @@ def test_the_guide_has_the_lines_of_its_command(ehlectric, tmp_path):
 
 @pytest.mark.slow
 def test_the_python_of_the_guide_runs(tmp_path, monkeypatch):
-    page = (ROOT / "docs" / "guide" / "spice.md").read_text(encoding="utf-8")
+    page = pages.page("spice.md")
     (block,) = re.findall(r"^```python\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
     monkeypatch.chdir(tmp_path)
     (tmp_path / "examples").symlink_to(EXAMPLES)

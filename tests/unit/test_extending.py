@@ -6,6 +6,7 @@ import shutil
 
 import numpy as np
 import pytest
+from docs import pages
 
 from ehlectric import Case, InputError, load, save, solve
 from ehlectric.bearing.result import solve_bearing
@@ -283,8 +284,8 @@ def test_a_lubricant_of_the_library_is_one_file(tmp_path, monkeypatch):
 
 
 def test_the_map_names_files_and_tests_that_are_there():
-    """The table "I want to add ..." of docs/architecture.md: paths, and tests that show the addition."""
-    page = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+    """The table "I want to add ..." of architecture.md: paths, and tests that show the addition."""
+    page = pages.page("architecture.md")
     lines = [line for line in page.partition("## I want to add")[2].splitlines() if "`" in line]
     tests = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "tests").rglob("test_*.py"))
     package = ROOT / "src" / "ehlectric"

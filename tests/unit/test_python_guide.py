@@ -1,17 +1,15 @@
-"""The examples of docs/guide/python.md run one after the other, as in a notebook."""
+"""The examples of docs/howto/python.md run one after the other, as in a notebook."""
 
 import logging
-import re
 
 import pytest
+from docs import pages
 
-from tests.helpers.places import EXAMPLES, ROOT
-
-GUIDE = ROOT / "docs" / "guide" / "python.md"
+from tests.helpers.places import EXAMPLES
 
 
 def blocks():
-    return re.findall(r"^```python\n(.*?)^```", GUIDE.read_text(encoding="utf-8"), flags=re.S | re.M)
+    return pages.blocks(pages.page("python.md"), "python")
 
 
 @pytest.mark.slow

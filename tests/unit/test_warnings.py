@@ -1,6 +1,7 @@
 """Codes of warnings: each known, each with a text, a sentence and an explanation."""
 
 import pytest
+from docs import pages
 
 from ehlectric.quantities.result_warnings import CODES, ResultWarning
 from tests.helpers.places import ROOT
@@ -9,7 +10,7 @@ from tools.lint_house import FOREIGN_CODES, data
 
 def test_every_code_is_explained():
     """The page of troubleshooting says in its own words what each means and what to do."""
-    page = (ROOT / "docs" / "guide" / "troubleshooting.md").read_text(encoding="utf-8")
+    page = pages.page("warnings.md")
     assert [code for code in CODES if f"`{code}`" not in page] == []
 
 

@@ -5,19 +5,18 @@ import subprocess
 import sys
 
 import pytest
+from docs import pages
 
 from ehlectric.bearing.result import solve_bearing
 from tests.helpers.bearings import ROLLERS, bearing_case
 from tests.helpers.places import ROOT
 
-GUIDE = ROOT / "docs" / "guide" / "bearing.md"
-
 
 @pytest.mark.slow
 def test_the_script_of_the_guide_runs_as_a_file(tmp_path):
     """Interference presses all rollers nearly alike: few contacts to solve, and yet in several processes."""
-    page = GUIDE.read_text(encoding="utf-8")
-    (script,) = re.findall(r"^```python\n(.*?)^```", page, flags=re.S | re.M)
+    page = pages.page("reference/bearing.md")
+    (script,) = pages.blocks(page, "python")
     (named,) = re.findall(r'from_toml\("(.*?)"\)', script)
     assert (ROOT / named).is_file()
     changes = {"bearing__radial_clearance": "-20 um", "bearing__radial_load": "1 N"}

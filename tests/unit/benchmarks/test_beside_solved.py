@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from benchmarks.asperity_models import Compared, Surface, load_line, one_rough, time_line, two_rough
 from benchmarks.moving_asperities import POSED, standard_error, stored
+from docs import pages
 
 from ehlectric.formulas.asperities import SpectralMoments
-from tests.helpers.places import ROOT
 
 MOMENTS = SpectralMoments(m0=1e-14, m2=2.2e-5, m4=1.5e5)
 
@@ -32,7 +32,7 @@ def test_documentation_has_the_stored_contacts():
     """No contact is missing, and lines of the page are those of the data, with models computed now."""
     rows = stored()
     assert [row.posed for row in rows] == list(POSED)
-    page = (ROOT / "docs" / "theory" / "asperities.md").read_text(encoding="utf-8")
+    page = pages.page("asperities.md")
     for row in (rows[4], rows[-2]):
         each = Compared(row, Surface.of(row.posed))
         assert load_line(each) in page

@@ -1,12 +1,11 @@
 """Oils of the library: a source for every value, and their numbers against those that others print."""
 
 import math
-import re
 import tomllib
-from pathlib import Path
 
 import numpy as np
 import pytest
+from docs import pages
 
 from ehlectric import InputError
 from ehlectric.cases.case_oil import Lubricant
@@ -181,10 +180,10 @@ def test_an_estimate_is_one_that_warns(name):
     assert ("estimated-alpha" in codes) == estimated
 
 
-PAGE = Path(__file__).parents[3] / "docs" / "guide" / "oils.md"
+PAGE = pages.page("oils.md")
 
 
-@each("block", re.findall(r"```toml\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL))
+@each("block", pages.blocks(PAGE, "toml"))
 def test_every_table_of_the_guide_is_valid(block):
     table = tomllib.loads(block)
     if "source" in table:
@@ -200,7 +199,7 @@ def test_every_table_of_the_guide_is_valid(block):
 
 
 def test_the_law_of_the_guide_is_solved_and_named(capsys):
-    blocks = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
+    blocks = pages.blocks(PAGE, "python")
     (block,) = (block for block in blocks if "Laws(" in block)
     exec(block, {})
     assert capsys.readouterr().out.strip() == block.strip().rpartition("# ")[2]

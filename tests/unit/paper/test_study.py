@@ -6,6 +6,7 @@ import re
 
 import numpy as np
 import pytest
+from docs import pages
 
 from ehlectric import solve
 from ehlectric.field.line_field import solve_field
@@ -17,7 +18,7 @@ from ehlectric.paper.paper_figures import FIGURES
 from ehlectric.paper.paper_tables import TABLES, agrees, amplitude, printed_table
 from ehlectric.paper.study import Placed, Study, readings_differ_by, straight_line
 from ehlectric.runtime.worker_processes import cores
-from tests.helpers.places import EXAMPLES, ROOT
+from tests.helpers.places import EXAMPLES
 from tests.reference.field import cylinder_potential
 
 
@@ -192,7 +193,7 @@ def test_tension_solution_carries_the_load():
 
 
 def test_slips_are_those_of_the_documentation():
-    text = (ROOT / "docs" / "errata.md").read_text(encoding="utf-8")
+    text = pages.page("errata.md")
     rows = [line for line in text.splitlines() if line.startswith("| ")][2:]
     assert len(rows) == len(errata.SLIPS)
 

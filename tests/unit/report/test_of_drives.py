@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from docs import pages
 
 from ehlectric import DriveCase, Sweep, run_sweep, save, solve_drive
 from ehlectric.cases.case import Case
@@ -31,7 +32,6 @@ from ehlectric.report.report_texts import (
 from ehlectric.report.written_report import html_of
 from ehlectric.sweep.drive_sweep_verdict import swept_verdict
 from tests.helpers.drives import drive_with_remedy, small_drive
-from tests.helpers.places import ROOT
 from tests.helpers.readable import number_in
 from tests.helpers.reports import HOSTILE, Page, needs_pdftotext, text_of_pdf
 
@@ -145,7 +145,7 @@ def test_current_densities_stand_beside_each_limit_with_its_source():
         ("0.1 A/mm²", "above", "below"), ("0.3 A/mm²", "above", "below"), ("0.8 A/mm²", "below", "below"),
     ]  # fmt: skip
     assert table.heads[1] == "drive end, 0.364 A/mm²"
-    page = (ROOT / "docs/theory/discharge.md").read_text(encoding="utf-8")
+    page = pages.page("theory/discharge.md")
     assert all(row[-1].address in page or "Busse" in row[-1].text for row in table.rows)
     assert list(density_tables({"drive end": None, "non-drive end": 0.0})) == []
     (alone,) = density_tables({"drive end": 1e6, "non-drive end": None})

@@ -4,6 +4,7 @@ import re
 import tomllib
 
 import pytest
+from docs import pages
 
 from ehlectric.bearing.result import solve_bearing
 from ehlectric.bearing.summary import summary_of
@@ -13,7 +14,7 @@ from tests.helpers.places import ROOT
 
 
 def test_the_example_of_the_guide_has_the_numbers_of_the_guide():
-    page = (ROOT / "docs" / "guide" / "bearing.md").read_text(encoding="utf-8")
+    page = pages.page("reference/bearing.md")
     section = page.partition("(bearing-fits)=")[2].partition("### \\[lubricant.temperature\\]")[0]
     (table,) = re.findall(r"^```toml\n(.*?)^```", section, flags=re.S | re.M)
     (printed,) = re.findall(r"^```text\n(.*?)^```", section, flags=re.S | re.M)
