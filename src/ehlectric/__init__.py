@@ -33,7 +33,7 @@ def __getattr__(name: str) -> object:
     if name not in __all__:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     if name in _DRAWING:
-        from ehlectric.runtime.values import import_matplotlib
+        from ehlectric.runtime.display import import_matplotlib
 
         import_matplotlib()
     return _imported(name)

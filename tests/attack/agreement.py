@@ -23,12 +23,12 @@ from typer.testing import CliRunner
 
 from ehlectric import Case, DriveCase, evaluate, load, run_sweep, solve
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.changes import flattened
 from ehlectric.cases.input_keys import kind_of
+from ehlectric.cases.table_edits import flattened
 from ehlectric.commands.command_line import app
 from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.quantities.inputs import ENDS
-from ehlectric.runtime.values import is_number
+from ehlectric.runtime.display import is_number
 from tests.helpers.kinds_of_bearings import DISCHARGE, KINDS, LIFE, MOTOR, OIL, POINT
 
 Table = dict[str, Any]

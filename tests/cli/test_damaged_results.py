@@ -6,7 +6,7 @@ from contextlib import closing
 
 import pytest
 
-from ehlectric.runtime.hdf5_soundness import seal_of
+from ehlectric.runtime.hdf5_guard import seal_of
 from tests.helpers.each import each
 from tests.helpers.places import ROOT
 

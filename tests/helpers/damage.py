@@ -6,7 +6,7 @@ import string
 
 import numpy as np
 
-from ehlectric.runtime.hdf5_soundness import seal_of
+from ehlectric.runtime.hdf5_guard import seal_of
 
 BAD_NUMBERS = (0.0, -1.0, 1e300, -1e300, 1e-300, 5e-324, np.nan, np.inf, -np.inf)
 BAD_JSON = (None, 0, -1, 1e300, float("nan"), 10**400, "x", "", [], {}, [[]], [{}], True)

@@ -7,7 +7,7 @@ import numpy as np
 from ehlectric.bearing.circuit import Path
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.drive_inputs import Breakdown, Circuit
-from ehlectric.drive.discharges.march import Segments
+from ehlectric.drive.discharges.event_loop import Segments
 from ehlectric.drive.discharges.simulation import Measuring, films_of, simulate
 from ehlectric.drive.drive_bearings import BearingElement
 from ehlectric.drive.motor_circuit import modes_of, states_of, voltage_nodes

@@ -8,10 +8,10 @@ import numpy as np
 from ehlectric import evaluate, solve_bearing
 from ehlectric.bearing.summary import summary_of
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.changes import flattened
 from ehlectric.cases.input_keys import is_quantity
+from ehlectric.cases.table_edits import flattened
 from ehlectric.errors import ConvergenceError, InputError
-from ehlectric.runtime.values import is_number
+from ehlectric.runtime.display import is_number
 from tests.helpers.bearings import OIL as SHEET_OIL
 from tests.helpers.bearings import OTHERS
 

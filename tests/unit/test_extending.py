@@ -12,7 +12,7 @@ from ehlectric import Case, InputError, load, save, solve
 from ehlectric.bearing.result import solve_bearing
 from ehlectric.cases import library
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.changes import flattened
+from ehlectric.cases.table_edits import flattened
 from ehlectric.contact import solver
 from ehlectric.contact.conditions import resolve
 from ehlectric.contact.problems import film_problem

@@ -40,14 +40,14 @@ def test_files_of_results_are_named_without_the_compiler_of_drives():
         "from ehlectric.runs.result_folders import files_of_results; files_of_results('.')"
     )
     assert "ehlectric.figures.figure_names" in loaded
-    assert not loaded & {"numba", "ehlectric.drive.discharges.march"}
+    assert not loaded & {"numba", "ehlectric.drive.discharges.event_loop"}
 
 
 @pytest.mark.slow
 def test_a_sweep_of_contacts_begins_without_the_compiler_of_drives():
     loaded = modules_after("import ehlectric.sweep.engine, ehlectric.sweep.run")
     assert "ehlectric.drive.quick_estimate" in loaded
-    assert not loaded & {"numba", "ehlectric.drive.discharges.march"}
+    assert not loaded & {"numba", "ehlectric.drive.discharges.event_loop"}
 
 
 NAMES = sorted({*ehlectric.__all__} - {"__version__"})

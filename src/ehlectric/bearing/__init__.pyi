@@ -42,9 +42,6 @@ from .impedance import oil_relaxation_time as oil_relaxation_time
 from .impedance import rough_capacitance as rough_capacitance
 from .impedance import shaft_capacitance as shaft_capacitance
 from .impedance import shaft_path as shaft_path
-from .input_changes import MOTOR as MOTOR
-from .input_changes import OF_TABLE as OF_TABLE
-from .input_changes import changes_of as changes_of
 from .loads.totals import around_in_rows as around_in_rows
 from .many_points import TOGETHER as TOGETHER
 from .many_points import Columns as Columns
@@ -109,6 +106,9 @@ from .stored import with_smooth_films as with_smooth_films
 from .summary import SUMMARY_SCHEMA as SUMMARY_SCHEMA
 from .summary import clearances_of as clearances_of
 from .summary import summary_of as summary_of
+from .uncertain_inputs import MOTOR as MOTOR
+from .uncertain_inputs import OF_TABLE as OF_TABLE
+from .uncertain_inputs import changes_of as changes_of
 from .uncertainty import FILMS as FILMS
 from .uncertainty import LEAST_SAMPLES as LEAST_SAMPLES
 from .uncertainty import MOST_SAMPLES as MOST_SAMPLES

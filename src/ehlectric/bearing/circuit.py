@@ -9,7 +9,7 @@ import numpy as np
 
 from ehlectric.arrays import Array, Mask, Numbers
 from ehlectric.quantities.field_metadata import stored
-from ehlectric.runtime.values import read_only_property
+from ehlectric.runtime.display import read_only_property
 
 
 def series(first: Array, second: Array) -> Array:

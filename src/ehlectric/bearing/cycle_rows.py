@@ -12,6 +12,7 @@ import numpy as np
 from ehlectric.arrays import Array, Mask
 from ehlectric.quantities.field_metadata import stored
 from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
+from ehlectric.runtime.display import Values, read_only_property
 from ehlectric.runtime.file_rules import UnfitError
 from ehlectric.runtime.files import Content, column_head, csv_of
 from ehlectric.runtime.result_names import DUTY
@@ -25,7 +26,6 @@ from ehlectric.runtime.stored import (
     values_of,
     warnings_in_tables,
 )
-from ehlectric.runtime.values import Values, read_only_property
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -47,8 +47,8 @@ from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.statement import Statement
 from ehlectric.quantities.units import RPM
 from ehlectric.readable import ratio_text, readable
+from ehlectric.runtime.display import Values
 from ehlectric.runtime.files import Content
-from ehlectric.runtime.values import Values
 
 # Speed below which a shaft stands still: sensors and their filters read such speeds at rest [rad/s].
 LEAST_SPEED = 0.1 * RPM

@@ -38,7 +38,7 @@ from ehlectric.bearing.gaps import (
 from ehlectric.contact import Ends
 from ehlectric.formulas.hertz import line_gap, reduced_radius
 from ehlectric.formulas.smooth_tables import Function, SmoothTable, smooth_table
-from ehlectric.runtime.values import read_only_property
+from ehlectric.runtime.display import read_only_property
 
 # Least number of contacts for which polynomials are made, which need the integrals of some hundred contacts.
 LEAST = 200

@@ -17,13 +17,13 @@ from ehlectric.bearing.solving import POSITIONS, Detail, solution_of, solution_o
 from ehlectric.bearing.summary import tables_of
 from ehlectric.bearing.warnings import codes_of
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.changes import flattened
+from ehlectric.cases.table_edits import flattened
 from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.quantities.inputs import SPEED
 from ehlectric.quantities.results import TEXTS_OF_POINTS
+from ehlectric.runtime.display import is_number
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.threads import one_blas_thread
-from ehlectric.runtime.values import is_number
 
 # Points that are solved together: their arrays fit into the memory, and the calls take little of the time.
 TOGETHER = 1024

@@ -16,7 +16,7 @@ from ehlectric.bearing.bearing_discharges import (
     margin_apart,
     with_films_scaled,
 )
-from ehlectric.bearing.changed_bearings import (
+from ehlectric.bearing.perturbed_bearings import (
     AT_CASE,
     PARTS,
     Sampled,
@@ -27,12 +27,6 @@ from ehlectric.bearing.changed_bearings import (
     over_parts,
     solve_several,
 )
-from ehlectric.bearing.input_changes import (
-    Change,
-    changes_of,
-    proportional_to_strength,
-    temperature_is_unused,
-)
 from ehlectric.bearing.quick_contacts import formula_factor, is_quick, required_quick_case
 from ehlectric.bearing.solution import (
     PARTIAL,
@@ -42,6 +36,12 @@ from ehlectric.bearing.solution import (
     touching_ratio,
 )
 from ehlectric.bearing.solving import NOT_IN_FILMS, quick_solution
+from ehlectric.bearing.uncertain_inputs import (
+    Change,
+    changes_of,
+    proportional_to_strength,
+    temperature_is_unused,
+)
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import InputError
 from ehlectric.quantities.formats import speed_text

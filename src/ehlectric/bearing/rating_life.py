@@ -53,7 +53,7 @@ from ehlectric.formulas.load_ratings import (
 )
 from ehlectric.quantities.result_warnings import WarningCondition
 from ehlectric.quantities.units import rpm
-from ehlectric.runtime.values import is_number
+from ehlectric.runtime.display import is_number
 
 _TURN = 2.0 * math.pi
 

@@ -34,9 +34,9 @@ from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
 from ehlectric.quantities.results import BEARING_KEYS, ELEMENT_KEYS
 from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import readable
+from ehlectric.runtime.display import ResultKind, Shown, headline, is_number, read_only_property
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.progress import Progress
-from ehlectric.runtime.values import ResultKind, Shown, headline, is_number, read_only_property
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -50,7 +50,7 @@ from ehlectric.lubricant.oil import Oil
 from ehlectric.quantities.field_metadata import stored
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable
-from ehlectric.runtime.values import Values, read_only_property
+from ehlectric.runtime.display import Values, read_only_property
 
 # Discretisation error of the minimum film, relative, to which the grid of each contact is refined.
 REFINE = 0.02

@@ -20,7 +20,7 @@ from ehlectric.cases.bearing_kinds import has_rollers
 from ehlectric.quantities.field_metadata import stored
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable
-from ehlectric.runtime.values import Values, read_only_property
+from ehlectric.runtime.display import Values, read_only_property
 from ehlectric.version import __version__
 
 # Lambda ratios below which surfaces touch nearly always, and below which they touch at times.

@@ -19,7 +19,7 @@ from ehlectric.bearing.quick_contacts import QUICK_METHODS, is_quick, quick_curv
 from ehlectric.bearing.ring_contacts import ContactCurve, ContactValues, RingContacts, solve
 from ehlectric.bearing.solution import BearingSolution, Position, RingState, ring_state
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.changes import flattened
+from ehlectric.cases.table_edits import flattened
 from ehlectric.readable import readable
 from ehlectric.runtime.progress import Progress, silent
 from ehlectric.runtime.tasks import run_all

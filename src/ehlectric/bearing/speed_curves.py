@@ -13,7 +13,10 @@ import numpy as np
 from ehlectric.arrays import Array, Numbers
 from ehlectric.bearing.bearing_discharges import with_films_scaled
 from ehlectric.bearing.bearing_touching import CAPACITIVE, duty_of
-from ehlectric.bearing.changed_bearings import (
+from ehlectric.bearing.curve_nodes import where_it_bends
+from ehlectric.bearing.film_factor import solved_scales
+from ehlectric.bearing.many_points import single_tables
+from ehlectric.bearing.perturbed_bearings import (
     AT_CASE,
     LEAST,
     MOST,
@@ -24,9 +27,6 @@ from ehlectric.bearing.changed_bearings import (
     log_of,
     over_parts,
 )
-from ehlectric.bearing.curve_nodes import where_it_bends
-from ehlectric.bearing.film_factor import solved_scales
-from ehlectric.bearing.many_points import single_tables
 from ehlectric.bearing.quick_contacts import quick_case
 from ehlectric.bearing.solution import (
     BearingSolution,

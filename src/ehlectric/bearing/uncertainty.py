@@ -10,13 +10,13 @@ import numpy as np
 
 from ehlectric.arrays import Array, Numbers
 from ehlectric.bearing.bearing_discharges import ROUGHNESS, first_margin, margin_apart
-from ehlectric.bearing.changed_bearings import LEAST, MOST
 from ehlectric.bearing.curve_nodes import where_it_bends
-from ehlectric.bearing.input_changes import Change, changes_of, proportional_to_strength
 from ehlectric.bearing.many_points import gathered, many_of, reason_of, solved_parts
 from ehlectric.bearing.margin import ONLY_SOLVED, QuickMargins, film_factors, margin_and_lambda
+from ehlectric.bearing.perturbed_bearings import LEAST, MOST
 from ehlectric.bearing.solution import BearingSolution, film_error
 from ehlectric.bearing.solving import NOT_IN_FILMS
+from ehlectric.bearing.uncertain_inputs import Change, changes_of, proportional_to_strength
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.input_keys import is_quantity
 from ehlectric.discharge.breakdown_rule import UNLIKELY, Chance
@@ -24,9 +24,9 @@ from ehlectric.errors import InputError
 from ehlectric.formulas.variance_shares import variance_shares
 from ehlectric.quantities.inputs import SPEED
 from ehlectric.quantities.result_warnings import ResultWarning
+from ehlectric.runtime.display import read_only_property
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.threads import one_blas_thread
-from ehlectric.runtime.values import read_only_property
 
 # Points of the design, a power of 2, and the seed of its random shifts.
 SAMPLES, SEED = 2048, 1

@@ -21,7 +21,6 @@ from ehlectric.bearing.bearing_discharges import (
 from ehlectric.bearing.bearing_touching import BearingDuty, duty_of
 from ehlectric.bearing.film_factor import conductivity_warning_condition, film_note, supply_warning_conditions
 from ehlectric.bearing.impedance import shaft_path
-from ehlectric.bearing.input_changes import estimated_keys
 from ehlectric.bearing.mounted_clearance import class_warning_conditions, fit_warning_conditions
 from ehlectric.bearing.preparation import TAKEN, groove_ratio, shoulder_angle
 from ehlectric.bearing.rating_life import dynamic_rating, life_warning_conditions
@@ -39,6 +38,7 @@ from ehlectric.bearing.solution import (
     lubrication,
     with_light,
 )
+from ehlectric.bearing.uncertain_inputs import estimated_keys
 from ehlectric.cases import library
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.bearing_inputs import Bearing

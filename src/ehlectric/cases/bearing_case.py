@@ -27,7 +27,6 @@ from ehlectric.cases.bearing_inputs import (
     typed_base,
 )
 from ehlectric.cases.case_oil import Lubricant, viscosity_follows
-from ehlectric.cases.changes import displace, flattened, nested, set_keys
 from ehlectric.cases.contact_inputs import Contact
 from ehlectric.cases.defaults import DEFAULT_FILM, DEFAULT_SUMMITS, Contacts
 from ehlectric.cases.discharge_inputs import BearingDischarge
@@ -50,11 +49,12 @@ from ehlectric.cases.table import (
     table_of,
     with_name_keys,
 )
+from ehlectric.cases.table_edits import displace, flattened, nested, set_keys
 from ehlectric.errors import InputError, shown, within
 from ehlectric.quantities.alternatives import ALTERNATIVES, DIMENSIONS
 from ehlectric.quantities.formats import amount, operating_point
 from ehlectric.quantities.rows import value_at
-from ehlectric.runtime.values import headline, is_number
+from ehlectric.runtime.display import headline, is_number
 
 # Tables and keys of a bearing file that a case of a contact does not have.
 _TABLES = ("motor", "contacts", "ranges", "duty")

@@ -45,7 +45,7 @@ from ehlectric.cases.table import LONGEST, Table
 from ehlectric.errors import InputError, shown, within
 from ehlectric.formulas.inlet_supply import GEOMETRY_CONSTANTS, SUPPLY_CONSTANTS
 from ehlectric.quantities.units import to_fraction
-from ehlectric.runtime.values import is_number
+from ehlectric.runtime.display import is_number
 
 # Full diametral play of a bearing.
 PLAY = amount_at("bearing.radial_clearance")

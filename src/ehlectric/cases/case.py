@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any, Required, Self, TypedDict, TypeVar, Unpac
 from pydantic import PrivateAttr, ValidationInfo, model_validator
 
 from ehlectric.cases.case_oil import Lubricant
-from ehlectric.cases.changes import displace_alternatives, drop_geometry, flattened, set_keys
 from ehlectric.cases.contact_inputs import Contact, LineKeys, PointKeys, geometry_of, warn_of
 from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.cases.dry_contacts import hertz_pressure
@@ -26,13 +25,14 @@ from ehlectric.cases.meter_inputs import Meter
 from ehlectric.cases.replaced_keys import BASE, refuse_another_oil, refuse_replaced
 from ehlectric.cases.roughness_inputs import Roughness, check_geometry, find_files, unused_of_surfaces
 from ehlectric.cases.table import CaseFile, Title, as_mapping, with_name_keys
+from ehlectric.cases.table_edits import displace_alternatives, drop_geometry, flattened, set_keys
 from ehlectric.errors import InputError, short, shown
 from ehlectric.lubricant.oil import Oil
 from ehlectric.lubricant.python_laws import Laws, OwnLaws, SampledLaws
 from ehlectric.quantities.alternatives import CONTACT_GROUPS
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.inputs import inputs
-from ehlectric.runtime.values import headline
+from ehlectric.runtime.display import headline
 
 # Key of the laws of a user's own, in tables of Python and in the context of a validation.
 LAWS = "laws"

@@ -10,7 +10,6 @@ from pydantic import Field, model_validator
 
 from ehlectric.cases.bearing_case import BearingCase, bearing_key, open_tables
 from ehlectric.cases.case import Case
-from ehlectric.cases.changes import displace, flattened, set_keys
 from ehlectric.cases.defaults import Contacts
 from ehlectric.cases.drive_inputs import Breakdown, Circuit, Source
 from ehlectric.cases.duty_inputs import Duty
@@ -18,13 +17,14 @@ from ehlectric.cases.key_names import refuse_deep
 from ehlectric.cases.keywords import with_keys
 from ehlectric.cases.roughness_inputs import find_files
 from ehlectric.cases.table import CaseFile, Table, Title, read_toml
+from ehlectric.cases.table_edits import displace, flattened, set_keys
 from ehlectric.errors import InputError, shown, within
 from ehlectric.quantities.alternatives import ALTERNATIVES
 from ehlectric.quantities.formats import operating_point
 from ehlectric.quantities.inputs import BOTH as BOTH
 from ehlectric.quantities.inputs import ENDS as ENDS
 from ehlectric.quantities.inputs import REPLACED
-from ehlectric.runtime.values import headline
+from ehlectric.runtime.display import headline
 
 
 class Operation(Table, book="drive"):

@@ -17,9 +17,9 @@ from ehlectric.cases.oil_inputs import Properties
 from ehlectric.quantities.quantity import Keys, Quantity, data_file
 from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
 from ehlectric.readable import readable
+from ehlectric.runtime.display import ResultKind, Shown, headline
 from ehlectric.runtime.files import Content, column_head, csv_of, json_of, plain
 from ehlectric.runtime.result_names import MEASURED, MEASURED_ROWS
-from ehlectric.runtime.values import ResultKind, Shown, headline
 from ehlectric.version import __version__
 
 if TYPE_CHECKING:

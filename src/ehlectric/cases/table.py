@@ -31,8 +31,8 @@ from ehlectric.cases.key_names import ADVICE, refuse_deep, refuse_long_keys
 from ehlectric.errors import InputError, printable, short, shown, unseen
 from ehlectric.quantities.inputs import aliases, inputs
 from ehlectric.quantities.units import ROTATION
+from ehlectric.runtime.display import Tabled
 from ehlectric.runtime.reading import read_text
-from ehlectric.runtime.values import Tabled
 
 if TYPE_CHECKING:
     from ehlectric.arrays import Array

@@ -18,10 +18,10 @@ from ehlectric.figures.figure_names import (
     map_files,
 )
 from ehlectric.quantities.result_warnings import ResultWarning
+from ehlectric.runtime.display import is_number
 from ehlectric.runtime.files import prepare
 from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
 from ehlectric.runtime.undrawn import Drawn, kept_going
-from ehlectric.runtime.values import is_number
 
 if TYPE_CHECKING:
     from ehlectric.sweep import SweepResults

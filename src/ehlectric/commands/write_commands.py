@@ -44,7 +44,7 @@ def export(result: Path, output: Path, quiet: bool = False) -> None:
 def animate(folder: Path, output: Path | None = None, fps: int = 25, quiet: bool = False) -> None:
     """Animate a moving-roughness run, as a GIF or MP4."""
     with user_errors():
-        from ehlectric.runtime.values import import_matplotlib
+        from ehlectric.runtime.display import import_matplotlib
 
         import_matplotlib()
         from ehlectric.figures.animation import save_animation
@@ -80,7 +80,7 @@ def report(
     with user_errors():
         endings = _report_formats(output, formats)
 
-        from ehlectric.runtime.values import import_matplotlib
+        from ehlectric.runtime.display import import_matplotlib
 
         import_matplotlib()
         from ehlectric.report.written_report import write_report

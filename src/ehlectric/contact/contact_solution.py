@@ -29,7 +29,7 @@ from ehlectric.film import Film, PointFilm
 from ehlectric.quantities.field_metadata import stored
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.verdict import Verdict
-from ehlectric.runtime.values import ResultKind, Shown, Values, read_only_property
+from ehlectric.runtime.display import ResultKind, Shown, Values, read_only_property
 from ehlectric.surfaces.maps import Map
 from ehlectric.surfaces.maps import statistics as of_map
 from ehlectric.surfaces.profiles import FLAT, Profile

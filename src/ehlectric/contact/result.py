@@ -19,7 +19,7 @@ from ehlectric.film import Film, PointFilm, pressure_error_text
 from ehlectric.formulas.film_line import Thickness
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.results import CONTACT_BOOK
-from ehlectric.runtime.values import headline, read_only_property
+from ehlectric.runtime.display import headline, read_only_property
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -50,9 +50,9 @@ from ehlectric.quantities.formats import rpm_text
 from ehlectric.quantities.inputs import ENDS, key_of_drive
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.result_warnings import ResultWarning
+from ehlectric.runtime.display import Values
 from ehlectric.runtime.files import Content
 from ehlectric.runtime.progress import Progress, silent
-from ehlectric.runtime.values import Values
 
 # Rows that are simulated, and groups of them that are left out in turn.
 SIMULATED, _GROUPS = 48, 8

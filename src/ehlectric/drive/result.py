@@ -24,8 +24,8 @@ from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.results import EVENT_COLUMNS, NAMES_OF_ENDS, SPECTRUM_COLUMNS
 from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import readable
+from ehlectric.runtime.display import ResultKind, Shown, headline
 from ehlectric.runtime.progress import Progress, silent
-from ehlectric.runtime.values import ResultKind, Shown, headline
 from ehlectric.version import __version__
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ import numpy as np
 
 from ehlectric.bearing import BearingResult, life_summary, solve_bearing
 from ehlectric.cases.drive_case import DriveCase
-from ehlectric.drive.discharges.march import Films, Segments
+from ehlectric.drive.discharges.event_loop import Films, Segments
 from ehlectric.drive.discharges.simulation import Measuring, films_of, simulate
 from ehlectric.drive.drive_bearings import BearingElement, bearing_element
 from ehlectric.drive.drive_cycle import check_drive_cycle

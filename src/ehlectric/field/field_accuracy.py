@@ -23,7 +23,7 @@ from scipy.ndimage import maximum_filter
 from ehlectric.arrays import Array
 from ehlectric.errors import ConvergenceError
 from ehlectric.quantities.field_metadata import number, stored
-from ehlectric.runtime.values import Values
+from ehlectric.runtime.display import Values
 
 if TYPE_CHECKING:
     from ehlectric.field.poisson import FieldProblem

@@ -21,9 +21,9 @@ from ehlectric.figures.figure_names import MEASURED_FIGURE, in_formats
 from ehlectric.figures.style import save_each
 from ehlectric.figures.style import style as styled
 from ehlectric.quantities.result_warnings import ResultWarning
+from ehlectric.runtime.display import ResultKind
 from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
 from ehlectric.runtime.undrawn import Drawn
-from ehlectric.runtime.values import ResultKind
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -19,7 +19,7 @@ from ehlectric.film.newton import COLLAPSED, GridSolution, NewtonStep, State, St
 from ehlectric.film.problem import Scales
 from ehlectric.film.starved_solver import oil_fraction
 from ehlectric.quantities.field_metadata import number, stored
-from ehlectric.runtime.values import Values
+from ehlectric.runtime.display import Values
 
 # Long names of nodal values in files of results.
 _DEFLECTION = "gap opened by the pressure, up to a rigid displacement"

@@ -14,7 +14,7 @@ from ehlectric.errors import InputError
 from ehlectric.film.shear_laws import Rheology
 from ehlectric.lubricant.oil import Oil
 from ehlectric.quantities.field_metadata import number, stored
-from ehlectric.runtime.values import Values
+from ehlectric.runtime.display import Values
 
 # Number of temperatures. With it ln(viscosity) of Roelands, Vogel and Yasutomi over 300 K is exact to 1e-6.
 _TEMPERATURES = 12

@@ -12,7 +12,7 @@ from ehlectric.motion.summary import summary_of
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.result_warnings import ResultWarning, warnings_of
 from ehlectric.quantities.results import MOTION_BOOK
-from ehlectric.runtime.values import Shown, headline
+from ehlectric.runtime.display import Shown, headline
 
 if TYPE_CHECKING:
     import pandas as pd

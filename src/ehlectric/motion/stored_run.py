@@ -18,13 +18,13 @@ from ehlectric.contact import Conditions, PointConditions, surface_ratios
 from ehlectric.errors import InputError, WriteError
 from ehlectric.motion.moving_contact import KINDS, Kind, Schedule, schedule_of
 from ehlectric.motion.stored import FORM, SCHEMA, attributes_in, layout_of, solved_part
+from ehlectric.runtime.display import ResultKind, Values, read_only_property
 from ehlectric.runtime.file_rules import check_format, refusing
 from ehlectric.runtime.files import write
 from ehlectric.runtime.folders import locked
 from ehlectric.runtime.journal import begun, lock_of, reading
 from ehlectric.runtime.netcdf import content_of, opened, read_dataset
 from ehlectric.runtime.result_names import MOTION, MOTION_CHANGES, MOTION_JOURNAL
-from ehlectric.runtime.values import ResultKind, Values, read_only_property
 
 if TYPE_CHECKING:
     import xarray as xr

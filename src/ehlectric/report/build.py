@@ -15,7 +15,7 @@ from ehlectric.errors import printable
 from ehlectric.motion.result import MotionResult
 from ehlectric.quantities.rows import placed
 from ehlectric.quantities.sheets import CONTACT_CARDS
-from ehlectric.report.background import (
+from ehlectric.report.appendix import (
     date_of_report,
     file_section,
     input_sections,

@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.cases.changes import flattened
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.input_keys import of_both_ends
+from ehlectric.cases.table_edits import flattened
 from ehlectric.drive import DriveResult, drive_verdict
 from ehlectric.errors import printable
 from ehlectric.figures.figure_names import with_units_kept
@@ -26,7 +26,7 @@ from ehlectric.quantities.rows import Summary
 from ehlectric.quantities.sheets import FIRST_PAGE_OF_DRIVE, SWEEPS, at_ends
 from ehlectric.quantities.units import unit_for
 from ehlectric.readable import readable
-from ehlectric.report.background import input_text, inputs_of, named, parts_of, varied_keys
+from ehlectric.report.appendix import input_text, inputs_of, named, parts_of, varied_keys
 from ehlectric.report.first_page import life_texts, machine_of, measure_first_table, numbers_of, usual_range
 from ehlectric.report.report_content import Block, Named, Numbers, Part, Section, Table, Text
 from ehlectric.report.report_facts import density_tables, part_of, row_tables

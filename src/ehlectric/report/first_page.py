@@ -10,9 +10,9 @@ from typing import Any
 
 from ehlectric.bearing import FILMS, MOTOR, OF_TABLE, changes_of
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.changes import flattened
 from ehlectric.cases.defaults import HOW
 from ehlectric.cases.drive_case import DriveCase
+from ehlectric.cases.table_edits import flattened
 from ehlectric.errors import printable
 from ehlectric.figures.figure_names import with_units_kept
 from ehlectric.quantities.formats import amount, operating_point
@@ -24,7 +24,7 @@ from ehlectric.quantities.results import BEARING_BOOK, NAMES_OF_ENDS
 from ehlectric.quantities.rows import Row, Summary, placed
 from ehlectric.quantities.sheets import FIRST_PAGE_OF_BEARING, FIRST_PAGE_OF_LIFE
 from ehlectric.readable import chance_text, ratio_text, readable
-from ehlectric.report.background import given_inputs, input_text, named
+from ehlectric.report.appendix import given_inputs, input_text, named
 from ehlectric.report.report_content import Block, Light, Numbers, Part, Picture, Section, Table, Text
 from ehlectric.report.report_facts import alarms_of, pictures_of
 from ehlectric.report.report_texts import SENTENCES, TEXTS

@@ -18,11 +18,11 @@ from ehlectric.quantities.quantity import unbroken
 from ehlectric.quantities.result_warnings import CODES, ResultWarning, Severity
 from ehlectric.quantities.rows import Row, value_at
 from ehlectric.readable import readable
-from ehlectric.report.background import worded
+from ehlectric.report.appendix import worded
 from ehlectric.report.report_content import DOI, Link, Part, Picture, Table, Text, WarningLine, Warnings
 from ehlectric.report.report_texts import SENTENCES, TEXTS
+from ehlectric.runtime.display import is_number
 from ehlectric.runtime.undrawn import drawing
-from ehlectric.runtime.values import is_number
 
 if TYPE_CHECKING:
     from rich.table import Table as RichTable

@@ -16,12 +16,12 @@ from ehlectric.quantities.quantity import BOUNDS
 from ehlectric.quantities.rows import value_at
 from ehlectric.quantities.sheets import SWEEPS
 from ehlectric.readable import readable
-from ehlectric.report.background import named
+from ehlectric.report.appendix import named
 from ehlectric.report.drive_report import deciding_blocks, listed_values, swept_values
 from ehlectric.report.report_content import Block, Cell, Named, Part, Section, Table, Text
 from ehlectric.report.report_facts import cell_table, lead_of, row_tables, swept_names
 from ehlectric.report.report_texts import SENTENCES
-from ehlectric.runtime.values import is_number
+from ehlectric.runtime.display import is_number
 from ehlectric.sweep import (
     Point,
     SweepResults,

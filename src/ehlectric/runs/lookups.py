@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ehlectric.errors import InputError, shown, within
-from ehlectric.runtime.values import is_number
+from ehlectric.runtime.display import is_number
 
 if TYPE_CHECKING:
     from ehlectric.cases.bearing_case import BearingCase

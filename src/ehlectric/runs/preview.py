@@ -24,7 +24,7 @@ from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.results import CONTACT_BOOK
 from ehlectric.quantities.rows import Row, RowTexts, row_of
 from ehlectric.readable import readable
-from ehlectric.runtime.values import headline
+from ehlectric.runtime.display import headline
 from ehlectric.sweep import Sweep
 
 if TYPE_CHECKING:

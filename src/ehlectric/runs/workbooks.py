@@ -21,7 +21,7 @@ from ehlectric.quantities.quantity import key_of
 from ehlectric.quantities.results import ELEMENT_KEYS, EVENT_KEYS
 from ehlectric.quantities.units import printed
 from ehlectric.runs.solve import AnyResult
-from ehlectric.runtime.values import is_number
+from ehlectric.runtime.display import is_number
 from ehlectric.sweep import SweepResults, flat, flat_summary, label_of, result_keys
 
 if TYPE_CHECKING:

@@ -17,7 +17,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.errors import DamagedError, InputError
-from ehlectric.runtime.values import is_number as is_python_number
+from ehlectric.runtime.display import is_number as is_python_number
 
 if TYPE_CHECKING:
     import xarray as xr

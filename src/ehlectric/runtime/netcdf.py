@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 
 from ehlectric.errors import DamagedError, InputError, UnreadableError
-from ehlectric.runtime.hdf5_soundness import file_class, refuse_damaged, seal_of
+from ehlectric.runtime.hdf5_guard import file_class, refuse_damaged, seal_of
 from ehlectric.runtime.sizes import check_netcdf_values
 from ehlectric.runtime.threads import own_filters
 

@@ -12,7 +12,7 @@ from ehlectric.bearing import columns_of, is_quick, where_it_bends
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.input_keys import is_quantity
 from ehlectric.errors import InputError
-from ehlectric.runtime.values import is_number
+from ehlectric.runtime.display import is_number
 from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.slices import Slice
 

@@ -10,10 +10,10 @@ from typing import Any
 
 from ehlectric.bearing import is_quick
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.changes import set_keys
 from ehlectric.cases.input_keys import is_quantity
+from ehlectric.cases.table_edits import set_keys
 from ehlectric.errors import InputError
-from ehlectric.runtime.values import is_number
+from ehlectric.runtime.display import is_number
 from ehlectric.sweep.engine import Planned, case_key, hash_of, plan, planned_point, text_of
 from ehlectric.sweep.sweep_inputs import Sweep
 

@@ -13,7 +13,7 @@ import numpy as np
 from ehlectric.arrays import Mask
 from ehlectric.cases.drive_case import SweptCase
 from ehlectric.quantities.result_warnings import CODES, CODES_OF_TEXTS, ResultWarning, warnings_of
-from ehlectric.runtime.values import Values, is_number, read_only_property
+from ehlectric.runtime.display import Values, is_number, read_only_property
 
 # Codes of warnings with which numbers may be used.
 _HARMLESS = frozenset(code for code, cause in CODES.items() if cause.severity != "severe")

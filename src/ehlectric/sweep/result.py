@@ -23,11 +23,11 @@ from ehlectric.quantities.results import TEXTS_OF_POINTS
 from ehlectric.quantities.sheets import SWEEP_COLUMNS
 from ehlectric.quantities.units import ROTATION
 from ehlectric.quantities.verdict import Verdict
+from ehlectric.runtime.display import ResultKind, Shown, headline, is_number, read_only
 from ehlectric.runtime.files import Content, column_head, csv_of, write_together
 from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
 from ehlectric.runtime.netcdf import content_of
 from ehlectric.runtime.result_names import OF_SWEEPS, SWEEP_CSV, SWEEP_NETCDF, SWEEP_PARQUET
-from ehlectric.runtime.values import ResultKind, Shown, headline, is_number, read_only
 from ehlectric.sweep.axis_labels import label_of, result_keys
 from ehlectric.sweep.points import Point, Range, Spacing, Status, SweepPoints, as_number, flat, kinds_of
 from ehlectric.sweep.verdict_rule import sweep_verdict

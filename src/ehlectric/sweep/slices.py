@@ -24,7 +24,7 @@ from ehlectric.cases.input_keys import kind_of, unit_of
 from ehlectric.cases.table import nearest
 from ehlectric.errors import InputError, short, shown
 from ehlectric.quantities.rows import value_at
-from ehlectric.runtime.values import is_number
+from ehlectric.runtime.display import is_number
 from ehlectric.sweep.points import Point, Status, as_number
 from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.sweep_inputs import Breakdown, breakdown_of, main_value

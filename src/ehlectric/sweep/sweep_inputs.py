@@ -43,7 +43,7 @@ from ehlectric.cases.table import (
 from ehlectric.errors import InputError, printable, short, shown, within
 from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED, end_and_key, key_of_drive
 from ehlectric.quantities.sheets import BREAKDOWNS
-from ehlectric.runtime.values import Tabled, headline
+from ehlectric.runtime.display import Tabled, headline
 from ehlectric.sweep.points import Range
 from ehlectric.sweep.result import SweepResults
 

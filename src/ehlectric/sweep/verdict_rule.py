@@ -21,7 +21,7 @@ from ehlectric.quantities.rows import value_at
 from ehlectric.quantities.statement import Bound, Fact, Level, Statement
 from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import readable
-from ehlectric.runtime.values import is_number
+from ehlectric.runtime.display import is_number
 from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.points import Point, SweepPoints
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from ehlectric.quantities.result_warnings import CODES, ResultWarning
 from ehlectric.quantities.rows import value_at
-from ehlectric.runtime.values import is_number
+from ehlectric.runtime.display import is_number
 from ehlectric.sweep.points import Point
 from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.sensitivity_indices import Sensitivity

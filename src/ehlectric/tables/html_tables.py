@@ -10,9 +10,9 @@ from typing import Any
 from ehlectric.bearing import BearingResult
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
-from ehlectric.cases.changes import flattened
 from ehlectric.cases.drive_case import DriveCase, SweptCase
 from ehlectric.cases.film_factors import FilmFactors
+from ehlectric.cases.table_edits import flattened
 from ehlectric.contact import ContactResult
 from ehlectric.drive import DriveResult
 from ehlectric.errors import printable
@@ -22,7 +22,7 @@ from ehlectric.quantities.palette import LIGHTS
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.rows import Row
 from ehlectric.readable import readable
-from ehlectric.runtime.values import is_number
+from ehlectric.runtime.display import is_number
 from ehlectric.sweep import Range, Sweep, SweepResults, label_of, sweep_warnings
 from ehlectric.tables.bearing_tables import total_rows
 from ehlectric.tables.contact_tables import result_rows

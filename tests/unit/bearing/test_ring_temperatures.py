@@ -3,10 +3,10 @@
 import pytest
 
 from ehlectric import InputError
-from ehlectric.bearing.input_changes import usual_changes
 from ehlectric.bearing.preparation import resolve_bearing
 from ehlectric.bearing.result import solve_bearing
 from ehlectric.bearing.summary import summary_of
+from ehlectric.bearing.uncertain_inputs import usual_changes
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.tables.bearing_tables import input_rows
 from tests.helpers.bearings import BALLS, bearing_case

@@ -6,9 +6,9 @@ import math
 import pytest
 from benchmarks.estimated_bearings import TABLE, fitted, left_out
 
-from ehlectric.bearing.input_changes import changes_of, estimated_keys
 from ehlectric.bearing.margin import QuickMargins
 from ehlectric.bearing.solving import solution_of
+from ehlectric.bearing.uncertain_inputs import changes_of, estimated_keys
 from ehlectric.bearing.uncertainty import uncertainty_of
 from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.cases import library

@@ -10,7 +10,7 @@ import ehlectric
 from ehlectric import Case, InputError
 from ehlectric.cases.meter_inputs import body_radii
 from ehlectric.contact.conditions import resolve, resolve_point
-from ehlectric.report.background import input_text
+from ehlectric.report.appendix import input_text
 from ehlectric.sweep.run import run_sweep
 from ehlectric.sweep.store import read_sweep
 from ehlectric.sweep.sweep_inputs import Sweep

@@ -5,8 +5,8 @@ import pytest
 
 from ehlectric import Case, InputError, Laws, Sweep, run_sweep
 from ehlectric.cases.case import check_changes
-from ehlectric.cases.changes import flattened
 from ehlectric.cases.oil_inputs import LAWS
+from ehlectric.cases.table_edits import flattened
 
 CONTACT = {"reduced_radius": "12.7 mm", "reduced_modulus": "226 GPa", "max_hertz_pressure": "0.8 GPa"}
 CONTACT |= {"entrainment_speed": "2 m/s", "temperature": "40 degC"}

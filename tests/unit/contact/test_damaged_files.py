@@ -17,7 +17,7 @@ from ehlectric.motion.result import MotionResult
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored import solved_part
 from ehlectric.runtime.file_rules import refusing
-from ehlectric.runtime.hdf5_soundness import sealed
+from ehlectric.runtime.hdf5_guard import sealed
 from ehlectric.runtime.netcdf import read_dataset
 from tests.helpers.damage import with_damaged_bytes, with_edited_values
 from tests.helpers.drives import drive_with_remedy

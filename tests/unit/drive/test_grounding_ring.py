@@ -19,7 +19,7 @@ from ehlectric.drive.solver import solve
 from ehlectric.drive.summary import drive_summary
 from ehlectric.drive.warnings import machine_warnings
 from ehlectric.quantities.units import RPM
-from ehlectric.report.background import named
+from ehlectric.report.appendix import named
 from ehlectric.report.drive_report import deciding_blocks
 from ehlectric.report.report_texts import limits_of
 from ehlectric.runs.preview import preview_of

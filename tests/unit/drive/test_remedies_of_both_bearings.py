@@ -7,7 +7,7 @@ import pytest
 from scipy.stats import chi2
 
 from ehlectric import load, save, solve_drive
-from ehlectric.cases.changes import flattened
+from ehlectric.cases.table_edits import flattened
 from ehlectric.drive.run import result_of
 from ehlectric.figures.drive_figures import figure
 from ehlectric.quantities.inputs import ENDS

@@ -43,7 +43,7 @@ from ehlectric.figures.style import name_over, new_panels, style
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import MotionRun
 from ehlectric.quantities.palette import RED
-from ehlectric.runtime.values import ResultKind
+from ehlectric.runtime.display import ResultKind
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.moving_cases import moving

@@ -13,7 +13,7 @@ from ehlectric.figures.figure_names import in_formats
 from ehlectric.quantities.rows import Row
 from ehlectric.quantities.statement import Statement
 from ehlectric.quantities.verdict import Verdict
-from ehlectric.report.background import inputs_of, material_sources, source_section, worded
+from ehlectric.report.appendix import inputs_of, material_sources, source_section, worded
 from ehlectric.report.build import report_of
 from ehlectric.report.report_content import Light, Numbers, Picture, Table, Text, Warnings
 from ehlectric.report.report_facts import caption_of, row_tables

@@ -11,19 +11,19 @@ from reportlab.lib.units import mm
 from reportlab.platypus import LongTable
 
 from ehlectric import BearingCase, DriveCase, save, solve, solve_drive, write_report
-from ehlectric.cases.changes import flattened
 from ehlectric.cases.input_keys import unit_of
+from ehlectric.cases.table_edits import flattened
 from ehlectric.quantities.inputs import end_and_key
 from ehlectric.quantities.rows import Row
 from ehlectric.quantities.units import to_si
 from ehlectric.readable import ratio_text
-from ehlectric.report.background import named
+from ehlectric.report.appendix import named
 from ehlectric.report.build import report_of
 from ehlectric.report.first_page import life_texts
 from ehlectric.report.pdf import first_page, pdf_of
 from ehlectric.report.report_content import Light, Numbers, Picture, Table, Text
 from ehlectric.report.written_report import html_of
-from ehlectric.runtime.values import is_number
+from ehlectric.runtime.display import is_number
 from ehlectric.tables.bearing_tables import input_range
 from tests.helpers.drives import drive_with_remedy
 from tests.helpers.places import EXAMPLES

@@ -11,7 +11,7 @@ from docs import pages
 from ehlectric import DriveCase, Sweep, run_sweep, save, solve_drive
 from ehlectric.cases.case import Case
 from ehlectric.drive.result import DriveResult
-from ehlectric.report.background import inputs_of, named, replaced_by
+from ehlectric.report.appendix import inputs_of, named, replaced_by
 from ehlectric.report.build import report_of
 from ehlectric.report.drive_report import (
     LISTED,

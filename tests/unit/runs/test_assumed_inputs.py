@@ -4,7 +4,7 @@ import json
 import re
 
 from ehlectric import BearingCase, Case, DriveCase, figure, solve, solve_bearing, solve_drive
-from ehlectric.report.background import input_sections, inputs_of
+from ehlectric.report.appendix import input_sections, inputs_of
 from ehlectric.tables.bearing_tables import total_rows
 from ehlectric.tables.drive_tables import drive_rows
 from tests.helpers.drives import small_drive

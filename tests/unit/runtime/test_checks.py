@@ -10,9 +10,9 @@ import xarray as xr
 
 from ehlectric import InputError, load
 from ehlectric.errors import DamagedError
-from ehlectric.runtime import hdf5_soundness, netcdf
+from ehlectric.runtime import hdf5_guard, netcdf
 from ehlectric.runtime.file_rules import Rule, UnfitError, check_variables, json_of, number_of, refusing
-from ehlectric.runtime.hdf5_soundness import seal_of, sealed
+from ehlectric.runtime.hdf5_guard import seal_of, sealed
 from ehlectric.runtime.netcdf import Draft, content_of, read_dataset
 from tests.helpers.damage import seal
 from tests.helpers.each import each
@@ -71,8 +71,8 @@ def test_a_file_without_a_seal_is_tried_once(tmp_path, monkeypatch):
     path = tmp_path / "result.nc"
     path.write_bytes(UNSEALED)
     started = []
-    run = hdf5_soundness.subprocess.run
-    monkeypatch.setattr(hdf5_soundness.subprocess, "run", lambda *a, **k: started.append(a) or run(*a, **k))
+    run = hdf5_guard.subprocess.run
+    monkeypatch.setattr(hdf5_guard.subprocess, "run", lambda *a, **k: started.append(a) or run(*a, **k))
     assert read_dataset(path).identical(read_dataset(path))
     assert len(started) == 1
     seal(path)
@@ -83,14 +83,14 @@ def test_a_file_without_a_seal_is_tried_once(tmp_path, monkeypatch):
 @pytest.mark.slow
 def test_a_file_that_keeps_hdf5_busy_for_ever(damaged, monkeypatch):
     """Zeros in the texts of attributes: HDF5 looks for the next one without end, and no signal ends it."""
-    monkeypatch.setattr(hdf5_soundness, "_LIMIT", 1.0)
+    monkeypatch.setattr(hdf5_guard, "_LIMIT", 1.0)
     path = damaged(UNSEALED.index(b"units of p/p_h") + 14, bytes(64))
     with pytest.raises(DamagedError, match=r"is damaged: HDF5 reads it without end; compute it again$"):
         read_dataset(path)
 
 
 def test_a_file_on_which_hdf5_crashes(damaged, monkeypatch):
-    monkeypatch.setattr(hdf5_soundness, "_CODE", "import os; os.abort()")
+    monkeypatch.setattr(hdf5_guard, "_CODE", "import os; os.abort()")
     with pytest.raises(DamagedError, match=r"is damaged: HDF5 crashes on it; compute it again$"):
         read_dataset(damaged(0, b""))
 

@@ -7,7 +7,7 @@ import pytest
 
 from ehlectric.errors import InputError
 from ehlectric.runtime import sizes
-from ehlectric.runtime.hdf5_soundness import file_class
+from ehlectric.runtime.hdf5_guard import file_class
 from ehlectric.runtime.netcdf import read_dataset
 from ehlectric.runtime.reading import read_bytes
 from ehlectric.runtime.sizes import check_netcdf_values, check_size

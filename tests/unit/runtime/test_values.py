@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from ehlectric.runtime.values import WIDTH, Values, same
+from ehlectric.runtime.display import WIDTH, Values, same
 from tests.helpers.each import each
 
 

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from ehlectric import InputError, Sweep, solve, solve_motion
 from ehlectric.app.charts.line_charts import main_numbers
 from ehlectric.runs.workbooks import workbook
-from ehlectric.runtime.values import WIDTH
+from ehlectric.runtime.display import WIDTH
 from ehlectric.sweep.points import Range
 from ehlectric.tables.bearing_tables import total_rows
 from ehlectric.tables.contact_tables import result_rows

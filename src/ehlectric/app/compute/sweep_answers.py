@@ -37,10 +37,10 @@ from ehlectric.app.view_models import (
 from ehlectric.bearing import is_quick, percent
 from ehlectric.cases.amounts import Amount, Count
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.changes import flattened, set_keys
 from ehlectric.cases.defaults import HOW
 from ehlectric.cases.drive_case import DriveCase, SweptCase, swept_case_of_dict
 from ehlectric.cases.input_keys import input_of, kind_of, of_both_ends, unit_of
+from ehlectric.cases.table_edits import flattened, set_keys
 from ehlectric.errors import InputError
 from ehlectric.figures.data import with_unit
 from ehlectric.figures.sweep_panels import labelled, lines_panel, map_panel, needed_values
@@ -55,7 +55,7 @@ from ehlectric.quantities.units import in_unit, rpm, si_unit, split
 from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import ratio_text, readable
 from ehlectric.runs.by_kind import run_sweep
-from ehlectric.runtime.values import is_number
+from ehlectric.runtime.display import is_number
 from ehlectric.sweep import (
     FILES,
     NAME,

@@ -14,7 +14,7 @@ from ehlectric.cases import library
 from ehlectric.cases.amounts import scalar
 from ehlectric.errors import InputError, shown
 from ehlectric.lubricant.data_sheet import GRADES
-from ehlectric.runtime.values import is_number
+from ehlectric.runtime.display import is_number
 
 _WRITTEN = re.compile(r"\s*(?:ISO[ -]?)?(?:VG[ -]?)?(\d{1,4})\s*", re.IGNORECASE)
 

@@ -12,7 +12,7 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.cases.drive_inputs import Breakdown
 from ehlectric.drive.discharges.compiled import compile_for
-from ehlectric.drive.discharges.march import (
+from ehlectric.drive.discharges.event_loop import (
     ARC,
     RECOVERING,
     Films,

@@ -6,9 +6,9 @@ import pytest
 from ehlectric import BearingCase, evaluate, load, save, solve_bearing
 from ehlectric.bearing.cycle_rows import LEFT_OUT, STANDSTILL, TOUCHING
 from ehlectric.bearing.duty_cycle import run_duty
-from ehlectric.bearing.input_changes import changes_of, proportional_to_strength
 from ehlectric.bearing.margin import film_factors
 from ehlectric.bearing.solution import film_error, lubrication
+from ehlectric.bearing.uncertain_inputs import changes_of, proportional_to_strength
 from tests.helpers.places import EXAMPLES
 
 RQ, SPEED, TEMPERATURE = "bearing.composite_rq", "bearing.inner_speed", "bearing.temperature"

@@ -7,7 +7,6 @@ import re
 import pytest
 
 from ehlectric import load
-from ehlectric.bearing.input_changes import OF_TABLE
 from ehlectric.bearing.margin import (
     Effect,
     MarginAnalysis,
@@ -17,6 +16,7 @@ from ehlectric.bearing.margin import (
 )
 from ehlectric.bearing.result import solve_bearing
 from ehlectric.bearing.run import save
+from ehlectric.bearing.uncertain_inputs import OF_TABLE
 from ehlectric.bearing.verdict_rule import bearing_verdict
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import InputError

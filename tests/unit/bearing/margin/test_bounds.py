@@ -5,7 +5,7 @@ import pytest
 
 from ehlectric import BearingCase, solve_bearing
 from ehlectric.app.compute.bearing_answers import deciding, whole_quick_answer
-from ehlectric.bearing.input_changes import changes_of
+from ehlectric.bearing.uncertain_inputs import changes_of
 from ehlectric.discharge.breakdown_rule import UNLIKELY, Chance
 from ehlectric.quantities.verdict import Verdict
 from ehlectric.report.report_facts import part_of

@@ -9,8 +9,8 @@ import pytest
 from scipy.optimize import brentq
 
 from ehlectric.bearing.bearing_touching import CAPACITIVE, duty_of
-from ehlectric.bearing.changed_bearings import PARTS, Sampled, alike, over_parts
 from ehlectric.bearing.margin import MarginPoint, QuickMargins, speed_range
+from ehlectric.bearing.perturbed_bearings import PARTS, Sampled, alike, over_parts
 from ehlectric.bearing.quick_contacts import quick_case
 from ehlectric.bearing.result import solve_bearing
 from ehlectric.bearing.solution import CONDUCTING, PARTIAL, lambda_ratio
@@ -145,7 +145,7 @@ def test_the_series_over_the_speed_is_solved_once(monkeypatch):
     case, _ = quick_case(bearing_case(BALLS, contacts="formula"))
     over_parts(case)
     with monkeypatch.context() as patched:
-        patched.delattr("ehlectric.bearing.changed_bearings.solved_parts")
+        patched.delattr("ehlectric.bearing.perturbed_bearings.solved_parts")
         _, several = over_parts(case.replace({"motor.common_mode_voltage": 123.0}))
     assert several.parts[0].solution.case.motor.common_mode_voltage == 123.0
     assert replace(several, parts=()).size == len(PARTS)

@@ -8,11 +8,11 @@ import pytest
 from ehlectric import solve_bearing
 from ehlectric.bearing import duty_points
 from ehlectric.bearing.bearing_discharges import first_margin
-from ehlectric.bearing.input_changes import changes_of
 from ehlectric.bearing.margin import QuickMargins, speed_range
 from ehlectric.bearing.solution import lambda_ratio, lubrication
 from ehlectric.bearing.solving import solution_of
 from ehlectric.bearing.speed_curves import Curves, curves_of, opening_speed_of, over_speed
+from ehlectric.bearing.uncertain_inputs import changes_of
 from ehlectric.bearing.uncertainty import FILMS, Design, quick_chance, uncertainty_of
 from ehlectric.drive.drive_bearings import bearing_element
 from ehlectric.drive.solver import prepare

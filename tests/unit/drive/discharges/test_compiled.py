@@ -10,7 +10,7 @@ from pathlib import Path
 import numba
 import pytest
 
-from ehlectric.drive.discharges import compiled, march
+from ehlectric.drive.discharges import compiled, event_loop
 from ehlectric.drive.discharges.compiled import contents_of
 
 SOURCE = Path(compiled.__file__).parent.parent
@@ -26,7 +26,7 @@ def test_a_change_in_any_file_is_another_folder(tmp_path):
 
 
 def test_the_folder_is_that_of_the_sources():
-    folder = Path(march.advance.stats.cache_path)
+    folder = Path(event_loop.advance.stats.cache_path)
     assert f"compiled-{contents_of(SOURCE)}" in folder.parts
     assert contents_of(SOURCE) not in str(numba.config.CACHE_DIR)
 
@@ -34,8 +34,8 @@ def test_the_folder_is_that_of_the_sources():
 @pytest.mark.slow
 def test_a_folder_of_the_user_is_kept(tmp_path):
     code = (
-        "import numba; from ehlectric.drive.discharges import march;"
-        "print(march.advance.stats.cache_path, numba.config.CACHE_DIR, sep='\\n')"
+        "import numba; from ehlectric.drive.discharges import event_loop;"
+        "print(event_loop.advance.stats.cache_path, numba.config.CACHE_DIR, sep='\\n')"
     )
     environment = {"NUMBA_CACHE_DIR": str(tmp_path), "PYTHONPATH": str(SOURCE.parents[1])}
     done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True)

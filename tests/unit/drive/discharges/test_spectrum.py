@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ehlectric.bearing.circuit import Path
-from ehlectric.drive.discharges.march import LINES, empty_means
+from ehlectric.drive.discharges.event_loop import LINES, empty_means
 from ehlectric.drive.motor_circuit import capacitive_divider
 from tests.helpers.drives import arc, element, march, motor, square
 

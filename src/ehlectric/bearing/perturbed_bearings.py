@@ -15,8 +15,8 @@ from ehlectric.bearing.many_points import SolvedPart, gathered, solved_parts, so
 from ehlectric.bearing.solution import BearingSolution
 from ehlectric.bearing.solving import NOT_IN_FILMS, UNUSED, Detail, key_of
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.changes import flattened
 from ehlectric.cases.input_keys import is_quantity
+from ehlectric.cases.table_edits import flattened
 from ehlectric.errors import InputError
 from ehlectric.quantities.inputs import SPEED
 

@@ -25,7 +25,7 @@ from ehlectric.cases.library.estimated_bearings import (
 from ehlectric.discharge.breakdown_rule import STRENGTH_UNKNOWN
 from ehlectric.lubricant.data_sheet import GRADE_WIDTH
 from ehlectric.quantities.rows import value_at
-from ehlectric.runtime.values import is_number
+from ehlectric.runtime.display import is_number
 
 # Changes of the inputs, either way: load relative to its value, temperature [K], clearance [m] and free
 # contact angle [rad], and these two relative to their value where they are small. Engineering judgement: what

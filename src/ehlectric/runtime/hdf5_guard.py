@@ -151,7 +151,7 @@ _SAYS = {_UNREADABLE: "HDF5 cannot read it", -getattr(signal, "SIGXCPU", 0): _EN
 _CODE = """
 import json, sys
 sys.path[:] = json.loads(sys.argv[1])
-from ehlectric.runtime.hdf5_soundness import read_all
+from ehlectric.runtime.hdf5_guard import read_all
 sys.exit(read_all(sys.argv[2], int(sys.argv[3])))
 """
 

@@ -1,4 +1,4 @@
-"""Background of a report: inputs with their origin, limits, sources, versions and the input file."""
+"""Appendix of a report: inputs with their origin, limits, sources, versions and the input file."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from ehlectric.cases import library
 from ehlectric.cases.amounts import INFINITE, Amount
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
-from ehlectric.cases.changes import flattened
 from ehlectric.cases.drive_case import DriveCase, SweptCase
 from ehlectric.cases.input_keys import describe, input_field, input_of, kind_of, of_both_ends
 from ehlectric.cases.library.estimated_bearings import estimated_file, is_estimated
 from ehlectric.cases.library.library_oils import KINDS, Source, sources_of
 from ehlectric.cases.oil_inputs import Properties
+from ehlectric.cases.table_edits import flattened
 from ehlectric.errors import InputError, printable, shown
 from ehlectric.figures.figure_names import with_units_kept
 from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED, end_and_key, input_at
@@ -30,7 +30,7 @@ from ehlectric.quantities.results import NAMES_OF_ENDS
 from ehlectric.quantities.rows import value_at
 from ehlectric.report.report_content import DOI, Block, Cell, Link, Named, Section, Table, Text
 from ehlectric.report.report_texts import SENTENCES, TEXTS, conditions_of, limits_of, references_of
-from ehlectric.runtime.values import is_number
+from ehlectric.runtime.display import is_number
 from ehlectric.tables.html_tables import input_row
 from ehlectric.version import __version__
 
