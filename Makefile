@@ -134,6 +134,7 @@ lint: $(VENV)/.dev
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 	$(BIN)/python tools/lint_house.py
+	$(BIN)/python tools/lint_prose.py
 
 check: lint test
 
