@@ -59,23 +59,34 @@ def draw_section(
     ):
         text, edge = f"surface {surface}, {volts:g} V".replace("-", "−"), outlined(2.0, BODY)
         note(ax, 0.82, height, text, ha="right", va=where, fontsize=8.0, path_effects=edge)
-    ax.add_artist(_Enlargement(ax, units))
+    ax.add_artist(_Enlargement(ax, units, np.column_stack([x, heights[:, 0]])))
     return filled
 
 
-class _Enlargement(Text):
-    """Text that says how many times the heights of a section are enlarged, once the page is laid out."""
+# Distance between the film and the text below it, at least [pt].
+_CLEAR = 4.0
 
-    def __init__(self, ax: Axes, units: tuple[float, float]) -> None:
+
+class _Enlargement(Text):
+    """Text that says how many times the heights of a section are enlarged, once the page is laid out.
+
+    ``wall``, positions of the lower wall in the units of the axes, shape (nx, 2).
+    """
+
+    def __init__(self, ax: Axes, units: tuple[float, float], wall: Array) -> None:
         look: dict[str, Any] = {"fontsize": 7.5, "va": "bottom", "transform": ax.transAxes, "zorder": 5.0}
         super().__init__(0.015, 0.04, "", path_effects=outlined(2.0), **look)
-        self._drawn_on, self._units = ax, units
+        self._drawn_on, self._units, self._wall = ax, units, wall
         self.set_in_layout(False)
 
     def draw(self, renderer: RendererBase) -> None:
-        """Draw the text for the size that the axes have now."""
+        """Draw the text for the size that the axes have now; a shorter one if it reached into the film."""
         times = float(f"{self._times():.2g}")  # two digits without an exponent
         self.set_text(f"heights enlarged\n{times:g} times")
+        box = self.get_window_extent(renderer).padded(renderer.points_to_pixels(_CLEAR))
+        wall = self._drawn_on.transData.transform(self._wall)
+        if np.any(wall[(wall[:, 0] >= box.x0) & (wall[:, 0] <= box.x1), 1] < box.y1):
+            self.set_text(f"heights × {times:g}")
         super().draw(renderer)
 
     def _times(self) -> float:

@@ -4,7 +4,9 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from matplotlib.text import Text
 
+from ehlectric.figures.film_section import draw_section
 from ehlectric.figures.style import figure_of, new_panels, scale_axis, style
 from ehlectric.paper import paper_figures
 
@@ -97,3 +99,23 @@ def test_labels_of_a_logarithmic_axis_do_not_touch():
         boxes = extents(figure_of(ax), [label for label in ax.get_xticklabels() if label.get_text()])
     assert len(boxes) >= 3
     assert all(one.x1 < other.x0 for one, other in pairwise(boxes))
+
+
+@pytest.mark.parametrize("name", ["screen", "journal"])
+def test_the_enlargement_of_a_section_does_not_lie_on_the_film(name):
+    """In one column of a journal, its second line reached the wall of a film that widens to the inlet."""
+    x = np.linspace(-1.2, 1.2, 49)
+    wall = 130.0 + 300.0 * np.clip(0.3 - x, 0.0, None) ** 2 / 1.5**2
+    heights = np.column_stack([-wall, wall])
+    with style(name):
+        ax = new_panels(2, 1, (6.3, 5.6))[0]
+        draw_section(
+            ax, x, heights, heights, limits=(-430.0, 430.0), potentials=(-1.0, 1.0), units=(1e-4, 1e-9)
+        )
+        texts = [text for text in ax.texts if "surface 1" in text.get_text()]
+        figure_of(ax).canvas.draw()
+        texts += [text for text in ax.findobj(Text) if "heights" in text.get_text()]
+        surface, enlarged = extents(figure_of(ax), texts)
+        lowest = ax.transData.transform([(-1.2, -430.0)])[0, 1]
+    assert enlarged.y1 < lowest - 4.0 * figure_of(ax).dpi / 72.0
+    assert enlarged.x1 < surface.x0
