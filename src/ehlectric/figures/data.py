@@ -25,8 +25,9 @@ class Curve:
     """Values over positions, in shown units: a line, or markers where ``marker`` is not empty.
 
     ``dash`` is one of "solid", "dash", "dot", "dashdot" and "longdash", ``width`` in points. Markers are
-    "dots", "ring", "star", "circle", "wide circle", "square", "diamond", "triangle", "plus", "cross" or
-    "wide cross", with a relative ``size``. A curve without name is in no legend.
+    "dots", "ring", "star", "circle", "wide circle", "square", "diamond", "triangle", "plus", "cross",
+    "wide cross", "full square", "full diamond" or "bound", with a relative ``size`` and ``texts`` at the
+    pointer. A curve without name is in no legend. With ``steps``, each value applies up to the next position.
     """
 
     name: str
@@ -37,6 +38,8 @@ class Curve:
     width: float = WIDTH
     marker: str = ""
     size: float = 1.0
+    steps: bool = False
+    texts: Sequence[str] = field(default=(), repr=False)
 
 
 @dataclass(frozen=True)
@@ -66,7 +69,9 @@ class Upright:
 class Panel:
     """Panel of a figure: a quantity with its unit, empty without one, and the ends of its axis at first.
 
-    ``missing`` are markers at positions without a value, which are drawn in a strip below the curves.
+    A logarithmic axis only has ends if ``bottom`` is above zero. ``missing`` are markers at positions without
+    a value, which are drawn in a strip below the curves. ``rows`` are names of the heights 0, 1, ... instead
+    of numbers.
     """
 
     title: str
@@ -78,6 +83,12 @@ class Panel:
     uprights: Sequence[Upright] = ()
     log: bool = False
     missing: Sequence[Curve] = ()
+    rows: Sequence[str] = ()
+
+    @property
+    def ends(self) -> tuple[float, float] | None:
+        """Ends of the axis; None of a logarithmic axis that begins at zero."""
+        return None if self.log and self.bottom <= 0.0 else (self.bottom, self.top)
 
 
 @dataclass(frozen=True)

@@ -9,9 +9,15 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
+from matplotlib.ticker import NullLocator
 
 from ehlectric.figures.data import WIDTH, Along, Area, Curve, Panel, with_unit
+from ehlectric.figures.figure_names import broken
 from ehlectric.figures.style import scale_axis
+from ehlectric.quantities.palette import GREY
+
+# Letters on a line of the name of a row, and lines of it.
+_LETTERS, _LINES = 20, 2
 
 # Dashes by their names.
 DASHES: Mapping[str, Any] = {
@@ -33,6 +39,9 @@ _MARKERS: Mapping[str, dict[str, Any]] = {
     "plus": {"marker": "+", "ms": 7.0, "mew": 1.3},
     "cross": {"marker": "x", "ms": 5.5, "mew": 1.6},
     "wide cross": {"marker": "X", "ms": 5.0, "mec": "black", "mew": 0.4},
+    "full square": {"marker": "s", "ms": 3.5},
+    "full diamond": {"marker": "D", "ms": 3.5},
+    "bound": {"marker": "<", "ms": 4.2, "mfc": "white"},
 }
 
 
@@ -56,6 +65,8 @@ def draw_curves(curves: Sequence[Curve], ax: Axes) -> list[Line2D]:
         look = line_look(curve.colour, curve.dash, thinner * curve.width) | {"zorder": 2.0 + 0.01 * k}
         if curve.marker:
             look |= marker_look(curve)
+        if curve.steps:
+            look["drawstyle"] = "steps-post"
         lines += ax.plot(curve.x, curve.y, label=curve.name or "_", **look)
     return lines
 
@@ -70,13 +81,24 @@ def draw_panel(panel: Panel, ax: Axes, along: Along | None = None) -> None:
     # Ticks reach as far as shaded areas, too.
     ends = [end for area in panel.areas if area.ends is not None for end in area.ends]
     scale_axis(ax.yaxis, with_unit(panel.title, panel.unit), values=np.concatenate([y, *ends]), log=panel.log)
-    if not panel.log:
-        ax.set_ylim(panel.bottom, panel.top)
+    if panel.ends is not None:
+        ax.set_ylim(*panel.ends)
+    if panel.rows:
+        _name_rows(panel.rows, ax)
     for area in panel.areas:
         draw_area(area, ax)
     draw_curves(panel.curves, ax)
     for line in panel.uprights:
-        ax.axvline(line.at, **line_look(line.colour, line.dash, 1.0))
+        ax.axvline(line.at, label=line.name or "_", **line_look(line.colour, line.dash, 1.0))
+
+
+def _name_rows(names: Sequence[str], ax: Axes) -> None:
+    """Write the names of rows, from top to bottom, and draw lines between them."""
+    ax.yaxis.set_minor_locator(NullLocator())
+    ax.set_yticks(np.arange(len(names)), labels=[broken(name, _LETTERS, _LINES) for name in names])
+    ax.tick_params(axis="y", length=0.0)
+    for row in range(1, len(names)):
+        ax.axhline(row - 0.5, color=GREY, lw=0.4, alpha=0.5)
 
 
 def draw_area(area: Area, ax: Axes) -> None:

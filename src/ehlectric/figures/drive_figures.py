@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import textwrap
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -14,23 +14,21 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, NullLocator
+from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
 from ehlectric.arrays import Array
 from ehlectric.drive import CHARGE, ENERGY, FILM, ON, PEAK, VOLTAGE, DriveResult, both_summary, end_summary
 from ehlectric.figures.bearing_figures import prefixed
-from ehlectric.figures.data import Along, Curve, Panel, is_wide
-from ehlectric.figures.draw import draw_panel
+from ehlectric.figures.data import Along, Area, Curve, Panel, Upright, is_wide
+from ehlectric.figures.draw import draw_panel, line_look
 from ehlectric.figures.duty_panels import cycle_lines, drive_duty_panels
 from ehlectric.figures.duty_panels import time_axis as time_axis_of_cycle
-from ehlectric.figures.figure_names import DRIVE_FIGURE_FILES, broken
+from ehlectric.figures.figure_names import DRIVE_FIGURE_FILES
 from ehlectric.figures.style import (
     drawing_of,
     legend_above,
     new_panels,
     note,
-    scale_axis,
     share_below,
     side_by_side,
     style,
@@ -46,9 +44,6 @@ from ehlectric.readable import readable
 # Names of both bearings in titles and legends, and their colours.
 NAMES = tuple(NAMES_OF_ENDS.values())
 COLOURS = (BLUE, ORANGE)
-
-# Line of a breakdown voltage.
-THRESHOLD: dict[str, Any] = {"color": "black", "lw": 0.9, "ls": "--"}
 
 
 def events_of(result: DriveResult, b: int) -> Array:
@@ -219,25 +214,38 @@ _NEAR_LIMIT = 1.5
 _BINS = 3
 
 
-def time_at_voltage(result: DriveResult, ax: Axes) -> None:
-    """Draw the share of time at the voltages across the films of both bearings, and the breakdown voltages
-    where they are near.
+def at_voltage(result: DriveResult) -> tuple[Along, Panel]:
+    """Share of time at the voltages across the films of both bearings, and the breakdown voltages that are
+    near.
     """
-    record = result.solution.record
-    most = _most(result)
+    record, most = result.solution.record, _most(result)
     factor, unit = voltage_unit(most)
     width = float(record.edges[1] - record.edges[0])
-    shares = 100.0 * record.histogram / record.duration
-    for b, values in enumerate(shares):
-        _stairs(ax, b, values, factor * record.edges, NAMES[b], width=(0.7, 1.1)[b])
-    _log_share(ax, shares)
-    for k, volts in enumerate(_breakdowns(result)):
-        for sign in (1.0, -1.0):
-            label = "_" if k or sign < 0.0 else "breakdown, weakest position"
-            ax.axvline(sign * factor * volts, label=label, **THRESHOLD)
-    ax.set_xlim(-factor * most, factor * most)
-    ax.set_xlabel(f"voltage across the films [{unit}]")
-    ax.set_ylabel(f"share of time\nper {readable(factor * width)} {unit} [%]")
+    # Bins beyond the largest voltage have no share.
+    edges = record.edges[np.abs(record.edges) <= most + 1.5 * width]
+    first = int(np.searchsorted(record.edges, edges[0]))
+    shares = 100.0 * record.histogram[:, first : first + edges.size - 1] / record.duration
+    bottom, top = _share_ends(shares)
+    curves = [_steps(factor * edges, values, b, NAMES[b]) for b, values in enumerate(shares)]
+    levels = [sign * factor * volts for volts in _breakdowns(result) for sign in (1.0, -1.0)]
+    names = ["breakdown, weakest position", *("" for _ in levels)]
+    return Along("voltage across the films", unit, (-factor * most, factor * most)), Panel(
+        f"share of time\nper {readable(factor * width)} {unit}",
+        "%",
+        curves,
+        top,
+        bottom,
+        [_under(curves[0], bottom)],
+        [Upright(name, level, BLACK, "dash") for name, level in zip(names, levels, strict=False)],
+        log=True,
+    )
+
+
+def time_at_voltage(result: DriveResult, ax: Axes) -> None:
+    """Draw the share of time at the voltages across the films of both bearings."""
+    along, panel = at_voltage(result)
+    draw_panel(panel, ax, along)
+    _log_axis(ax.yaxis, panel.bottom, panel.top, ticks=6)
     legend_above(ax, columns=3)
 
 
@@ -255,19 +263,24 @@ def time_above(result: DriveResult, ax: Axes) -> None:
         marker, size, face = (("o", 8.0, "white"), ("s", 4.0, COLOURS[1]))[b]
         at = factor * record.limits[seen]
         ax.plot(at, above[seen], color=COLOURS[b], ls="none", marker=marker, ms=size, mfc=face)
-    _log_share(ax, shares)
+    _log_axis(ax.yaxis, *_share_ends(shares), ticks=6)
     for volts in _breakdowns(result):
-        ax.axvline(factor * volts, **THRESHOLD)
+        ax.axvline(factor * volts, **line_look(BLACK, "dash", 1.0))
     ax.set_xlim(0.0, factor * most)
     ax.set_xlabel(f"voltage across the films, without its sign [{unit}]")
     ax.set_ylabel("share of time\nabove it [%]")
 
 
-def _stairs(ax: Axes, b: int, values: Array, edges: Array, name: str, *, width: float) -> None:
-    """Draw the steps of bearing ``b``, those of the bearing at the drive end filled."""
-    if b == 0:
-        ax.stairs(values, edges, color=COLOURS[b], fill=True, alpha=0.35, lw=0.0, label=name)
-    ax.stairs(values, edges, color=COLOURS[b], lw=width, label=name if b else "_")
+def _steps(edges: Array, values: Array, b: int, name: str) -> Curve:
+    """Steps of bearing ``b`` between the edges of bins."""
+    return Curve(name, edges, np.append(values, 0.0), COLOURS[b], ("solid", "dash")[b], steps=True)
+
+
+def _under(steps: Curve, bottom: float) -> Area:
+    """Area below steps."""
+    x, y = np.repeat(steps.x, 2)[1:-1], np.repeat(steps.y[:-1], 2)
+    ends = np.full(x.size, bottom), np.maximum(y, bottom)
+    return Area("", x, np.ones(x.size, dtype=bool), steps.colour, 0.3, ends)
 
 
 def shares_above(result: DriveResult) -> tuple[Array, Array]:
@@ -296,36 +309,37 @@ def _breakdowns(result: DriveResult) -> list[float]:
     return [volts for volts in levels if volts <= _NEAR_LIMIT * float(np.max(result.solution.record.peak))]
 
 
-def _log_share(ax: Axes, shares: Array) -> None:
-    """Logarithmic axis of shares of time [%], over at most some decades."""
+def _share_ends(shares: Array) -> tuple[float, float]:
+    """Ends of a logarithmic axis of shares of time [%], over at most some decades."""
     known = shares[shares > 0.0]
     top = float(np.max(known, initial=1.0))
     least = max(float(np.min(known, initial=top)), _DECADES * top)
-    _log_axis(ax.yaxis, min(0.5 * least, _LOW * top), 2.0 * top, ticks=6)
+    return min(0.5 * least, _LOW * top), 2.0 * top
 
 
 # Number of points that are drawn for each decade of frequency, and part of the largest line that is drawn.
 _POINTS, _LEAST = 400, 1e-6
 
 
-def shaft_spectrum(result: DriveResult, ax: Axes) -> None:
-    """Draw the amplitude spectrum of the shaft voltage, without the line at 0 Hz.
-
-    Where lines are too close to be seen apart, the largest one is drawn.
-    """
+def spectrum_lines(result: DriveResult) -> tuple[Along, Panel]:
+    """Amplitude spectrum of the shaft voltage, without the line at 0 Hz; the largest one of close lines."""
     frequencies, amplitudes = highest_lines(result)
-    least, most = shown_range(amplitudes)
     factor, unit = voltage_unit(float(np.max(amplitudes)))
-    ax.plot(frequencies, factor * amplitudes, color=BLUE, lw=0.8)
-    _log_axis(ax.xaxis, 0.8 * frequencies[0], 1.25 * frequencies[-1], ticks=9)
-    _log_axis(ax.yaxis, factor * least, factor * most, ticks=9)
-    ax.set_xlabel("frequency [Hz]")
-    ax.set_ylabel(f"amplitude of the shaft voltage [{unit}]")
+    shown = factor * amplitudes
+    curve = Curve("shaft voltage", frequencies, shown, BLUE, width=0.8)
+    ends = 3.0 * float(np.max(shown)), 0.5 * float(np.min(shown))
+    window = 0.6 * float(frequencies[0]), 1.7 * float(frequencies[-1])
+    panel = Panel("amplitude of the shaft voltage", unit, [curve], *ends, log=True)
+    return Along("frequency", "Hz", window, log=True), panel
 
 
-def shown_range(amplitudes: Array) -> tuple[float, float]:
-    """Ends of a logarithmic axis of amplitudes, with room below the least and above the largest one."""
-    return 0.5 * float(np.min(amplitudes)), 3.0 * float(np.max(amplitudes))
+def shaft_spectrum(result: DriveResult, ax: Axes) -> None:
+    """Draw the amplitude spectrum of the shaft voltage."""
+    along, panel = spectrum_lines(result)
+    draw_panel(panel, ax, along)
+    assert along.window is not None
+    _log_axis(ax.xaxis, *along.window, ticks=9)
+    _log_axis(ax.yaxis, panel.bottom, panel.top, ticks=9)
 
 
 def has_spectrum(result: DriveResult) -> bool:
@@ -348,49 +362,85 @@ def highest_lines(result: DriveResult) -> tuple[Array, Array]:
     return kept / result.solution.record.duration, np.maximum(amplitudes[kept], least)
 
 
-# Letters on a line of a name, and lines of it; distance of both bearings from the middle of their row, where
-# their sum is.
-_LETTERS, _LINES, _BEARING_SHIFT = 20, 2, 0.24
+# Distances of both bearings, and of their sum, from the middle of their row, and size of their marks.
+_OFFSETS, _LARGE = (-0.24, 0.24, 0.0), 1.3
 
 AS_IT_IS = "as it is"
 
 # Colour, marker and name of each bearing and of both together.
-RATES = ((BLUE, "o", NAMES[0]), (ORANGE, "s", NAMES[1]), (BLACK, "D", "both bearings"))
+RATES = (
+    (BLUE, "dots", NAMES[0]),
+    (ORANGE, "full square", NAMES[1]),
+    (BLACK, "full diamond", "both bearings"),
+)
+
+# Name of the drive or of a remedy, and summaries of both bearings and of their sums.
+Variant = tuple[str, list[dict[str, Any]]]
 
 
-def variants(result: DriveResult) -> Iterator[tuple[str, list[dict[str, Any]]]]:
+def variants(result: DriveResult) -> Iterator[Variant]:
     """Name, and summaries of the drive as it is and of each remedy: of each bearing, and of their sums."""
     solutions = [(AS_IT_IS, result.solution), *((title, remedied) for title, _, remedied in result.remedies)]
     for name, solution in solutions:
         yield name, [*(end_summary(solution, b) for b in range(len(ENDS))), both_summary(solution)]
 
 
-def rates(result: DriveResult, ax: Axes) -> None:
-    """Draw the discharges per second of the drive and its remedies, with bounds of 95 %, a row for each.
+def rates_of(variants: Sequence[Variant]) -> tuple[Along, Panel]:
+    """Discharges per second of the drive and its remedies, with bounds of 95 %, a row for each.
 
-    An arrow is an upper bound where no discharge happened.
+    Where no discharge happened, a triangle is the upper bound.
     """
-    rows = list(variants(result))
-    ends = [end for _, pair in rows for end in pair]
-    known = [end["events_per_second_low"] for end in ends] + [end["events_per_second"] for end in ends]
-    highest = [end["events_per_second_high"] for end in ends]
-    least = min([value for value in (*known, *highest) if value > 0.0])
-    bottom = 10.0 ** math.floor(math.log10(0.5 * least))
-    for row, (_, pair) in enumerate(rows):
-        for b, end in enumerate(pair):
-            at = _place(row, b)
-            colour, marker, _ = RATES[b]
-            look: dict[str, Any] = {"color": colour, "lw": 1.3}
-            low, high = end["events_per_second_low"], end["events_per_second_high"]
-            if end["events"]:
-                ax.plot([max(low, bottom), high], [at, at], **look)
-                ax.plot([end["events_per_second"]], [at], marker=marker, ms=4.5, **look)
-            else:
-                ax.plot([bottom, high], [at, at], ls=":", **look)
-                ax.plot([high], [at], marker="<", ms=5.5, mfc="white", **look)
-    _log_axis(ax.xaxis, bottom, 2.0 * max(highest), ticks=5)
-    ax.set_xlabel(DRIVE_BOOK["end.events_per_second"].label)
-    _rows(ax, [name for name, _ in rows])
+    ends = [end for _, summaries in variants for end in summaries]
+    known = [value for end in ends for key in _BOUNDS if (value := end[key]) > 0.0]
+    bottom = 10.0 ** math.floor(math.log10(0.5 * min(known)))
+    curves = [curve for b in range(len(RATES)) for curve in _rates(variants, b, bottom)]
+    along = Along(DRIVE_BOOK["end.events_per_second"].label, "", (bottom, 2.0 * max(known)), log=True)
+    return along, _in_rows(variants, curves)
+
+
+# Keys of a rate, and of its bounds of 95 %.
+_BOUNDS = ("events_per_second", "events_per_second_low", "events_per_second_high")
+
+
+def _rates(variants: Sequence[Variant], b: int, bottom: float) -> Iterator[Curve]:
+    """Rates of one bearing, or of both, with their bounds, and upper bounds where nothing discharged."""
+    colour, marker, place = RATES[b]
+    name = f"{place}, bounds of 95 %"
+    for some in (True, False):
+        rows = [
+            (k, title, pair[b]) for k, (title, pair) in enumerate(variants) if bool(pair[b]["events"]) == some
+        ]
+        if not rows:
+            continue
+        rate, low, high = (np.array([end[key] for *_, end in rows]) for key in _BOUNDS)
+        at = _OFFSETS[b] + np.array([k for k, *_ in rows])
+        gaps = np.full(at.size, np.nan)
+        reach = np.column_stack([np.maximum(low, bottom), high, gaps]).ravel()
+        yield Curve("", reach, np.repeat(at, 3), colour, "solid" if some else "dot", 1.3)
+        texts = [f"{title}, {place}: {rate_text(end)} per second" for _, title, end in rows]
+        mark = marker if some else "bound"
+        yield Curve(name, rate if some else high, at, colour, marker=mark, size=_LARGE, texts=texts)
+        name = ""
+
+
+def rate_text(end: Mapping[str, Any]) -> str:
+    """Text of a rate with its bounds of 95 %."""
+    rate, low, high = (readable(end[key]) for key in _BOUNDS)
+    return f"{rate} ({low} to {high})" if end["events"] else f"none, at most {high}"
+
+
+def _in_rows(variants: Sequence[Variant], curves: Sequence[Curve]) -> Panel:
+    """Panel with a row for the drive as it is and for each remedy."""
+    names = [name for name, _ in variants]
+    return Panel("", "", curves, -0.5, len(names) - 0.5, rows=names)
+
+
+def rates(result: DriveResult, ax: Axes) -> None:
+    """Draw the discharges per second of the drive and its remedies, with bounds of 95 %, a row for each."""
+    along, panel = rates_of(list(variants(result)))
+    draw_panel(panel, ax, along)
+    assert along.window is not None
+    _log_axis(ax.xaxis, *along.window, ticks=5)
 
 
 def energies(result: DriveResult, ax: Axes) -> None:
@@ -398,13 +448,14 @@ def energies(result: DriveResult, ax: Axes) -> None:
     rows = list(variants(result))
     means = [end["energy_mean"] for _, (*pair, _) in rows for end in pair if end["events"]]
     factor, unit = unit_for(max(means, default=1e-9), "J", least=1.0)
-    for row, (_, (*pair, _)) in enumerate(rows):
-        for b, end in enumerate(pair):
-            if end["events"]:
-                ax.plot(
-                    [factor * end["energy_mean"]], [_place(row, b)], marker="os"[b], color=COLOURS[b], ms=5.0
-                )
-        if not any(end["events"] for end in pair):
+    curves = []
+    for b, (colour, marker, _) in enumerate(RATES[:-1]):
+        here = [(k + _OFFSETS[b], pair[b]) for k, (_, pair) in enumerate(rows) if pair[b]["events"]]
+        values = factor * np.array([end["energy_mean"] for _, end in here])
+        curves.append(Curve("", values, np.array([at for at, _ in here]), colour, marker=marker, size=_LARGE))
+    draw_panel(_in_rows(rows, curves), ax)
+    for row, (_, (*_, both)) in enumerate(rows):
+        if not both["events"]:
             note(ax, 0.03, row, "no discharge", data_axis="y", va="center", color=GREY)
     positive = [factor * value for value in means if value > 0.0]
     if positive and max(positive) > 20.0 * min(positive):
@@ -412,33 +463,13 @@ def energies(result: DriveResult, ax: Axes) -> None:
     else:
         ax.set_xlim(0.0, 1.15 * max(positive, default=1.0))
     ax.set_xlabel(f"{DRIVE_BOOK['end.energy_mean'].label} [{unit}]")
-    _rows(ax, [name for name, _ in rows])
     if side_by_side(ax) > 1:
         ax.tick_params(labelleft=False)
 
 
 def legend_of_remedies(axes: list[Axes]) -> None:
     """Legend above the first panel: both bearings, and the bounds."""
-    handles = [
-        Line2D([], [], color=colour, marker=marker, ms=4.5, lw=1.3, label=f"{name}, bounds of 95 %")
-        for colour, marker, name in RATES
-    ]
-    legend_above(axes[0], handles, columns=1)
-
-
-def _place(row: int, b: int) -> float:
-    """Height of a bearing in its row, between those of the bearings the height of their sum."""
-    return row + (-_BEARING_SHIFT, _BEARING_SHIFT, 0.0)[b]
-
-
-def _rows(ax: Axes, names: list[str]) -> None:
-    """Rows with their names, from top to bottom, and lines between them."""
-    ax.set_ylim(len(names) - 0.5, -0.5)
-    ax.yaxis.set_minor_locator(NullLocator())
-    ax.set_yticks(np.arange(len(names)), labels=[broken(name, _LETTERS, _LINES) for name in names])
-    ax.tick_params(axis="y", length=0.0)
-    for row in range(1, len(names)):
-        ax.axhline(row - 0.5, color=GREY, lw=0.4, alpha=0.5)
+    legend_above(axes[0], columns=1)
 
 
 def _log_axis(axis: Axis, low: float, high: float, ticks: int) -> None:
@@ -628,7 +659,7 @@ def legend_of(axes: list[Axes]) -> None:
 
 
 # Quantities of a discharge, and their columns of a record.
-QUANTITIES = (("voltage", VOLTAGE), ("charge", CHARGE), ("energy", ENERGY), ("peak_current", PEAK))
+QUANTITIES = {"voltage": VOLTAGE, "charge": CHARGE, "energy": ENERGY, "peak_current": PEAK}
 
 # Number of bins of a distribution, and values outside of which lie too few discharges to be seen [%].
 _LEAST_EVENTS, _MOST = 8, 40
@@ -638,31 +669,34 @@ _SHOWN = (0.05, 99.95)
 _NARROW = 0.05
 
 
-def distribution(result: DriveResult, ax: Axes, *, quantity: int = 0) -> None:
-    """Draw how a quantity of the discharges of both bearings is distributed [% of the discharges of each]."""
-    name, column = QUANTITIES[quantity]
-    about = EVENT_KEYS[name]
+def distribution_of(result: DriveResult, name: str) -> tuple[Along, Panel]:
+    """How a quantity of the discharges of both bearings is distributed [% of the discharges of each]."""
+    about, column = EVENT_KEYS[name], QUANTITIES[name]
     values = [np.abs(events_of(result, b)[:, column]) for b in range(2)]
     edges, log = bins_of(np.concatenate(values))
-    factor, prefixed = unit_for(float(edges[-1]), about.unit, least=1.0)
-    edges = factor * edges
+    factor, unit = unit_for(float(edges[-1]), about.unit, least=1.0)
+    curves = []
     for b, sample in enumerate(values):
-        if not sample.size:
-            continue
-        counts, _ = np.histogram(np.clip(factor * sample, edges[0], edges[-1]), edges)
-        share = 100.0 * counts / sample.size
-        name = f"{NAMES[b]}: {number_of_events(result, b)} discharges"
-        _stairs(ax, b, share, edges, name, width=1.1)
-    scale_axis(ax.xaxis, f"{about.label} [{prefixed}]", values=edges, log=log)
-    if not log:
+        if sample.size:
+            counts, _ = np.histogram(np.clip(sample, edges[0], edges[-1]), edges)
+            label = f"{NAMES[b]}: {number_of_events(result, b)} discharges"
+            curves.append(_steps(factor * edges, 100.0 * counts / sample.size, b, label))
+    top = 1.05 * max(float(np.max(curve.y)) for curve in curves)
+    areas = [_under(curve, 0.0) for curve in curves if curve.colour == COLOURS[0]]
+    ends = (float(factor * edges[0]), float(factor * edges[-1]))
+    return Along(about.label, unit, ends, log=log), Panel("discharges", "%", curves, top, areas=areas)
+
+
+def distribution(result: DriveResult, ax: Axes, *, quantity: str) -> None:
+    """Draw how a quantity of the discharges of both bearings is distributed."""
+    along, panel = distribution_of(result, quantity)
+    draw_panel(panel, ax, along)
+    if not along.log:
         ax.xaxis.set_major_locator(MaxNLocator(5))
-    ax.set_xlim(edges[0], edges[-1])
-    ax.set_ylim(0.0, None)
-    ax.set_ylabel("discharges [%]")
 
 
 # Panels of the figure, row by row.
-DISTRIBUTIONS = tuple(partial(distribution, quantity=number) for number in range(len(QUANTITIES)))
+DISTRIBUTIONS = tuple(partial(distribution, quantity=name) for name in QUANTITIES)
 
 
 def legend_of_discharges(axes: list[Axes]) -> None:

@@ -12,7 +12,7 @@ from matplotlib.contour import ContourSet
 from matplotlib.text import Text
 
 from ehlectric.arrays import Array
-from ehlectric.figures.style import note, outlined
+from ehlectric.figures.style import figure_of, note, outlined
 from ehlectric.quantities.palette import BODY, OUT_OF_RANGE
 
 # Mark of a maximum: a ring that can be seen on any colour.
@@ -83,7 +83,8 @@ class _Enlargement(Text):
         """Draw the text for the size that the axes have now; a shorter one if it reached into the film."""
         times = float(f"{self._times():.2g}")  # two digits without an exponent
         self.set_text(f"heights enlarged\n{times:g} times")
-        box = self.get_window_extent(renderer).padded(renderer.points_to_pixels(_CLEAR))
+        box = self.get_window_extent(renderer)
+        box = box.padded(_CLEAR * figure_of(self._drawn_on).dpi / 72.0)
         wall = self._drawn_on.transData.transform(self._wall)
         if np.any(wall[(wall[:, 0] >= box.x0) & (wall[:, 0] <= box.x1), 1] < box.y1):
             self.set_text(f"heights × {times:g}")

@@ -519,8 +519,7 @@ def scale_axis(axis: Axis, text: str, *, values: Array, log: bool) -> None:
             plain.set_powerlimits(_PLAIN)
         return
     (ax.set_xscale if along else ax.set_yscale)("log")
-    finite = values[np.isfinite(values)]
-    ticks = _ticks(np.unique(finite))
+    ticks = _ticks(np.unique(values[np.isfinite(values) & (values > 0.0)]))
     axis.set_major_locator(_ApartLocator(list(ticks)) if along else FixedLocator(list(ticks)))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_minor_locator(NullLocator())

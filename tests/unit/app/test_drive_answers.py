@@ -237,7 +237,9 @@ def test_figures_are_plain_and_small(simulated):
 def test_shares_of_a_distribution_are_all_discharges(simulated):
     answer, *_ = simulated
     for name in ("discharge-voltage", "discharge-energy", "discharge-charge", "discharge-current"):
-        for trace in answer.figures[name].plot["data"]:
+        steps = [trace for trace in answer.figures[name].plot["data"] if trace["showlegend"]]
+        assert len(steps) == 2
+        for trace in steps:
             assert sum(trace["y"]) == pytest.approx(100.0, rel=1e-3)
 
 

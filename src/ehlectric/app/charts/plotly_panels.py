@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from html import escape
 from itertools import pairwise
 from textwrap import wrap
 from typing import Any
@@ -47,11 +48,14 @@ _HIDDEN, STRIP, STRIP_AXIS = 11, 0.04, "y11"
 _PIXELS, _INTERVALS = 5.0 / 3.0, 1500
 
 # Ends of the decades of a logarithmic axis that have ticks, and most decades with ticks at 1, 2 and 5.
-_ALL_TICKS, _DECADES = (1e-6, 1e9), 5
+_ALL_TICKS, _DECADES = (1e-6, 1e9), 4
 
 # Longest line of the title of an axis [characters], and symbol in the name of a quantity.
 _TITLE = 30
 _SYMBOL = re.compile(r" ?\$[^$]*\$")
+
+# Letters on a line of the name of a row, and lines after which it is cut.
+_LETTERS, _LINES = 16, 3
 
 # Text at the pointer, letters on the colours of a map, and height of a map [px].
 _TEXT, _ON_MAP, _MAP = "%{text}<extra></extra>", {"color": "#ffffff", "size": 11}, 430
@@ -288,7 +292,7 @@ def stack(along: Along, panels: Sequence[Panel], *, converged: bool = True, **mo
             anchor=axis_name(len(panels) - 1),
             unifiedhovertitle={"text": f"{along.name} = %{{x:,.5~r}} {along.unit}"},
             **({"range": _range(along.window, log=along.log)} if along.window else {}),
-            **log_ticks(log=along.log),
+            **log_ticks(log=along.log, ends=along.window),
         ),
         "hovermode": "x unified",
         "hoversubplots": "axis",
@@ -300,10 +304,11 @@ def stack(along: Along, panels: Sequence[Panel], *, converged: bool = True, **mo
     for number, (panel, ends_of_panel) in enumerate(zip(panels, domains(len(panels)), strict=True)):
         name, hidden = axis_name(number), f"y{_HIDDEN + number}"
         domain = {"domain": ends_of_panel, "anchor": "x"}
-        ends = {} if panel.log else {"range": [panel.bottom, panel.top]}
+        ends = {} if panel.ends is None else {"range": _range(panel.ends, log=panel.log)}
         unit = f"{'<br>' if len(panels) > 1 else ' '}[{panel.unit}]" if panel.unit else ""
         title = f"{plain(panel.title, '')}{unit}"
-        layout["yaxis" + name[1:]] = axis(title, **domain, **ends, **log_ticks(log=panel.log))
+        ticks = _row_names(panel.rows) if panel.rows else log_ticks(log=panel.log, ends=panel.ends)
+        layout["yaxis" + name[1:]] = axis(title, **domain, **ends, **ticks)
         data += [_shaded(area, name, hidden) for area in panel.areas]
         data += [_trace(curve, panel.unit, name, converged=converged) for curve in panel.curves]
         data += [
@@ -312,6 +317,7 @@ def stack(along: Along, panels: Sequence[Panel], *, converged: bool = True, **mo
                 [0.0, 1.0],
                 yaxis=hidden,
                 name=line.name,
+                showlegend=bool(line.name),
                 line={"color": line.colour, "width": 2.0, "dash": line.dash},
             )
             for line in panel.uprights
@@ -339,7 +345,19 @@ _MARKERS: Mapping[str, Plot] = {
     "cross": {"size": 8, "symbol": "x-thin"},
     "triangle": {"size": 8, "symbol": "triangle-down", "line": {"color": "#000000", "width": 1}},
     "wide cross": {"size": 9, "symbol": "x", "line": {"color": "#000000", "width": 1}},
+    "full square": {"size": 6, "symbol": "square", "line": {"width": 0}},
+    "full diamond": {"size": 7, "symbol": "diamond", "line": {"width": 0}},
+    "bound": {"size": 8, "symbol": "triangle-left-open", "line": {"width": 1}},
 }
+
+
+def _row_names(names: Sequence[str]) -> Plot:
+    """Ticks of rows; texts of Plotly take some marks of HTML, which a name must not make."""
+    texts = [
+        "<br>".join(wrap(escape(name, quote=False), _LETTERS, max_lines=_LINES, placeholder=" ..."))
+        for name in names
+    ]
+    return {"tickmode": "array", "tickvals": list(range(len(names))), "ticktext": texts, "ticks": ""}
 
 
 def _range(ends: tuple[float, float], *, log: bool) -> list[float]:
@@ -350,18 +368,22 @@ def _range(ends: tuple[float, float], *, log: bool) -> list[float]:
 def _trace(curve: Curve, unit: str | None, yaxis: str, *, converged: bool) -> Plot:
     colour = curve.colour if converged else MIDDLE_GREY
     kept = thinned([curve.y], _INTERVALS)
+    hover = f"%{{y:,.4~r}} {unit}" if unit is not None and curve.name and curve.x.size > 1 else ""
     if curve.marker:
         marker = {"color": colour, **_MARKERS[curve.marker]}
         edge = {"color": colour, "width": 2, **marker.get("line", {})}
         look: Plot = {"marker": marker | {"size": curve.size * marker["size"], "line": edge}}
     else:
-        look = {"line": {"color": colour, "dash": curve.dash, "width": _PIXELS * curve.width}}
+        shape = {"shape": "hv"} if curve.steps else {}
+        look = {"line": {"color": colour, "dash": curve.dash, "width": _PIXELS * curve.width} | shape}
+    if curve.texts:
+        look["text"] = [escape(curve.texts[k], quote=False) for k in kept]
     return scatter(
         curve.x[kept],
         curve.y[kept],
         # The name of a single mark has its value.
-        hover=f"%{{y:,.4~r}} {unit}" if unit is not None and curve.name and curve.x.size > 1 else "",
-        label=curve.name,
+        hover="%{text}" if curve.texts else hover,
+        label="" if curve.texts else curve.name,
         yaxis=yaxis,
         name=curve.name,
         showlegend=bool(curve.name),

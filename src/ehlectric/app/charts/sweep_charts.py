@@ -7,7 +7,7 @@ from functools import lru_cache
 from html import escape
 from textwrap import wrap
 
-from ehlectric.app.charts.plotly_panels import Plot, log_ticks, map_plot, stack
+from ehlectric.app.charts.plotly_panels import Plot, map_plot, stack
 from ehlectric.app.view_models import ChartPoint
 from ehlectric.figures.data import Along, MapPanel, Panel
 
@@ -30,7 +30,6 @@ def map_figure(panel: MapPanel, points: Sequence[ChartPoint]) -> Plot:
 def line_figure(along: Along, panel: Panel, points: Sequence[ChartPoint]) -> Plot:
     """Figure of a line; marks that nobody sees have the texts and the numbers of its points."""
     figure = stack(along, [panel], height=430, hovermode="closest", **_LAYOUT)
-    figure["layout"]["yaxis"] |= log_ticks(log=panel.log, ends=(panel.bottom, panel.top))
     for trace in figure["data"]:
         trace.pop("hovertemplate", None)
         trace["hoverinfo"] = "skip"

@@ -4,9 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from matplotlib.colors import to_hex
 from matplotlib.text import Text
 
 from ehlectric import InputError, figure, figure_names, save_figures, solve_drive
+from ehlectric.app.charts.drive_charts import drive_figures
 from ehlectric.drive.drive_record import ENERGY, FILM, ON, VOLTAGE
 from ehlectric.drive.result import DriveResult
 from ehlectric.figures.drive_figures import shares_above
@@ -145,13 +147,12 @@ def test_distributions_hold_every_discharge(drive):
     ]  # fmt: skip
     events = drive.solution.record.events
     for ax in drawn.axes:
-        outlines = [patch.get_data() for patch in ax.patches if not patch.get_fill()]
-        assert [float(np.sum(one.values)) for one in outlines] == pytest.approx([100.0, 100.0])
-    energies = drawn.axes[2].patches[-1].get_data()
-    middles = 0.5 * (energies.edges[1:] + energies.edges[:-1])
+        assert [float(np.sum(line.get_ydata())) for line in ax.get_lines()] == pytest.approx([100.0, 100.0])
+    edges, shares = drawn.axes[2].get_lines()[-1].get_data()
+    middles = 0.5 * (edges[1:] + edges[:-1])
     mean = 1e9 * float(np.mean(events[events[:, FILM] == 1, ENERGY]))
-    width = float(np.max(np.diff(energies.edges)))
-    assert float(np.sum(0.01 * energies.values * middles)) == pytest.approx(mean, abs=width)
+    width = float(np.max(np.diff(edges)))
+    assert float(np.sum(0.01 * shares[:-1] * middles)) == pytest.approx(mean, abs=width)
 
 
 @pytest.mark.slow
@@ -189,6 +190,44 @@ def test_remedies_are_beside_the_drive_as_it_is(drive):
     assert means == pytest.approx([1e9 * summary[end]["energy_mean"] for end in ends[:2]])
     assert "no discharge" in [text.get_text() for text in energies.findobj(Text)]
     assert title_of(figure(drive, REMEDIES))[0].startswith("No discharge with Grounding ring; ")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("name", "on_page", "panel"),
+    [
+        (HISTOGRAM, "histogram", 0),
+        (SPECTRUM, "spectrum", 0),
+        (DISCHARGES, "discharge-voltage", 0),
+        (DISCHARGES, "discharge-charge", 1),
+        (DISCHARGES, "discharge-energy", 2),
+        (DISCHARGES, "discharge-current", 3),
+        (REMEDIES, "remedies", 0),
+    ],
+)
+def test_page_and_file_show_the_same_values(drive, name, on_page, panel):
+    """Curves by their names with colours and values, and both axes with their units."""
+    ax, plot = figure(drive, name).axes[panel], drive_figures(drive)[on_page].plot
+    layout = plot["layout"]
+    named = {line.get_label(): line for line in ax.get_lines() if not line.get_label().startswith("_")}
+    traces = [trace for trace in plot["data"] if trace["showlegend"] and trace["yaxis"] == "y"]
+    assert traces
+    if name != SPECTRUM:
+        assert {trace["name"] for trace in traces} == {name for name in named if "breakdown" not in name}
+    for trace in traces:
+        line = named.get(trace["name"], ax.get_lines()[0])
+        shown = np.array(trace["y"], dtype=float)
+        x, y = (np.asarray(values)[: shown.size] for values in line.get_data())
+        assert shown == pytest.approx(y, rel=1e-6, nan_ok=True)
+        assert np.array(trace["x"]) == pytest.approx(x, rel=1e-6)
+        assert to_hex(line.get_color()) in (trace.get("line") or trace["marker"])["color"]
+    assert ax.get_xlabel().replace("\n", " ") == layout["xaxis"]["title"]["text"].replace("<br>", " ")
+    if name != REMEDIES:
+        assert ax.get_ylabel().replace("\n", " ") == layout["yaxis"]["title"]["text"].replace("<br>", " ")
+        window, ends = ax.get_xlim(), ax.get_ylim()
+        on_x, on_y = (np.array(layout[axis]["range"]) for axis in ("xaxis", "yaxis"))
+        assert (10.0**on_x if ax.get_xscale() == "log" else on_x) == pytest.approx(window)
+        assert (10.0**on_y if ax.get_yscale() == "log" else on_y) == pytest.approx(ends)
 
 
 @pytest.mark.slow
