@@ -13,23 +13,20 @@ from matplotlib.projections.polar import PolarAxes
 from matplotlib.text import Text
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from ehlectric.arrays import Array, Mask
+from ehlectric.arrays import Array
 from ehlectric.bearing import (
-    PARTIAL,
     BearingResult,
     Impedance,
-    RingState,
-    around_in_rows,
     impedance_of,
     shaft_first_break,
     shaft_leakage,
     shaft_path,
     shaft_through_breakdown,
-    touching_ratio,
 )
-from ehlectric.figures.contact_findings import with_unit
-from ehlectric.figures.data import is_wide
-from ehlectric.figures.draw import line_look
+from ehlectric.figures import contact_findings
+from ehlectric.figures.data import Panel, is_wide, with_unit
+from ehlectric.figures.draw import draw_area, draw_curves, line_look
+from ehlectric.figures.ring_panels import film_panel, load_panel
 from ehlectric.figures.speed_panels import SHAFT, breakdown_lines
 from ehlectric.figures.style import (
     axes_or_new,
@@ -48,7 +45,7 @@ from ehlectric.quantities.units import unit_for
 from ehlectric.readable import readable
 
 # Text: value with three digits and a prefixed unit, in which it is at least 1.
-prefixed = partial(with_unit, least=1.0)
+prefixed = partial(contact_findings.with_unit, least=1.0)
 
 
 def volts(value: float) -> str:
@@ -108,16 +105,8 @@ def fill_text(fill: float | str) -> str:
     return f"{fill} fill" if isinstance(fill, str) else f"{readable(100.0 * fill)} % oil fill"
 
 
-# Name of each ring, with colour, line width and size of markers. The loads of both rings are nearly equal, so
-# the line of the inner ring is drawn last, over the wider line of the outer ring.
-Ring = tuple[str, str, float, float]
-_RINGS: tuple[Ring, ...] = (("inner", BLUE, 1.1, 4.0), ("outer", ORANGE, 2.2, 6.5))
-
 # Radius of the inner circle, at which the scale begins, over the radius of the outer circle.
 _CORE = 0.3
-
-# The circle of a lambda ratio is shown if the smallest film is below this many times its film thickness.
-_FAR = 4.0
 
 # With more round numbers than this along a logarithmic radius, only powers of ten have ticks.
 _MOST_TICKS = 7
@@ -133,80 +122,28 @@ def load_around(result: BearingResult, ax: Axes | None = None) -> Axes:
     """Draw the load of both contacts of the elements around the shaft. Returns polar axes on which the radial
     load on the inner ring points down.
     """
-    ax = _polar_or_new(result, ax)
-    largest = max(float(np.max(race.load)) for ring in _RINGS for race in _races(result, ring))
-    factor, unit = unit_for(largest, "N", least=1.0)
-    for ring in reversed(_RINGS):
-        loads = [factor * race.load for race in _races(result, ring)]
-        _draw_ring(result, ax, ring, loads, at_rest="unloaded")
-    _radius(ax, np.array([0.0, factor * largest]), _between(result), log=False)
-    ax.set_title(f"contact load [{unit}]")
-    _legend_below(ax)
-    return ax
+    return _draw_around(result, load_panel(result), ax)
 
 
 def film_around(result: BearingResult, ax: Axes | None = None) -> Axes:
     """Draw the minimum film thickness of the loaded contacts of the elements around the shaft. Returns polar
     axes on which the radial load points down.
     """
+    return _draw_around(result, film_panel(result), ax)
+
+
+def _draw_around(result: BearingResult, panel: Panel, ax: Axes | None) -> Axes:
+    """Draw a panel around the shaft."""
     ax = _polar_or_new(result, ax)
-    bearing = result.solution.case.bearing
-    rq, touching = bearing.composite_rq, float(touching_ratio(bearing.summit_height))
-    films = np.concatenate(
-        [race.values.minimum_thickness[race.solved] for ring in _RINGS for race in _races(result, ring)]
-    )
-    factor, unit = unit_for(float(films.min()), "m")
-    # Circles far below the films are left out, because they would leave little room for the films.
-    ratios = [ratio for ratio in (touching, max(PARTIAL, touching)) if films.min() < _FAR * ratio * rq]
-    everything = factor * np.concatenate([films, rq * np.array(ratios)])
-    angles = np.linspace(0.0, 2.0 * np.pi, 181)
-    for ratio in ratios:
-        line = ":" if ratio == touching else "--"
-        label = rf"$\lambda$ = {ratio:g}"
-        ax.plot(angles, np.full_like(angles, factor * ratio * rq), color=GREY, lw=0.9, ls=line, label=label)
-    for ring in reversed(_RINGS):
-        races = _races(result, ring)
-        values = [np.where(race.solved, factor * race.values.minimum_thickness, np.nan) for race in races]
-        _draw_ring(result, ax, ring, values)
-    _radius(ax, everything, _between(result), log=is_wide(everything))
-    for ring in _RINGS:
-        _unloaded(result, ax, ring)
-    ax.set_title(f"minimum film $h_\\mathrm{{min}}$ [{unit}]")
+    for line in draw_curves(panel.curves, ax):
+        # The marks of contacts without load lie on the inner circle.
+        line.set_clip_on(line.get_marker() == "None")
+    for area in panel.areas:
+        draw_area(area, ax)
+    _radius(ax, panel, _between(result))
+    ax.set_title(with_unit(panel.title, panel.unit))
     _legend_below(ax)
     return ax
-
-
-def _races(result: BearingResult, ring: Ring) -> list[RingState]:
-    """Contacts with a ring at each position of the cage."""
-    return [getattr(position, ring[0]) for position in result.solution.positions]
-
-
-def _unloaded(result: BearingResult, ax: Axes, ring: Ring) -> None:
-    """Shade the sector in which no element is loaded by a ring, and name it in the legend with the gap."""
-    (name, color, *_), races = ring, _races(result, ring)
-    (angle, *_), each = _around(result, [race.solved for race in races])
-    # All rows have the same angles.
-    loaded = np.any(each, axis=0)
-    if np.all(loaded):
-        return
-    gaps = np.concatenate([race.values.minimum_thickness[~race.solved] for race in races])
-    factor, unit = unit_for(float(gaps.max()), "m")
-    low, high = ax.get_ylim()
-    edges = 0.5 * (angle + np.append(angle[1:], angle[0] + 2.0 * np.pi))
-    before = np.append(edges[-1] - 2.0 * np.pi, edges[:-1])
-    for begin, end in zip(before[~loaded], edges[~loaded], strict=True):
-        ax.fill_between([begin, end], low, high, color=color, alpha=0.10, lw=0.0, zorder=0.5)
-    text = f"{name} unloaded: gap to {readable(factor * gaps.max(), 2)} {unit}"
-    ax.fill_between([], [], [], color=color, alpha=0.10, lw=0.0, label=text)
-
-
-def _around(result: BearingResult, values: Sequence[Array | Mask]) -> tuple[Array, Any]:
-    """Angles of the elements of each row at all positions of the cage from 0 to 2 pi, and values in their
-    order, shape (rows, n).
-    """
-    rows = result.solution.conditions.geometry.groups
-    angles, order = around_in_rows([p.equilibrium.position for p in result.solution.positions], rows)
-    return angles[order].reshape(rows, -1), np.concatenate(values)[order].reshape(rows, -1)
 
 
 def _polar_or_new(result: BearingResult, ax: Axes | None) -> PolarAxes:
@@ -221,28 +158,6 @@ def _polar_or_new(result: BearingResult, ax: Axes | None) -> PolarAxes:
     return polar
 
 
-def _draw_ring(
-    result: BearingResult, ax: Axes, ring: Ring, values: Sequence[Array], *, at_rest: str = ""
-) -> None:
-    """Draw the contacts with one ring: lines over all positions of the cage, markers at the first one.
-
-    Contacts without load have hollow markers called ``at_rest``, and a dotted line.
-    """
-    (name, color, width, size), races = ring, _races(result, ring)
-    rows = zip(*_around(result, values), _around(result, [race.solved for race in races])[1], strict=True)
-    for angle, along, loaded in rows:
-        whole, line = np.append(angle, angle[0] + 2.0 * np.pi), np.append(along, along[0])
-        on = np.append(loaded, loaded[0])
-        ax.plot(whole, np.where(on, line, np.nan), color=color, lw=width)
-        ax.plot(whole, np.where(on, np.nan, line), color=color, lw=width, ls=":")
-    marks: dict[str, Any] = {"ls": "none", "marker": "o", "ms": size, "color": color, "clip_on": False}
-    on, at = races[0].solved, result.solution.positions[0].equilibrium.position
-    ax.plot(at[on], values[0][on], label=f"{name} contact", zorder=4.0, **marks)
-    if at_rest and not np.all(on):
-        hollow = marks | {"mfc": "white", "label": f"{name}, {at_rest}", "zorder": 4.0}
-        ax.plot(at[~on], values[0][~on], **hollow)
-
-
 def _between(result: BearingResult) -> float:
     """Angle near the top, halfway between two elements at the first position of the cage [rad]."""
     first_row = result.solution.positions[0].equilibrium.position[: result.solution.case.bearing.elements]
@@ -251,19 +166,17 @@ def _between(result: BearingResult) -> float:
     return float(halfway[np.argmin(np.abs(halfway - np.pi))])
 
 
-def _radius(ax: Axes, values: Array, at: float, *, log: bool) -> None:
+def _radius(ax: Axes, panel: Panel, at: float) -> None:
     """Scale the radius from an inner circle outwards, and write a few numbers along an angle [rad]."""
     assert isinstance(ax, PolarAxes)
-    low, high = float(np.min(values)), float(np.max(values))
-    if log:
+    low, high = panel.bottom, panel.top
+    if panel.log:
         ax.set_rscale("log")
-        low, high = 0.8 * low, 1.2 * high
         ticks = round_numbers(low, high)
         if ticks.size > _MOST_TICKS:
             ticks = np.array([tick for tick in ticks if math.isclose(math.log10(tick) % 1.0, 0.0)])
         origin = low * (low / high) ** (_CORE / (1.0 - _CORE))
     else:
-        low, high = 0.0, 1.06 * high
         step = 10.0 ** math.floor(math.log10(high))
         step *= next(part for part in (0.2, 0.5, 1.0, 2.0) if high <= 5.0 * part * step)
         ticks = np.arange(0.0, high, step)
@@ -280,10 +193,12 @@ def _radius(ax: Axes, values: Array, at: float, *, log: bool) -> None:
 
 
 def _legend_below(ax: Axes) -> None:
-    handles, labels = ax.get_legend_handles_labels()
+    handles, names = ax.get_legend_handles_labels()
+    labels = [name.partition(": surfaces")[0] for name in names]
     order = sorted(range(len(labels)), key=lambda k: ("inner" not in labels[k], "outer" not in labels[k], k))
     ax.legend(
-        handles=[handles[k] for k in order],
+        [handles[k] for k in order],
+        [labels[k] for k in order],
         loc="upper center",
         bbox_to_anchor=(0.5, -0.1),
         ncols=2,

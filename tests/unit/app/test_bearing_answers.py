@@ -273,14 +273,24 @@ def test_no_figures_of_films_that_are_not_converged(monkeypatch):
 
 @pytest.mark.slow
 def test_figures_around_the_shaft_have_the_contacts_of_the_summary(quick, summary):
-    for name, key, factor in (("load", "load", 1.0), ("film", "minimum_thickness", 1e6)):
-        traces = {t["name"]: t for t in quick.figures[name].plot["data"] if t["mode"] == "markers"}
+    for name, key in (("load", "load"), ("film", "minimum_thickness")):
+        figure = quick.figures[name]
+        factor = {"[N]": 1.0, "[kN]": 1e-3, "[µm]": 1e6, "[nm]": 1e9}[figure.title.split()[-1]]
+        traces = {trace["name"]: trace for trace in figure.plot["data"] if trace["mode"] == "markers"}
         for ring in ("inner", "outer"):
-            rows = [row for row in summary["contacts"] if row["ring"] == ring]
-            rows = rows if name == "load" else [row for row in rows if row["solved"]]
-            trace = traces[f"{ring} ring"]
-            assert trace["r"] == [factor * row[key] for row in rows]
-            assert trace["theta"] == [math.degrees(row["position"]) for row in rows]
+            for label, loaded in ((f"{ring} contact", True), (f"{ring}, unloaded", False)):
+                rows = [row for row in summary["contacts"] if (row["ring"], row["solved"]) == (ring, loaded)]
+                if not rows or (name == "film" and not loaded):
+                    assert label not in traces
+                    continue
+                trace = traces[label]
+                assert trace["r"] == pytest.approx([factor * row[key] for row in rows], rel=1e-6)
+                assert trace["theta"] == pytest.approx([math.degrees(row["position"]) for row in rows])
+                texts = [
+                    f"element {row['element']}<br>" in text
+                    for row, text in zip(rows, trace["text"], strict=True)
+                ]
+                assert all(texts)
 
 
 @pytest.mark.slow

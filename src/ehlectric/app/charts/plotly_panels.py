@@ -291,7 +291,7 @@ def stack(along: Along, panels: Sequence[Panel], *, converged: bool = True, **mo
             plain(along.name, along.unit),
             anchor=axis_name(len(panels) - 1),
             unifiedhovertitle={"text": f"{along.name} = %{{x:,.5~r}} {along.unit}"},
-            **({"range": _range(along.window, log=along.log)} if along.window else {}),
+            **axis_range(along.window, log=along.log),
             **log_ticks(log=along.log, ends=along.window),
         ),
         "hovermode": "x unified",
@@ -304,7 +304,7 @@ def stack(along: Along, panels: Sequence[Panel], *, converged: bool = True, **mo
     for number, (panel, ends_of_panel) in enumerate(zip(panels, domains(len(panels)), strict=True)):
         name, hidden = axis_name(number), f"y{_HIDDEN + number}"
         domain = {"domain": ends_of_panel, "anchor": "x"}
-        ends = {} if panel.ends is None else {"range": _range(panel.ends, log=panel.log)}
+        ends = axis_range(panel.ends, log=panel.log)
         unit = f"{'<br>' if len(panels) > 1 else ' '}[{panel.unit}]" if panel.unit else ""
         title = f"{plain(panel.title, '')}{unit}"
         ticks = _row_names(panel.rows) if panel.rows else log_ticks(log=panel.log, ends=panel.ends)
@@ -360,15 +360,28 @@ def _row_names(names: Sequence[str]) -> Plot:
     return {"tickmode": "array", "tickvals": list(range(len(names))), "ticktext": texts, "ticks": ""}
 
 
-def _range(ends: tuple[float, float], *, log: bool) -> list[float]:
-    """Ends of an axis as Plotly takes them."""
-    return [math.log10(end) for end in ends] if log else list(ends)
+def axis_range(ends: tuple[float, float] | None, *, log: bool) -> Plot:
+    """Ends of an axis as Plotly takes them; none where they are not known."""
+    if ends is None:
+        return {}
+    return {"range": [math.log10(end) for end in ends] if log else list(ends)}
 
 
-def _trace(curve: Curve, unit: str | None, yaxis: str, *, converged: bool) -> Plot:
+def polar_traces(panel: Panel) -> list[Plot]:
+    """Traces of a panel over angles [rad]."""
+    areas = [replace(area, x=np.degrees(area.x)) for area in panel.areas]
+    curves = [replace(curve, x=np.degrees(curve.x)) for curve in panel.curves]
+    return [
+        *(_shaded(area, "", "", polar=True) for area in areas),
+        *(_trace(curve, panel.unit, "", converged=True, polar=True) for curve in curves),
+    ]
+
+
+def _trace(curve: Curve, unit: str | None, yaxis: str, *, converged: bool, polar: bool = False) -> Plot:
     colour = curve.colour if converged else MIDDLE_GREY
     kept = thinned([curve.y], _INTERVALS)
-    hover = f"%{{y:,.4~r}} {unit}" if unit is not None and curve.name and curve.x.size > 1 else ""
+    height = "r" if polar else "y"
+    hover = f"%{{{height}:,.4~r}} {unit}" if unit is not None and curve.name and curve.x.size > 1 else ""
     if curve.marker:
         marker = {"color": colour, **_MARKERS[curve.marker]}
         edge = {"color": colour, "width": 2, **marker.get("line", {})}
@@ -377,21 +390,22 @@ def _trace(curve: Curve, unit: str | None, yaxis: str, *, converged: bool) -> Pl
         shape = {"shape": "hv"} if curve.steps else {}
         look = {"line": {"color": colour, "dash": curve.dash, "width": _PIXELS * curve.width} | shape}
     if curve.texts:
-        look["text"] = [escape(curve.texts[k], quote=False) for k in kept]
+        look["text"] = [escape(curve.texts[k], quote=False).replace("\n", "<br>") for k in kept]
+    look |= {"cliponaxis": False} if polar else {"yaxis": yaxis}
     return scatter(
         curve.x[kept],
         curve.y[kept],
         # The name of a single mark has its value.
         hover="%{text}" if curve.texts else hover,
         label="" if curve.texts else curve.name,
-        yaxis=yaxis,
+        polar=polar,
         name=curve.name,
         showlegend=bool(curve.name),
         **look,
     )
 
 
-def _shaded(area: Area, yaxis: str, hidden: str) -> Plot:
+def _shaded(area: Area, yaxis: str, hidden: str, *, polar: bool = False) -> Plot:
     """Outlines of all spans of an area with gaps between them, filled."""
     look: Plot = {"fillcolor": faint(area.colour, area.opacity)}
     if area.hatched:
@@ -406,10 +420,11 @@ def _shaded(area: Area, yaxis: str, hidden: str) -> Plot:
             low, high = area.ends[0][span], area.ends[1][span]
         outline += [(_around(x, x), _around(low, high)), (_GAP_NODE, _GAP_NODE)]
     x, y = (np.concatenate([part[k] for part in outline[:-1]]) if outline else np.empty(0) for k in (0, 1))
+    look |= {} if polar else {"yaxis": hidden if area.ends is None else yaxis}
     return scatter(
         x,
         y,
-        yaxis=hidden if area.ends is None else yaxis,
+        polar=polar,
         fill="toself",
         line={"width": 0},
         name=area.name,

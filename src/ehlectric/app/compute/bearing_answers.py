@@ -12,12 +12,10 @@ import numpy as np
 
 from ehlectric.app.charts.bearing_charts import (
     SPEED_HEADS,
-    Around,
     OverSpeed,
     breakdown_figure,
     capacitance_figure,
-    film_figure,
-    load_figure,
+    ring_figure,
     speed_rows,
 )
 from ehlectric.app.compute.answer_parts import (
@@ -50,7 +48,6 @@ from ehlectric.bearing import (
     BearingSolution,
     CaseKey,
     MarginAnalysis,
-    around_in_rows,
     bearing_verdict,
     capacitance_is_bound,
     error_text,
@@ -65,6 +62,7 @@ from ehlectric.bearing import (
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.defaults import HOW, Contacts, quick_way
 from ehlectric.errors import InputError
+from ehlectric.figures.ring_panels import film_panel, largest_gap, load_panel
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.result_bounds import bearing_bounds
 from ehlectric.quantities.results import BEARING_BOOK
@@ -432,9 +430,8 @@ def _how(result: BearingResult) -> str:
 
 def _figures(result: BearingResult, summary: Mapping[str, Any]) -> dict[str, Figure]:
     """Figures around the shaft."""
-    rows, around = summary["contacts"], _around(result)
-    bearing = result.case.bearing
-    rq, radial = bearing.composite_rq, bearing.radial_load > 0.0
+    rows, radial = summary["contacts"], result.case.bearing.radial_load > 0.0
+    loads, films = load_panel(result), film_panel(result)
     table = contacts_table(summary)
     loaded = [row for row in rows if row["solved"]]
     most = max(loaded, key=lambda row: row["load"])
@@ -449,52 +446,29 @@ def _figures(result: BearingResult, summary: Mapping[str, Any]) -> dict[str, Fig
     )
     return {
         "load": Figure(
-            "Load of the contacts [N]",
+            f"Load of the contacts [{loads.unit}]",
             f"Load of all contacts around the shaft: {load}",
-            load_figure(rows, around, radial=radial),
+            ring_figure(loads, radial=radial),
             table,
             _PULLS_DOWN if radial else _PULLS_ALONG,
         ),
         "film": Figure(
-            "Minimum film thickness [µm]",
+            f"Minimum film thickness [{films.unit}]",
             f"Minimum film of the loaded contacts around the shaft: {film}",
-            film_figure(rows, around, rq, summit_height=bearing.summit_height, radial=radial),
+            ring_figure(films, radial=radial),
             table,
-            _gaps(around),
+            _gaps(result),
         ),
     }
 
 
-def _gaps(around: Mapping[str, Around]) -> str:
+def _gaps(result: BearingResult) -> str:
     """Sentence about contacts without load, which have a gap in place of a film."""
-    texts = []
-    for name, ring in around.items():
-        gaps = [film for film, on in zip(ring.film, ring.loaded, strict=True) if not on]
-        if gaps:
-            texts.append(f"{name} ring up to {amount(max(gaps), 'm')}")
+    gaps = {name: largest_gap(result, name) for name in ("inner", "outer")}
+    texts = [f"{name} ring up to {amount(gap, 'm')}" for name, gap in gaps.items() if gap is not None]
     if not texts:
         return "All elements are loaded by both rings."
     return f"Elements without load have a gap in place of a film, not drawn: {', '.join(texts)}."
-
-
-def _around(result: BearingResult) -> dict[str, Around]:
-    """Contacts of all elements at all positions of the cage, by the name of the ring."""
-    positions = result.solution.positions
-    rows = result.solution.conditions.geometry.groups
-    angle, order = around_in_rows([position.equilibrium.position for position in positions], rows)
-    by_ring = {}
-    for name in ("inner", "outer"):
-        rings = [getattr(position, name) for position in positions]
-        load, film, loaded = (
-            np.concatenate(column)[order].tolist()
-            for column in (
-                [ring.load for ring in rings],
-                [ring.values.minimum_thickness for ring in rings],
-                [ring.solved for ring in rings],
-            )
-        )
-        by_ring[name] = Around(angle[order].tolist(), load, film, loaded, rows)
-    return by_ring
 
 
 def _speed_figures(over: OverSpeed, *, bound: bool) -> dict[str, Figure]:

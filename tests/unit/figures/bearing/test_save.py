@@ -11,6 +11,7 @@ from matplotlib.text import Text
 from typer.testing import CliRunner
 
 from ehlectric import solve_bearing
+from ehlectric.app.charts.bearing_charts import ring_figure
 from ehlectric.bearing.preparation import equilibria_of, resolve_bearing
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.ring_contacts import ContactCurve, RingContacts
@@ -30,6 +31,7 @@ from ehlectric.figures.bearing_figure_files import (
     speed_figure,
 )
 from ehlectric.figures.figure_names import BEARING_FIGURE_FILES, SPEED_FIGURE_FILES
+from ehlectric.figures.ring_panels import film_panel, load_panel
 from ehlectric.quantities.palette import BLACK, BLUE, RED
 from ehlectric.quantities.verdict import Verdict
 from tests.helpers.bearings import BALLS, bearing_case, contact_solution
@@ -227,8 +229,8 @@ def test_film_shades_the_sector_without_load_and_shows_the_lambdas_that_are_near
     for angle, unloaded in zip(np.mod(angles, 2.0 * np.pi), free, strict=True):
         assert any(low <= angle <= high for low, high in ends) == unloaded
     # 0.2 um is lambda 6.7 of 0.03 um: a circle at lambda 3, 0.09 um, none at 1.
-    np.testing.assert_allclose(line(ax, r"$\lambda$ = 3").get_ydata(), 0.09, rtol=1e-12)
-    assert not [found for found in ax.get_lines() if found.get_label() == r"$\lambda$ = 1"]
+    np.testing.assert_allclose(line(ax, "λ = 3: surfaces may touch inside").get_ydata(), 0.09, rtol=1e-12)
+    assert not [found for found in ax.get_lines() if found.get_label().startswith("λ = 1")]
 
 
 def test_lines_go_once_around_through_all_positions(result):
@@ -725,3 +727,27 @@ def test_figures_over_speed_are_saved(points, tmp_path):
     folder = tmp_path / "without"
     folder.mkdir()
     assert [file.name for file in save_speed_figures(without, folder)] == [SPEED_FIGURE_FILES[0]]
+
+
+def test_page_and_file_show_the_same_loads_and_films(result):
+    """Curves with their colours and values, sectors without load, units and ends of the radius."""
+    for draw, panel in (
+        (bearing_polar.load_around, load_panel(result)),
+        (bearing_polar.film_around, film_panel(result)),
+    ):
+        ax, plot = draw(result), ring_figure(panel, radial=True)
+        lines = [trace for trace in plot["data"] if "fill" not in trace]
+        for drawn, trace in zip(ax.get_lines(), lines, strict=True):
+            shown = np.array(trace["r"], dtype=float)
+            np.testing.assert_allclose(np.asarray(drawn.get_ydata()), shown, rtol=1e-6)
+            np.testing.assert_allclose(
+                np.degrees(drawn.get_xdata()), np.array(trace["theta"], dtype=float), rtol=1e-6
+            )
+            assert (trace.get("line") or trace["marker"])["color"] == drawn.get_color()
+        sectors = [trace["name"] for trace in plot["data"] if "fill" in trace]
+        legend = [text.get_text() for text in ax.get_legend().get_texts()]
+        assert [text for text in legend if "gap to" in text] == sectors
+        ends = np.array(plot["layout"]["polar"]["radialaxis"]["range"])
+        log = plot["layout"]["polar"]["radialaxis"]["type"] == "log"
+        assert (10.0**ends if log else ends) == pytest.approx(ax.get_ylim())
+        assert ax.get_title().split()[-1] == f"[{panel.unit}]"
