@@ -195,9 +195,10 @@ class MotionJournal(Journal):
 
     def write(self) -> bool:
         """Write motion.nc from the journal; whether the run is complete."""
-        with self.one_line_errors(), refusing(self.path):
-            layout = layout_of(self.file)
-        write(self.path.with_name(MOTION), content_of(layout))
+        with self.one_line_errors():
+            with refusing(self.path):
+                layout = layout_of(self.file)
+            write(self.path.with_name(MOTION), content_of(layout))
         return bool(layout.attributes["complete"])
 
 

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import json
 import sqlite3
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from itertools import chain
@@ -40,7 +40,7 @@ from ehlectric.runtime.file_rules import (
     text_of,
 )
 from ehlectric.runtime.journal import JournalForm, seal_of_row
-from ehlectric.runtime.netcdf import Layout
+from ehlectric.runtime.netcdf import Layout, Stack
 from ehlectric.runtime.stored import Part, check_parts, warnings_in
 
 if TYPE_CHECKING:
@@ -242,7 +242,7 @@ def attributes_in(file: sqlite3.Connection) -> dict[str, Any]:
 
 
 def layout_of(file: sqlite3.Connection) -> Layout:
-    """Content of motion.nc from a journal, in an open transaction.
+    """Content of motion.nc from a journal, in an open transaction. Its maps are read when they are used.
 
     Raises UnfitError if the journal has no instant, or a row is not as it was written.
     """
@@ -251,12 +251,10 @@ def layout_of(file: sqlite3.Connection) -> Layout:
     rows = file.execute("SELECT step, seconds, numbers FROM instants ORDER BY step").fetchall()
     if not rows:
         raise UnfitError("it has no recorded instant")
-    values = arrays_in(file, STILL, 0) | _numbers_of([json.loads(row[2]) for row in rows])
+    values: dict[str, Array | Stack] = {**arrays_in(file, STILL, 0)}
+    values |= _numbers_of([json.loads(row[2]) for row in rows])
     for name in arrays_in(file, MAPS, 0):
-        maps = file.execute(
-            "SELECT type, shape, content FROM arrays WHERE part = ? AND name = ? ORDER BY step", (MAPS, name)
-        )
-        values[name] = np.stack([_array(*row) for row in maps])
+        values[name] = _maps_in(file, name, len(rows))
     parts = Parts.of(KINDS[case_of(attributes, Case.from_dict).contact.geometry])
     fields = (parts.axes, parts.steps.fields, parts.frames.fields, parts.stationary.fields)
     entries = [entry for part in fields for entry in part.values() if entry.name in values]
@@ -266,6 +264,21 @@ def layout_of(file: sqlite3.Connection) -> Layout:
         {"frames": len(rows), "complete": complete, **attributes, "seconds": sum(row[1] for row in rows)},
         storage={entry.name: {"fillvalue": None, **_storage(values[entry.name], entry)} for entry in entries},
     )
+
+
+def _maps_in(file: sqlite3.Connection, name: str, instants: int) -> Stack:
+    """Maps of a name at all recorded instants. Raises UnfitError unless each instant has one of one shape."""
+    of = "FROM arrays WHERE part = ? AND name = ?", (MAPS, name)
+    kinds = file.execute(f"SELECT type, shape, count(*) {of[0]} GROUP BY type, shape", of[1]).fetchall()
+    if len(kinds) != 1 or kinds[0][2] != instants:
+        raise UnfitError(f"{name} is not a map at each recorded instant")
+    ((dtype, shape, _),) = kinds
+
+    def entries() -> Iterator[Array]:
+        for row in file.execute(f"SELECT type, shape, content {of[0]} ORDER BY step", of[1]):
+            yield _array(*row)
+
+    return Stack((instants, *json.loads(shape)), np.dtype(dtype), entries)
 
 
 def _numbers_of(instants: Sequence[Mapping[str, Any]]) -> dict[str, Array]:
@@ -283,7 +296,7 @@ def _numbers_of(instants: Sequence[Mapping[str, Any]]) -> dict[str, Array]:
     return values
 
 
-def _storage(values: Array, entry: Stored) -> Mapping[str, Any]:
+def _storage(values: Array | Stack, entry: Stored) -> Mapping[str, Any]:
     """Options of the variable of maps over the recorded instants; none of another variable."""
     return {"chunks": (1, *values.shape[1:]), **_COMPRESSED} if _is_map(entry) else {}
 

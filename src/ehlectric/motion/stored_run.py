@@ -171,7 +171,7 @@ def read_motion(path: str | Path) -> xr.Dataset:
 
 def _from_journal(journal: Path, path: Path) -> xr.Dataset:
     """Run from its journal. If no process writes to the journal, also write motion.nc."""
-    with ExitStack() as stack, suppress(WriteError):  # the disk may be full, or not be writable
+    with ExitStack() as stack:
         try:
             stack.enter_context(locked(journal.parent, lock_of(journal)))
             alone = True
@@ -180,8 +180,9 @@ def _from_journal(journal: Path, path: Path) -> xr.Dataset:
         with reading(journal, FORM, checked=True) as file:
             layout = layout_of(file)
             dataset = checked_motion(layout.dataset(), journal)
-        if alone:
-            write(path, content_of(layout))
+            if alone:
+                with suppress(WriteError):  # the disk may be full, or not be writable
+                    write(path, content_of(layout))
     return dataset
 
 

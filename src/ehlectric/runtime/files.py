@@ -241,7 +241,7 @@ def write_together(folder: Path, contents: Mapping[str, Content], replaced: Iter
 
 
 def _fill(path: Path, content: Content) -> None:
-    with path.open("wb") as file:
+    with path.open("w+b") as file:
         if callable(content):
             content(file)
         else:

@@ -92,7 +92,7 @@ _LENGTH = len(_SEAL.format(0))
 _BLOCK = 1 << 20
 
 
-def seal_of(content: Iterable[bytes | bytearray]) -> bytes:
+def seal_of(content: Iterable[bytes]) -> bytes:
     r"""Seal of the content of a file, in parts, to be written after it.
 
     Examples

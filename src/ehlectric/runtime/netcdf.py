@@ -7,13 +7,15 @@ import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from functools import partial
 from importlib import import_module
 from io import SEEK_CUR, SEEK_END, SEEK_SET, RawIOBase
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 
 import numpy as np
 
+from ehlectric.arrays import Array
 from ehlectric.errors import DamagedError, InputError, UnreadableError
 from ehlectric.runtime.hdf5_guard import file_class, refuse_damaged, seal_of
 from ehlectric.runtime.sizes import check_netcdf_values
@@ -23,6 +25,11 @@ if TYPE_CHECKING:
     import xarray as xr
     from _typeshed import ReadableBuffer, WriteableBuffer
 
+
+T = TypeVar("T")
+
+# Bytes of a file that are read at a time for its seal.
+_BLOCK = 1 << 20
 
 # Longest time to wait for another program that has the file open, and time between two attempts [s].
 _PATIENCE, _AGAIN = 30.0, 0.1
@@ -60,6 +67,22 @@ def load_library() -> None:
 
 
 @dataclass(frozen=True)
+class Stack:
+    """Values of a variable that are read entry by entry along their first dimension, to be written so."""
+
+    shape: tuple[int, ...]
+    dtype: np.dtype[Any]
+    entries: Callable[[], Iterator[Array]]  # function that begins to read the entries
+
+    def whole(self) -> Array:
+        """All values in memory."""
+        values = np.empty(self.shape, self.dtype)
+        for place, entry in enumerate(self.entries()):
+            values[place] = entry
+        return values
+
+
+@dataclass(frozen=True)
 class Layout:
     """Variables and attributes of a NetCDF file.
 
@@ -78,8 +101,11 @@ class Layout:
         """Dataset of xarray with copies of the values."""
         import xarray as xr
 
-        whole = xr.Dataset(dict(self.variables), attrs=dict(self.attributes))
-        return whole.set_coords(self.coordinates).copy(deep=True)
+        variables = {
+            name: (dims, values.whole() if isinstance(values, Stack) else np.array(values), *others)
+            for name, (dims, values, *others) in self.variables.items()
+        }
+        return xr.Dataset(variables, attrs=dict(self.attributes)).set_coords(self.coordinates)
 
     def reread(self) -> Reread:
         """Content as a reader of the file finds it, without xarray."""
@@ -98,7 +124,11 @@ class Layout:
     def write(self, file: Any) -> None:
         """Write to an ``h5netcdf.File`` what xarray writes of ``dataset``."""
         arrays = {
-            name: (_names(variable[0]), np.asarray(variable[1])) for name, variable in self.variables.items()
+            name: (
+                _names(variable[0]),
+                variable[1] if isinstance(variable[1], Stack) else np.asarray(variable[1]),
+            )
+            for name, variable in self.variables.items()
         }
         for dims, values in arrays.values():
             for dim, size in zip(dims, values.shape, strict=True):
@@ -131,7 +161,10 @@ class Layout:
         variable = file.create_variable(name, dims, dtype, **options)
         for key, value in attributes.items():
             variable.attrs[key] = value
-        if values.size:
+        if isinstance(values, Stack):
+            for place, entry in enumerate(values.entries()):
+                variable[place] = entry
+        elif values.size:
             variable[...] = values
 
 
@@ -196,7 +229,9 @@ def _names(dims: Any) -> tuple[str, ...]:
 
 
 def content_of(content: xr.Dataset | Layout) -> Callable[[BinaryIO], None]:
-    """Function that writes a dataset as a NetCDF file with a seal to an open file, or raises an OSError."""
+    """Function that writes a dataset as a NetCDF file with a seal to a file that is open for reading too, or
+    raises an OSError.
+    """
     load_library()
 
     def fill(file: Any) -> None:
@@ -208,45 +243,48 @@ def content_of(content: xr.Dataset | Layout) -> Callable[[BinaryIO], None]:
         content.dump_to_store(xr.backends.H5NetCDFStore(file))
 
     def write(target: BinaryIO) -> None:
-        draft = Draft()
+        draft = Draft(target)
         with file_class()(draft, "w") as file:
             fill(file)
         if draft.failure is not None:
             raise draft.failure
-        target.write(draft.content)
-        target.write(seal_of([draft.content]))
+        target.seek(0)
+        seal = seal_of(iter(partial(target.read, _BLOCK), b""))
+        target.seek(0, SEEK_END)
+        target.write(seal)
 
     return write
 
 
 class Draft(RawIOBase):
-    """File in memory, which is written to the disk when HDF5 has closed it.
+    """Open file for HDF5, which crashes where a write fails, as on a full disk or without memory.
 
-    The library HDF5 crashes where a write fails, as on a full disk or without memory.
+    The first failure is kept, to be raised after HDF5 has closed the file; what is written after it is lost.
     """
 
-    def __init__(self) -> None:
-        self.content = bytearray()
-        self.failure: MemoryError | None = None  # of a write, to be raised after HDF5 has closed the file
-        self._position = 0
+    def __init__(self, target: BinaryIO) -> None:
+        self._target, self._position, self._size = target, 0, 0
+        self.failure: OSError | MemoryError | None = None
 
     def seek(self, offset: int, whence: int = SEEK_SET) -> int:
         """Move to a position, and return it."""
-        start = {SEEK_SET: 0, SEEK_CUR: self._position, SEEK_END: len(self.content)}[whence]
+        start = {SEEK_SET: 0, SEEK_CUR: self._position, SEEK_END: self._size}[whence]
         self._position = start + offset
         return self._position
 
     def truncate(self, size: int | None = None) -> int:
         """Change the size, also to a larger one, and return it."""
         size = self._position if size is None else size
-        self._grow(size)
-        del self.content[size:]
+        if size > self._size:
+            self._kept(lambda: self._put(size - 1, b"\0"))
+        self._kept(lambda: self._target.truncate(size))
+        self._size = size
         return size
 
     def readinto(self, buffer: WriteableBuffer) -> int:
         """Fill a buffer from the position on, and return the number of bytes."""
         view = memoryview(buffer).cast("B")
-        part = self.content[self._position : self._position + len(view)]
+        part = self._kept(lambda: self._got(self._position, len(view))) or b""
         view[: len(part)] = part
         self._position += len(part)
         return len(part)
@@ -254,20 +292,29 @@ class Draft(RawIOBase):
     def write(self, content: ReadableBuffer) -> int:
         """Write bytes at the position, and return their number."""
         view = memoryview(content).cast("B")
-        end = self._position + len(view)
         if len(view):
-            self._grow(end)
-        if self.failure is None:
-            self.content[self._position : end] = view
-        self._position = end
+            self._kept(lambda: self._put(self._position, view))
+            self._position += len(view)
+            self._size = max(self._size, self._position)
         return len(view)
 
-    def _grow(self, size: int) -> None:
-        """Add zeros up to a size; without memory for them, the content stays as it is."""
-        try:
-            self.content.extend(bytes(max(0, size - len(self.content))))
-        except MemoryError as error:
-            self.failure = error
+    def _put(self, place: int, content: ReadableBuffer) -> None:
+        self._target.seek(place)
+        self._target.write(content)
+        self._target.flush()
+
+    def _got(self, place: int, size: int) -> bytes:
+        self._target.seek(place)
+        return self._target.read(size)
+
+    def _kept(self, action: Callable[[], T]) -> T | None:
+        """Result of an action on the file; None, and the failure is kept, if this or an earlier one fails."""
+        if self.failure is None:
+            try:
+                return action()
+            except (OSError, MemoryError) as error:
+                self.failure = error
+        return None
 
 
 @contextmanager

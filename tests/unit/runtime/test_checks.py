@@ -12,6 +12,7 @@ from ehlectric import InputError, load
 from ehlectric.errors import DamagedError
 from ehlectric.runtime import hdf5_guard, netcdf
 from ehlectric.runtime.file_rules import Rule, UnfitError, check_variables, json_of, number_of, refusing
+from ehlectric.runtime.files import write
 from ehlectric.runtime.hdf5_guard import seal_of, sealed
 from ehlectric.runtime.netcdf import Draft, content_of, read_dataset
 from tests.helpers.damage import seal
@@ -131,9 +132,9 @@ def test_nothing_of_the_library_is_printed(damaged, capfd, in_thread):
 def test_a_draft_is_a_file_that_grows(seed, tmp_path):
     """Random operations on a draft and on a file of the disk."""
     draw = np.random.default_rng(seed)
-    path = tmp_path / f"file {seed}"
-    with path.open("w+b") as file:
-        draft = Draft()
+    paths = [tmp_path / f"{name} {seed}" for name in ("file", "draft")]
+    with paths[0].open("w+b") as file, paths[1].open("w+b") as target:
+        draft = Draft(target)
         for _ in range(200):
             some = draw.bytes(int(draw.integers(0, 50)))
             size = int(draw.integers(0, 200))
@@ -143,27 +144,28 @@ def test_a_draft_is_a_file_that_grows(seed, tmp_path):
             assert getattr(draft, name)(value) == getattr(file, name)(value), name
             assert draft.tell() == file.tell()
         file.flush()
-        assert draft.content == path.read_bytes()
+        assert draft.failure is None
+        assert paths[1].read_bytes() == paths[0].read_bytes()
 
 
-def test_memory_that_runs_out_is_told_after_hdf5_has_closed_the_file(tmp_path, monkeypatch):
-    """An error within HDF5 would end the process; no memory has room for a file of 2**62 bytes."""
+def test_a_disk_that_is_full_is_told_after_hdf5_has_closed_the_file(tmp_path, monkeypatch):
+    """An error within HDF5 would end the process; no disk has room for a file of 2**63 - 1 bytes."""
     writes = []
 
     class Large(Draft):
         def write(self, content):
             writes.append(content)
             place = self.tell()
-            self.seek(2**62 if len(writes) == 3 else place)
+            self.seek(2**63 - 1 if len(writes) == 3 else place)
             done = super().write(content)
             self.seek(place + done)
             return done
 
     monkeypatch.setattr(netcdf, "Draft", Large)
-    with pytest.raises(MemoryError), (tmp_path / "film.nc").open("wb") as file:
-        content_of(FILM)(file)
+    with pytest.raises(InputError, match="cannot be written to"):
+        write(tmp_path / "film.nc", content_of(FILM))
     assert len(writes) > 3
-    assert not (tmp_path / "film.nc").stat().st_size
+    assert not list(tmp_path.iterdir())
 
 
 FILM = xr.Dataset(

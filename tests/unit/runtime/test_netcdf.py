@@ -1,11 +1,13 @@
 """NetCDF files that are written without xarray, against those that xarray writes of the same variables."""
 
 import io
+import tracemalloc
 
 import numpy as np
 import pytest
 
-from ehlectric.runtime.netcdf import Layout, content_of, opened, read_dataset
+from ehlectric.runtime.files import write
+from ehlectric.runtime.netcdf import Layout, Stack, content_of, opened, read_dataset
 
 # Numbers with a missing one, whole numbers, truths, texts, a scalar, and a coordinate that is no dimension.
 LAYOUT = Layout(
@@ -61,3 +63,21 @@ def test_a_layout_is_stored_as_xarray_stores_it(files):
     own, other = map(stored, files)
     assert repr(own) == repr({name: other[name] for name in own})
     assert own.keys() == other.keys()
+
+
+def test_a_stack_is_written_entry_by_entry(tmp_path):
+    """Forty entries of a megabyte take the memory of a few of them; all of them arrive in their order."""
+    entry = np.arange(250_000, dtype=np.float32)
+    stack = Stack((40, entry.size), entry.dtype, lambda: (entry + k for k in range(40)))
+    layout = Layout({"p": (("frame", "x"), stack)}, {}, storage={"p": {"chunks": (1, entry.size)}})
+    write(tmp_path / "a.nc", content_of(LAYOUT))  # loads the libraries
+    tracemalloc.start()
+    try:
+        write(tmp_path / "p.nc", content_of(layout))
+        _, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert peak < 8 * entry.nbytes
+    expected = entry + np.arange(40, dtype=np.float32)[:, np.newaxis]
+    np.testing.assert_array_equal(read_dataset(tmp_path / "p.nc")["p"], expected)
+    np.testing.assert_array_equal(layout.dataset()["p"], expected)
