@@ -46,7 +46,7 @@ def times() -> None:
 
 
 def speeds() -> None:
-    """Print the table of docs/reference/bearing.md: differences of quick contacts from solved ones."""
+    """Print the table of docs/howto/film_sources.md: differences of quick contacts from solved ones."""
     print("| speed | contacts | capacitance | in air | first breakdown | stated | left the atlas | CPU s |")
     print("| ---: | --- | ---: | ---: | ---: | ---: | --- | ---: |")
     for speed in SPEEDS:
