@@ -125,7 +125,7 @@ class MeterReading:
     share_of_hertz: float
     share_of_domain: float
     share_of_outside: float
-    roughness_factor: float | None  # capacitance of the domain over that with smooth surfaces, dimensionless
+    roughness_factor: float | None  # capacitance of the domain / with smooth surfaces, dimensionless
     film_ratio: float | None  # minimum film thickness over Rq, dimensionless
     capacitance_uncoated: float | None = None  # capacitance between the bodies without the coating [F]
     # Single capacitor in series with ``capacitance_uncoated`` that has the effect of the coating [F].
@@ -136,7 +136,7 @@ class MeterReading:
     film_voltage_share: float | None = None
     # Voltage between the bodies at which the film breaks down under its share [V].
     film_breakdown_voltage: float | None
-    coating_breakdown_voltage: float | None = None  # voltage at which the coating alone breaks down [V]
+    coating_breakdown_voltage: float | None = None  # voltage at which only the coating breaks down [V]
     breakdown_voltage: float | None  # voltage between the bodies at which both have broken down [V]
     length: float | None  # length of a line contact, or given width of a point contact [m]
     bodies: str  # words for the bodies that face each other outside the domain
@@ -266,7 +266,7 @@ class Metered:
 def meter_reading(contact: Metered, film_breakdown: float | None) -> MeterReading:
     """Capacitance that a meter reads between the bodies of a contact, with its parts and breakdown voltages.
 
-    ``film_breakdown`` is the breakdown voltage of the film alone [V], None if it is not known.
+    ``film_breakdown`` is the breakdown voltage of only the film [V], None if it is not known.
     """
     meter, layers = contact.meter, contact.layers
     parts: dict[str, Any] = contact.parts(layers)

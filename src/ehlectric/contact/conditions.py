@@ -81,7 +81,8 @@ def least_pressure(oil: Oil) -> float:
 
 
 # Half of the domain's width across entrainment, in semi-axes across: 1.6 for a long ellipse, whose sides
-# hardly matter; 3.0 for a circle; at most 4.5, as long as the inlet, for an ellipse that is short across.
+# have almost no effect; 3.0 for a circle; at most 4.5, as long as the inlet, for an ellipse that is short
+# across.
 _LEAST_SIDE, _CIRCLE_SIDE, _MOST_SIDE = 1.6, 3.0, 4.5
 
 
@@ -111,7 +112,8 @@ class SharedConditions(ABC, Generic[V]):
     boundary_film: float = 0.0
     # Largest pressure where the surfaces touch [Pa]; None for elastic asperities.
     hardness: float | None = None
-    # Film thickness divided by that of an isothermal, fully flooded film, dimensionless; see ``contact``
+    # Film thickness divided by the thickness of an isothermal, fully flooded film, dimensionless; see
+    # ``contact``
     film_factor: V = 1.0
 
     @property
@@ -334,7 +336,7 @@ def point_conditions(
 def default_side(ratio: Numbers) -> Numbers:
     """Default half-width of the domain of a point contact: 1.6 + 1.4/k, at most 4.5 semi-axes across.
 
-    The ``ratio`` k = a/b is that of the semi-axes of the dry contact, a across and b along entrainment,
+    The ``ratio`` k = a/b is the ratio of the semi-axes of the dry contact, a across and b along entrainment,
     dimensionless, shape (...). The result is half of the domain's width, in semi-axes across, dimensionless,
     shape (...).
 

@@ -104,7 +104,7 @@ def heat_summary(heated: HeatedFilm | None) -> dict[str, Any]:
 # too large.
 _NEWTONIAN = 0.5e9
 
-# Shear stress over pressure above that of all oils: measured limits are 0.03 to 0.12.
+# Shear stress divided by pressure, above the values of all oils: measured limits are 0.03 to 0.12.
 _CARRIED = 0.15
 
 # Slide-to-roll ratio from which there is a traction to warn of.
@@ -279,7 +279,7 @@ def _at_spike(film: Film | PointFilm, heated: HeatedFilm) -> bool:
 def _slow(
     number: int, body: Body, speed: float, conditions: Conditions | PointConditions
 ) -> Iterator[ResultWarning]:
-    """Warning about a surface that moves so slowly that its temperature is not that of the model."""
+    """Warning about a surface that moves so slowly that the model does not give its temperature."""
     peclet = speed * conditions.semi_axes[0] / (2.0 * body.diffusivity)
     if peclet < _SLOW[conditions.geometry]:
         spread = "sideways" if conditions.geometry == "point" else "without a steady state"
@@ -309,7 +309,7 @@ def oil_over_temperature(lubricant: Lubricant) -> Callable[[float], Oil]:
     """Oil as a function of temperature, also beyond the range of its measurements.
 
     The film is nearly always hotter than the oil in the inlet, so that ``temperature_range`` does not bound
-    its temperatures; a warning tells when they leave it. Electrical properties have no part in the film.
+    its temperatures; a warning reports when they leave it. Electrical properties have no part in the film.
     """
     mechanical = lubricant.model_copy(
         update={
@@ -338,9 +338,9 @@ def hot_oil(
 ) -> HotOil:
     """Oil over pressure and temperature for the energy equation of a film.
 
-    The oil reaches from 20 K below the lowest of the ``temperatures``, those of the inlet and of both bodies
-    [K], to 250 K above the highest, or as far as its laws have values up to the Hertz pressure [Pa]. Raises
-    an InputError, which names one of the ``keys``, if they have none near these temperatures.
+    The oil reaches from 20 K below the lowest of the ``temperatures``, the temperatures of the inlet and of
+    both bodies [K], to 250 K above the highest, or as far as its laws have values up to the Hertz pressure
+    [Pa]. Raises an InputError, which names one of the ``keys``, if they have none near these temperatures.
     """
     oil_at = oil_over_temperature(lubricant)
     if laws is not None:

@@ -63,7 +63,8 @@ class DomainRule:
         return np.asarray(fits & (self.side(across) <= self.most[2]) if self.sideways else fits)
 
 
-# Largest inlet and side of a grid. Films of contacts that hardly press often do not converge on longer ones.
+# Largest inlet and side of a grid. Films of contacts under very light loads often do not converge on longer
+# grids.
 FARTHEST_LINE, FARTHEST_POINT, WIDEST_POINT = 300.0, 48.0, 24.0
 
 # Domains of contacts whose first domain was too small, by geometry.

@@ -1,4 +1,6 @@
-"""Film factors of a contact from its measured film thickness: solved or by formula over the speed."""
+"""Film factors of a contact from its measured film thickness: solved or from formulas, as a function of the
+speed.
+"""
 
 from __future__ import annotations
 
@@ -66,7 +68,7 @@ def contact_factors(
     """Film factors of a contact: measured over computed central film thickness, row by row, and their mean.
 
     ``contacts``, "solved" for films that are solved at three to seven speeds and interpolated between them,
-    "atlas" for films from the atlas, and by formula where it has none, or "formula" for the formulas of
+    "atlas" for films from the atlas, and from formulas where it has none, or "formula" for the formulas of
     Nijenbanning, Venner and Moes (points) and of Moes (lines); ``uncertainty``, relative standard uncertainty
     of the film, where the measurement states none. Returns rows, mean with its interval, and warnings. Raises
     InputError where the measurement has no film, or too many different speeds; where the case moves;
@@ -98,7 +100,7 @@ def contact_factors(
 
 
 def _changes(case: Case, measured: Measurement) -> tuple[Mapping[str, Any], ...]:
-    """Changes of the case that make each row; the slide-to-roll ratio stays that of the case."""
+    """Changes of the case that make each row; the slide-to-roll ratio of the case stays."""
     conditions = KINDS[case.contact.geometry].resolve(case)
     speeds = measured.values.get("entrainment_speed", np.full(measured.size, conditions.entrainment_speed))
     warm = measured.values.get("temperature", np.zeros(measured.size))
@@ -118,8 +120,8 @@ def _changes(case: Case, measured: Measurement) -> tuple[Mapping[str, Any], ...]
 
 
 def _formula_films(case: Case, rows: Sequence[Mapping[str, Any]], measured: Measurement) -> Array:
-    """Central film by formula of each row [m], shape (n,). Raises InputError where a row is no case, for
-    example at a temperature for which the oil has no data; with its line.
+    """Central film of each row from the film-thickness formulas [m], shape (n,). Raises InputError where a
+    row is no case, for example at a temperature for which the oil has no data; with its line.
     """
     kind = KINDS[case.contact.geometry]
     formula = kind.formulas[FORMULA[case.contact.geometry]]
@@ -146,7 +148,7 @@ def _once_each(rows: Sequence[Mapping[str, Any]], compute: Callable[[int], T]) -
 
 
 def _atlas_films(case: Case, rows: Sequence[Mapping[str, Any]], formula: Array) -> _Films:
-    """Central films of the rows from the atlas, or by formula where it has none, and their largest error."""
+    """Central films of the rows from the atlas, or from formulas where it has none, and the largest error."""
     kind = KINDS[case.contact.geometry]
 
     def film(number: int) -> tuple[float, float]:
@@ -167,8 +169,8 @@ def _atlas_films(case: Case, rows: Sequence[Mapping[str, Any]], formula: Array) 
 def _solved(case: Case, rows: Sequence[Mapping[str, Any]], formula: Array, progress: Progress) -> _Films:
     """Films solved at rows that are spread over the film thickness, and interpolated to the others.
 
-    The ratio of solved films to those by formula is interpolated over the film by formula, in logarithms.
-    Beyond the solved rows the ratio is that of the nearest one.
+    The ratio of solved films to formula films is interpolated over the formula film, in logarithms.
+    Beyond the solved rows the ratio of the nearest solved row holds.
     """
     logs, ratios = [], []
     warnings: dict[str, ResultWarning] = {}

@@ -300,7 +300,7 @@ def fluid_of(oil: Oil, max_pressure: float, velocity_parameter: float) -> Fluid:
 def check_tolerance(solver: Solver) -> None:
     """Raise an InputError if the tolerance of the film solver is too large for a film to be right.
 
-    The bound is that of solving, and not of a case, so that stored results with a larger one can be read.
+    The bound applies to solving, and not to a case, so that stored results with a larger one can be read.
     """
     if solver.tolerance > LARGEST_TOLERANCE:
         raise InputError(

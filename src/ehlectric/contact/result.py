@@ -69,7 +69,7 @@ class ContactResult(Solution[ConditionsT, FilmT, FieldT]):
         field = CONTACT_BOOK[self.conditions.geometry]["field.max_strength"]
         strongest: str | None = f"maximum field {field.with_sign(amount(self.field.max_strength, 'V/m'))}"
         if touching is not None:
-            # Minimum film and maximum field are those of the boundary film.
+            # Minimum film and maximum field belong to the boundary film.
             least = f"{touching.spots.number} spots touch, {touching.electrical.behaviour}"
             strongest = f"mean film {amount(film.mean_thickness, 'm')}"
         return (

@@ -259,7 +259,7 @@ def _field_warnings(
 ) -> Iterator[ResultWarning]:
     """Warnings about the largest field of a film, its breakdown, and its error, if it was ``estimated``.
 
-    There are none where surfaces touch: the largest field is that of the boundary film.
+    There are none where surfaces touch: the largest field occurs in the boundary film.
     """
     discharge, film = contact.case.discharge, films.film
     if film.contact_pressure is not None:
@@ -331,7 +331,7 @@ def _coarser(contact: PreparedContact, films: Refined, solvers: Solvers) -> Coar
 
 
 def _on(axes: tuple[Array, ...], values: Array, nodes: tuple[Array, ...]) -> Array:
-    """Values on other nodes within the same domain; as they are where the nodes are the same."""
+    """Values on other nodes within the same domain; unchanged if the nodes are equal."""
     if all(np.array_equal(axis, other) for axis, other in zip(axes, nodes, strict=True)):
         return values
     at = np.stack(np.meshgrid(*nodes, indexing="ij"), axis=-1)

@@ -73,7 +73,7 @@ def _of_flooded(film: Film | PointFilm, supply: Starvation, inlet: Inlet) -> Ite
     """Warning about a flooded film that is unknown or wrong.
 
     Where the ratio of films is given, a domain that is too small for the flooded film is too small for the
-    film, whose warning says so.
+    film, which has a warning about it.
     """
     upstream, sides = supply.flooded_inlet_deficit, supply.flooded_side_deficit
     if upstream is None or supply.flooded_central_thickness is None:

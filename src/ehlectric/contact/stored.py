@@ -36,7 +36,7 @@ from ehlectric.runtime.stored import (
 if TYPE_CHECKING:
     import xarray as xr
 
-# Format of the file, which tells its kind and its version.
+# Format of the file: its kind and its version.
 SCHEMA = "ehlectric.contact.result/1"
 
 # Relative difference of values that are stored twice.
@@ -193,7 +193,7 @@ def parts_of(dataset: xr.Dataset, geometry: str, scales: Scales) -> dict[str, An
 
 
 def _check_field(field: Field | PointField, heights: Array) -> None:
-    """Check that the field is that of its voltage and its gap, and its strength that of its components."""
+    """Check that the field follows from its voltage and gap, and its strength from its components."""
     parts = [field.field_x, field.field_y, *([field.field_z] if isinstance(field, PointField) else [])]
     across = field.thin_gap_strength * (heights[..., -1] - heights[..., 0])
     for name, values, expected in (

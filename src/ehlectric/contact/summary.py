@@ -157,7 +157,9 @@ def inputs_of(case: Case | Setup, conditions: Conditions | PointConditions) -> d
 
 
 def oil_of(case: Case | Setup) -> dict[str, Any]:
-    """Oil at the temperature of the contact; a conductivity of ``[discharge]`` replaces that of the oil."""
+    """Oil at the temperature of the contact; a conductivity of ``[discharge]`` replaces the conductivity of
+    the oil.
+    """
     oil = case.oil
     return oil.summary() | {"conductivity": conductivity_of(case.discharge, oil)}
 

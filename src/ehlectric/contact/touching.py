@@ -1,7 +1,7 @@
 """Spots in which the surfaces of a solved contact touch: load, area, oil balance, resistance and breakdown.
 
 A film that forms again behind a cavity carries its content of oil through the cavity
-(``ehlectric.film.starved_solver``). Where no such film converged, a cavitated gap counts as full in the wedge
+(``ehlectric.film.starved_solver``). If no such film converged, a cavitated gap counts as full in the wedge
 term (``ehlectric.film.cavitation``), so that oil appears where the gap fills again. The residual of the
 Reynolds equation at these nodes is that oil.
 """
@@ -179,7 +179,7 @@ class Touching:
 
     boundary_film: float  # gap at which the surfaces touch [m]
     load_share: float  # part of the load that the contact pressure of the asperities carries, from 0 to 1
-    contact_area: float  # real area of contact: that of the nodes that touch
+    contact_area: float  # real area of contact: area of the nodes that touch
     # Part of the area of the dry smooth contact in which the surfaces touch, from 0 to 1
     contact_area_share: float
     # Relative error of ``contact_area``, the larger of two: the edges of spots lie between nodes, and the
@@ -202,8 +202,8 @@ class Touching:
     film_1: float | None
     film_5: float | None
     film_50: float | None
-    # Root mean square of the film thickness less that of smooth surfaces, about its mean over the Hertz zone
-    # [m]; None if the contact was not solved with smooth surfaces.
+    # Root mean square of the film thickness less the film thickness of smooth surfaces, about its mean over
+    # the Hertz zone [m]; None if the contact was not solved with smooth surfaces.
     rq_deformed: float | None
     # lambda_undeformed and lambda_deformed: mean film thickness in the Hertz zone, spots included, over the
     # combined Rq of the surfaces as they are, and over ``rq_deformed``; None without such an Rq.
@@ -300,9 +300,9 @@ _UNIFORM = 1e-6
 
 @dataclass(frozen=True)
 class OilBalance:
-    """Oil that a stationary film loses and makes, over the mean flow through its contact.
+    """Oil that a stationary film loses and makes, divided by the mean flow through its contact.
 
-    The mean flow is that of the mean mass of the oil in the Hertz zone at the entrainment speed, over the
+    The mean flow is the mean mass of the oil in the Hertz zone times the entrainment speed, over the
     width of the zone.
     """
 
@@ -318,7 +318,7 @@ def oil_balance(
 ) -> OilBalance | None:
     """Balance of the oil of a converged stationary film, from its pressure and thickness.
 
-    None where the nodes are not equidistant, as those of a film with a patch.
+    None where the nodes are not equidistant, as the nodes of a film with a patch.
     """
     if film.mass_residual is not None:
         return OilBalance(film.mass_residual, oil_lost=0.0, oil_made=film.mass_residual)
@@ -343,7 +343,8 @@ def oil_balance(
     refilled = np.logical_or.accumulate((full & zone)[::-1], axis=0)[::-1]
     made = refilled & (zone | contact) & (r > 0.0)
     if film.heated is not None:
-        # The viscosity of a hot or sheared film is not that of the oil at rest; a cavity has no such flow.
+        # The viscosity of a hot or sheared film differs from the viscosity of the oil at rest; a cavity has
+        # no such flow.
         made &= ~full
     lost = contact & (r < 0.0)
     carried = float(np.mean((film.density.reshape(mesh.shape) * thickness)[zone])) * width
@@ -440,8 +441,8 @@ def behaviour_of(
     have.
 
     ``always`` is the share of the time with at least one spot. ``impedance_ratio`` is the impedance of the
-    film over that of the spots at 10 kHz. If it is None, the resistance of the spots is unknown, and they
-    count as metal, which shorts any film at this frequency.
+    film divided by the impedance of the spots at 10 kHz. If it is None, the resistance of the spots is
+    unknown, and they count as metal, which shorts any film at this frequency.
 
     Examples
     --------
@@ -458,7 +459,7 @@ def behaviour_of(
 
 
 def strip_resistance(*, width: float, length: float, resistivity: float) -> float:
-    """Constriction resistance of a strip between two half-spaces, as that of an ellipse with its axes.
+    """Constriction resistance of a strip between two half-spaces, as of an ellipse with its axes.
 
     R = rho K(1 - b^2/a^2)/(pi a) with the semi-axes a and b and the complete elliptic integral K of a
     parameter; a circle gives rho/(2 a).
@@ -480,7 +481,7 @@ def constriction(spots: Spots, electric: Electric, length: float | None) -> floa
     """Constriction resistance of the spots [ohm]; None if there are none, or an input is missing.
 
     Spots of a point contact are circles of their areas, with their effect on each other. In a line contact
-    the widest strip alone counts, which is an upper bound of all of them.
+    only the widest strip counts, which is an upper bound of all of them.
     """
     rho = electric.resistivity
     if rho is None or not spots.number:
@@ -675,7 +676,7 @@ def spots_verdict(asperities: Asperities, voltage: float, warnings: Iterable[Res
     )
 
 
-# Oil that a film may make or lose without a warning, over the mean flow through its contact.
+# Oil that a film may make or lose without a warning, divided by the mean flow through its contact.
 MASS_ERROR = 1e-3
 
 # Oil above which a film counts as not converged, as a hot film does above the same part of its heat.
@@ -725,9 +726,9 @@ def spot_warnings(
 ) -> Iterator[ResultWarning]:
     """Warnings about a film that is rough or touches, and whose residual is small.
 
-    They tell that the surfaces touch, in the domain or at its edge, that oil appears or is lost, and that the
-    load share depends on the grid. ``coarser`` has the asperities on a grid with half the nodes, or is None
-    if it was not solved.
+    They report that the surfaces touch, in the domain or at its edge, that oil appears or is lost, and that
+    the load share depends on the grid. ``coarser`` has the asperities on a grid with half the nodes, or is
+    None if it was not solved.
     """
     settled = film.residual is not None and film.residual <= _SETTLED
     if settled and (case.roughness or np.any(film.contact)):
@@ -809,7 +810,9 @@ def unknown_share(what: str, grid: str) -> ResultWarning:
 def changed_share(
     what: str, share: float, coarser: float, grid: str, *, change: float | None = None
 ) -> Iterator[ResultWarning]:
-    """Warning that a load share differs from that of a coarser grid, by ``change`` if that is given."""
+    """Warning that a load share differs from the load share on a coarser grid, by ``change`` if that is
+    given.
+    """
     change = share - coarser if change is None else change
     if abs(change) > max(_UNRESOLVED_SHARE * share, _UNRESOLVED_LOAD):
         before = f"was {about_share(coarser, share)} on {grid}"

@@ -108,7 +108,7 @@ def temperature_warnings(setup: Case | Setup) -> Iterator[ResultWarning]:
 
 
 def rheology_warnings(setup: Case | Setup) -> Iterator[ResultWarning]:
-    """Note about constants of another law between shear stress and shear rate than that of the film.
+    """Note about constants of another law between shear stress and shear rate than the law of the film.
 
     Constants of the library's oil are no choice of the case, and a Newtonian film may stand for comparison.
     """
@@ -276,7 +276,7 @@ def _local_pressure(film: Film | PointFilm, *, rough: bool) -> Iterator[ResultWa
 
     Steel begins to yield below a smooth contact at a maximum pressure of 0.6 times its hardness
     (K. L. Johnson, Contact Mechanics, 1985, sect. 6.2), which is 4.2 GPa for the 7 GPa of hardened bearing
-    steel. The limits of ISO 76 for the Hertz pressure are about the same. The peak pressure of a rough film
+    steel. The limits of ISO 76 for the Hertz pressure are similar. The peak pressure of a rough film
     may lie between the nodes, so a share of its estimated error is added. A Hertz pressure above the limit
     has its own warning.
     """
@@ -341,7 +341,7 @@ def point_result_warnings(setup: Case | Setup, film: PointFilm, field: PointFiel
 
 
 def _few_columns(grid: Grid, film: Film | PointFilm, field: Field | PointField) -> Iterator[ResultWarning]:
-    """Warning about a given number of field columns below that of the film nodes in the field range."""
+    """Warning about a given number of field columns below the number of film nodes in the field range."""
     for key, nodes, of_field in zip(("field_nodes", "field_nodes_y"), film.axes, field.axes, strict=False):
         inside = int(np.count_nonzero((nodes >= of_field[0]) & (nodes <= of_field[-1])))
         columns = getattr(grid, key)

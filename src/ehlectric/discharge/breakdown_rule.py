@@ -18,8 +18,8 @@ from ehlectric.quantities.statement import Level, Statement
 from ehlectric.quantities.verdict_texts import statement_text
 
 # Probabilities of breakdown below which it is not expected, below which it is possible, and above which it is
-# expected; between the last two it is likely. The first one also is that at which a voltage of a Weibull law
-# counts as safe.
+# expected; between the last two it is likely. The first one is also the probability at which a voltage of a
+# Weibull law counts as safe.
 UNLIKELY, EVEN, CERTAIN = 0.05, 0.5, 0.95
 
 # Probabilities of the ends of the interval of the margin that is stated, and of its middle.
@@ -114,7 +114,7 @@ def sampling_error(probability: float, number: int) -> float:
 
 @dataclass(frozen=True)
 class Chance:
-    """Probability of breakdown within what is uncertain, and what makes it so."""
+    """Probability of breakdown within the uncertain inputs, and the inputs that spread it most."""
 
     probability: float  # of the points that have a result
     error: float  # sampling error of the probability
@@ -124,7 +124,7 @@ class Chance:
     median: float
     high: float
     # Name of the input that spreads the margin most, and its share of the variance of the logarithm of the
-    # margin; empty for an estimate at once, which leaves out what changes the films.
+    # margin; empty for an immediate estimate, which neglects inputs that change the films.
     first: str = ""
     share: float = 0.0
     samples: int = 0  # number of points

@@ -36,7 +36,7 @@ MOST_MARGIN = 1e6
 # damaged [A/m^2].
 CURRENT_DENSITY_LIMITS = (1e5, 3e5, 8e5)
 
-# Sources and assumptions of those values of a summary that do not follow from case and solution alone.
+# Sources and assumptions of those values of a summary that do not follow only from case and solution.
 SOURCES: Mapping[str, str] = data_file("ehlectric.quantities", "discharge_sources.toml")
 
 # Utilisation is the ratio of field strength to dielectric strength. The zone that breaks down first is where
@@ -89,7 +89,8 @@ class WeakestLink:
         Weibull law.
         """
         largest = float(np.max(strength))
-        # The field strength is divided by its maximum, as a high power of the strength alone would overflow.
+        # The field strength is divided by its maximum, as a high power of the undivided strength would
+        # overflow.
         area = float(np.vdot((strength / largest) ** shape, areas))
         return cls(shape, voltage * scale / largest * (reference_area / area) ** (1.0 / shape))
 
@@ -169,7 +170,7 @@ def relaxation_time(relative_permittivity: Numbers, conductivity: Numbers) -> Nu
 
 
 def compared_with_limits(density: float) -> str:
-    """Text that tells above which of the published limits an apparent current density [A/m^2] lies.
+    """Text about which of the published limits are below an apparent current density [A/m^2] lies.
 
     Examples
     --------

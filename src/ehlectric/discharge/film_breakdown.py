@@ -75,8 +75,8 @@ class FieldUtilisation:
     # Width [m], or area [m^2] for a point contact, of the zone around ``position`` where the utilisation is
     # at least 95 % of its maximum.
     extent: float
-    # Field strength over the whole domain of the film [V/m]; outside the field range that of a thin gap,
-    # shape (n,).
+    # Field strength over the whole domain of the film [V/m]; outside the field range the strength of a thin
+    # gap, shape (n,).
     over_domain: Array
     # Area that each value of ``over_domain`` stands for [m^2]; for a line contact the width [m], shape (n,).
     areas: Array
@@ -108,9 +108,9 @@ class FieldUtilisation:
 
 def dielectric_strength(discharge: Discharge, pressure: Array, temperature: Array | None = None) -> Array:
     """Dielectric strength of a film at given pressures. ``pressure`` [Pa], shape (...); ``temperature``,
-    temperature in a film with heat [K], in place of that of the discharge, shape (...). The discharge of many
-    points has values of shape (n,), which are the last axis of the pressures. Returns dielectric strength
-    [V/m], shape (...).
+    temperature in a film with heat [K], instead of the temperature of the discharge, shape (...). The
+    discharge of many points has values of shape (n,), which are the last axis of the pressures. Returns
+    dielectric strength [V/m], shape (...).
 
     Examples
     --------
@@ -207,8 +207,8 @@ class BreakdownZone:
     zone_area: float | None
     # ``zone_size`` over the half-width of the dry contact, or over its semi-axis along entrainment.
     zone_over_half_width: float
-    # zone_over_largest_pit and zone_over_mean_pit: ``zone_size`` over the largest and over the mean published
-    # size of a pit, 4 um and 1.7 um.
+    # zone_over_largest_pit and zone_over_mean_pit: ``zone_size`` divided by the largest and by the mean
+    # published size of a pit, 4 um and 1.7 um.
     zone_over_largest_pit: float
     zone_over_mean_pit: float
 

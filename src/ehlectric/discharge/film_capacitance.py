@@ -6,7 +6,7 @@ at a place is g = h + z, where h is the mean film thickness. The capacitance of 
 eps/g. It is larger than eps/h, because a thin place adds more than a thick place takes away.
 
 A place with a gap below a small ``touching`` gap belongs to an asperity in contact. It is a conductor, not a
-capacitor, and is left out. Without this limit the mean would be infinite, because the distribution has places
+capacitor, and is skipped. Without this limit the mean would be infinite, because the distribution has places
 with any small gap.
 """
 
@@ -65,7 +65,7 @@ def oil_fraction(thickness: Array, density: Array, cavitated: Mask) -> Array:
 
 
 # Functions of the oil's relative permittivity and the oil fraction that give the relative permittivity of the
-# gap, by the name of the filling: oil alone; fingers of oil from wall to wall with gas between
+# gap, by the name of the filling: only oil; fingers of oil from wall to wall with gas between
 # them, in parallel; layers of oil on the walls with gas between them, in series.
 OUTLETS: dict[str, Callable[[Array, Array], Array]] = {
     "full": lambda permittivity, _fraction: permittivity,
@@ -96,8 +96,9 @@ class Layers:
 
     def density(self, film: ArrayLike, relative_permittivity: ArrayLike) -> Array:
         """Capacitance per area of film, coating and roughness together. ``film``, capacitance per area of the
-        smooth film alone [F/m^2], positive, shape (...); ``relative_permittivity``, relative permittivity in
-        the film, dimensionless, shape (...). Returns capacitance per area [F/m^2], shape (...).
+        smooth film without coating [F/m^2], positive, shape (...); ``relative_permittivity``, relative
+        permittivity in the film, dimensionless, shape (...). Returns capacitance per area [F/m^2], shape
+        (...).
         """
         alone = np.asarray(film, dtype=float)
         permittivity = np.asarray(relative_permittivity, dtype=float)
@@ -108,9 +109,9 @@ class Layers:
         return alone
 
     def film_share(self, film: ArrayLike) -> Array:
-        """Share of the voltage that lies on the film, from its capacitance per area alone [F/m^2]. ``film``,
-        capacitance per area of the film alone [F/m^2], shape (...). Returns share from 0 to 1, dimensionless;
-        the rest lies on the coating, shape (...).
+        """Share of the voltage that lies on the film, from only its capacitance per area [F/m^2]. ``film``,
+        capacitance per area of the film without coating [F/m^2], shape (...). Returns share from 0 to 1,
+        dimensionless; the rest lies on the coating, shape (...).
         """
         share: Array = 1.0 / (1.0 + np.asarray(film, dtype=float) * self.coating / epsilon_0)
         return share
@@ -134,7 +135,7 @@ _HEIGHTS, _NODES = 9.0, 100
 
 
 def roughness_factor(film_ratio: ArrayLike, *, touching: float = TOUCHING) -> Array:
-    """Capacitance of a rough film over that of a smooth film of the same mean thickness.
+    """Capacitance of a rough film divided by the capacitance of a smooth film of this mean thickness.
 
     ``film_ratio``, mean film thickness h over the combined root-mean-square height Rq of both surfaces,
     dimensionless, positive, shape (...); ``touching``, gap over Rq below which the surfaces touch,
@@ -201,7 +202,7 @@ def zone_capacitances(
 
     Inside the field range the capacitance follows from the solved field, outside from a thin gap,
     eps0 eps/h per area. The thin gap is summed over the whole domain. The difference between the solved field
-    and the thin gap is then added inside the field range. Where gas fills a part of the gap, both are scaled
+    and the thin gap is then added inside the field range. If gas fills a part of the gap, both are scaled
     by ``OUTLETS``. This agrees to 1e-5 with a field that is solved with the gas in the gap,
     because the walls diverge slowly behind the exit.
 
@@ -274,7 +275,7 @@ class Capacitances:
     capacitance_outlet_fingers: float
     capacitance_outlet_layers: float
     # capacitance_full, capacitance_fingers and capacitance_layers: capacitance over the whole domain for each
-    # filling. In a point contact it affects the sides too.
+    # filling. In a point contact it also affects the sides.
     capacitance_full: float
     capacitance_fingers: float
     capacitance_layers: float

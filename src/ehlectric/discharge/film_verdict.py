@@ -141,7 +141,7 @@ def ideal_films(*, flooded: bool, isothermal: bool = True) -> tuple[Statement, .
 
 
 def weibull_part(shape: float, probability: float) -> float:
-    """Voltage of a Weibull law at a probability divided by that at 63.2 %, dimensionless.
+    """Voltage of a Weibull law at a probability divided by the voltage at 63.2 %, dimensionless.
 
     Examples
     --------

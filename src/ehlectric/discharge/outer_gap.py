@@ -11,12 +11,12 @@ its height towards the far body, whose nearest point at s = t = 0 is at z = gap.
 from the far body, along the far body's normal. All formulas are written with curvatures instead of radii, so
 that a plane needs no large number and no difference of large numbers occurs.
 
-The gap is that of the undeflected bodies, opened by the deflection under the Hertz pressure. A constant is
+The gap is the gap of the undeflected bodies, opened by the deflection under the Hertz pressure. A constant is
 added with which the gap continues the film at the edge of its domain. ``points`` and ``charge_density`` give
 the charge on the near body. It is integrated from the edge of the domain to where the normal of the near body
 is tangent to the far body: to r = R for a ball of radius R on a plane.
 
-The model leaves out what lies beyond: the rear half of the far body, the field lines from its front half that
+The model neglects what lies beyond: the rear half of the far body, the field lines from its front half that
 meet the near body beyond this end, and the field to anything else than the two bodies. For a ball that stands
 free above an infinite plane, the neglected part is 16.5 eps0 eps R at any small gap: 1.5 pF in air for a
 radius of 10 mm.
@@ -81,7 +81,7 @@ class Points:
     def density(self, opening: Array | float = 0.0, coating: float = 0.0) -> Array:
         """Charge density on the near body over eps0 eps V [1/m]. ``opening``, distance by which deflection
         and film open the gap further [m], shape (...); ``coating``, thickness of a coating over its relative
-        permittivity, times that of the medium in the gap [m].
+        permittivity, times the permittivity of the medium in the gap [m].
         """
         return charge_density(self.gap + opening + coating, self.tilt, self.far, self.near)
 
@@ -187,9 +187,9 @@ def around_point(
     """Gap around the film of a point contact.
 
     ``modulus`` is E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2. ``film`` has the nodes x (nx,) and
-    y (ny,) and the thickness (nx, ny) [m]. ``width`` is that of the bodies across entrainment, at which the
-    gap ends, and ``ring`` bounds the distance from the contact [m]. The second result is the largest relative
-    difference between film thickness and gap at the edge of the domain.
+    y (ny,) and the thickness (nx, ny) [m]. ``width`` is the width of the bodies across entrainment, at which
+    the gap ends, and ``ring`` bounds the distance from the contact [m]. The second result is the largest
+    relative difference between film thickness and gap at the edge of the domain.
     """
     x, y, thickness = film
     rim = np.ones_like(thickness, dtype=bool)
@@ -224,9 +224,9 @@ def around_line(
 ) -> Outside:
     """Gap before and behind the film of a line contact.
 
-    ``half_width`` and ``reduced_radius`` are those of the dry contact [m]. ``film`` has the nodes and the
-    thickness [m], both (nx,). ``length`` is that of the contact across entrainment, and ``ring`` bounds the
-    distance from the contact [m].
+    ``half_width`` and ``reduced_radius`` belong to the dry contact [m]. ``film`` has the nodes and the
+    thickness [m], both (nx,). ``length`` is the length of the contact across entrainment, and ``ring`` bounds
+    the distance from the contact [m].
     """
     x, thickness = film
     starts = np.abs([x[0], x[-1]])
@@ -250,7 +250,7 @@ def _rays(
 ) -> tuple[Array, Array, Array]:
     """Nodes (s, t) outside a rectangle, and ds dt of each; rays go outwards from nodes along its edges.
 
-    Both halves, y > 0 and y < 0, are the same, so the nodes of one half count twice.
+    Both halves, y > 0 and y < 0, are equal, so the nodes of one half count twice.
     """
     inlet, outlet, side = domain
     unit, weights = stretched(0.0, 1.0, 1.0, _ALONG_EDGE)

@@ -103,8 +103,9 @@ class GapField(Values):
         return np.stack([self.strength[..., 0], self.middle_strength, self.strength[..., -1]])
 
 
-# Fraction of the largest field. Places with less, even after correction, are left out. So are columns whose
-# thin-gap field is lower than the second fraction: a cylinder of any size doubles the field at its top.
+# Fraction of the largest field. Places with less, even after correction, are skipped. Columns are also
+# skipped if their thin-gap field is lower than the second fraction: a cylinder of any size doubles the field
+# at its top.
 _LOW = 0.7
 _LOW_THIN = 0.5
 
@@ -218,7 +219,7 @@ def first_order_strength(problem: GapProblem, strength: Array) -> Array:
 
 
 def _rises(x: Array, lower: Array, upper: Array, widest: float) -> Array:
-    """Relative rises at both walls from waves along the first axis, beyond that of the thin-gap field.
+    """Relative rises at both walls from waves along the first axis, beyond the rises of the thin-gap field.
 
     ``upper`` is the negative height of the upper wall, so that crests are positive on both walls.
     """
@@ -291,7 +292,7 @@ class StrengthError:
     # the columns.
     by_degree: float
     by_columns: float
-    # Polynomial degree at which the first part is below ``TOLERANCE``, as far as the estimate can tell.
+    # Polynomial degree at which the first part is below ``TOLERANCE``, as far as the estimate shows.
     degree: int
     total_there: float  # both parts at that degree
 
@@ -351,7 +352,7 @@ def _promise(place: Place, tried: Sequence[tuple[Place, StrengthError]]) -> floa
     """Field strength that a finer solution may have at a place [V/m].
 
     It lacks the same share of the rise of first order as places that lack at least half as much. The error
-    by the columns is at least that of the other places.
+    by the columns is at least the error of the other places.
     """
     shares = [
         error.total / other.missing
@@ -429,7 +430,7 @@ def _peak_error(
 ) -> tuple[StrengthError, Sequence[int]]:
     """Estimated error of the field at one place, and the degrees to compare at other places.
 
-    The first of ``degrees`` is that of the solution; the others are tried until the field settles.
+    The first of ``degrees`` is the degree of the solution; the others are tried until the field settles.
     """
     strengths: list[float] = []
     for degree in degrees:

@@ -116,7 +116,7 @@ class _Grid:
     def finest(cls, x: Array, y: Array, *, across: Array, along: Array, free: Mask) -> _Grid:
         """Finest grid, from couplings stored by diagonals (9, nx * ny).
 
-        Couplings to columns with a prescribed potential are left out.
+        Couplings to columns with a prescribed potential are neglected.
         """
         keep = sparse.diags_array(free.astype(float))
         offsets, shape = neighbour_offsets(y.size), (free.size, free.size)
@@ -127,7 +127,9 @@ class _Grid:
         return cls(x, y, _with_identity(matrices[0], free), matrices[1], free)
 
     def is_thin(self, eigenvalue: float) -> bool:
-        """Whether the gap is everywhere so narrow that relaxation alone solves the mode of an eigenvalue."""
+        """Whether the gap is everywhere so narrow that relaxation, without a coarser grid, solves the mode of
+        an eigenvalue.
+        """
         return bool(np.all(self.along.diagonal() <= eigenvalue * self.across.diagonal()))
 
     def level(self, eigenvalues: Array) -> _Level:

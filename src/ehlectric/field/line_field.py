@@ -28,7 +28,7 @@ from ehlectric.runtime.threads import one_blas_thread
 class Field(GapField):
     """Electric potential and field strength in the gap of a line contact, in SI units.
 
-    The class adds the attribute below to those of ``GapField``, whose columns have the shape (nx,).
+    The class adds the attribute below to the attributes of ``GapField``, whose columns have the shape (nx,).
     """
 
     y: Array = field(metadata=stored("x_field s", "m", "increasing", "height"))  # height [m], shape (nx, ns)
@@ -103,7 +103,7 @@ def solve_field(problem: FieldProblem) -> Field:
     (Dirichlet conditions). The charge of a wall is the residual at its nodes. With this definition, energy
     and charge give the same capacitance.
 
-    The error of the largest field is estimated by ``field.field_accuracy``. Where the polynomial degree
+    The error of the largest field is estimated by ``field.field_accuracy``. If the polynomial degree
     makes it larger than 0.5 %, the field is solved once more with a degree of at most ``most_degree``.
 
     Examples

@@ -42,9 +42,9 @@ def thinned(columns: Array, kept: Sequence[float]) -> Array:
     """Every second column, or third and so on, so that not many more than ``ENOUGH`` are left.
 
     ``columns``, increasing positions of all columns [m], shape (n,); ``kept``, positions of columns that
-    stay, such as that of the smallest film [m]; both ends stay too, and so does the middle one. Returns
-    positions of the columns that are left, shape (m,); of symmetric columns with a symmetric ``kept`` they
-    are symmetric.
+    stay, such as the position of the smallest film [m]; both ends stay too, and so does the middle one.
+    Returns positions of the columns that are left, shape (m,); of symmetric columns with a symmetric ``kept``
+    they are symmetric.
 
     Examples
     --------

@@ -33,7 +33,8 @@ _POSITION = "position across entrainment, columns of the field"
 class PointField(GapField):
     """Electric potential and field strength in the gap of a point contact, in SI units.
 
-    The class adds the attributes below to those of ``GapField``, whose columns have the shape (nx, ny).
+    The class adds the attributes below to the attributes of ``GapField``, whose columns have the shape (nx,
+    ny).
     """
 
     # Positions across the gap [m], shape (ny,).
@@ -92,8 +93,8 @@ class PointField(GapField):
         return area_above(self.x, self.y, self.middle_strength, level)
 
     def capacitance_of(self, zone: Zone) -> float:
-        """Capacitance of a part of the map. ``zone``, function of two arrays x, y [m] that tells which points
-        are inside. Returns charge of wall 2 inside the zone, divided by the voltage [F].
+        """Capacitance of a part of the map. ``zone``, function of two arrays x, y [m] that returns which
+        points are inside. Returns charge of wall 2 inside the zone, divided by the voltage [F].
         """
         return float(np.vdot(zone_areas(self.x, self.y, zone), self.capacitance_density))
 
@@ -148,7 +149,7 @@ def solve_point_field(problem: PointFieldProblem) -> PointField:
     prescribed potentials of the walls (Dirichlet conditions). The charge of a wall is the residual at its
     nodes. With this definition, energy and charge give the same capacitance.
 
-    The error of the largest field is estimated by ``field.field_accuracy``. Where the polynomial degree
+    The error of the largest field is estimated by ``field.field_accuracy``. If the polynomial degree
     makes it larger than 0.5 %, the field is solved once more with a degree of at most ``most_degree``.
 
     Examples

@@ -89,7 +89,7 @@ class FieldProblem:
 
     @property
     def plain(self) -> bool:
-        """Whether the permittivity is constant across the gap, and nothing but the walls is prescribed."""
+        """Whether the permittivity is constant across the gap, and only the walls have given potentials."""
         prescribed = self.charge_density is not None or self.end_potentials is not None
         return self.permittivity.ndim == self.lower.ndim and not prescribed
 

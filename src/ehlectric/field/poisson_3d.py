@@ -27,7 +27,7 @@ _CORNERS = ((0, 0), (0, 1), (1, 0), (1, 1))
 _FACES: tuple[tuple[int | slice, ...], ...] = ((0,), (-1,), (slice(None), 0), (slice(None), -1))
 
 # Error of the potential at which the iteration stops, in the energy norm and relative to the energy norm of
-# the boundary values. It bounds the relative error of the capacitance from the charge; that of the
+# the boundary values. It bounds the relative error of the capacitance from the charge; the error of the
 # capacitance from the energy is its square. In the worst case all of the error lies in one column.
 TOLERANCE = 1e-11
 
@@ -72,7 +72,7 @@ class PointFieldProblem:
 
     @property
     def plain(self) -> bool:
-        """Whether the permittivity is constant across the gap, and nothing but the walls is prescribed."""
+        """Whether the permittivity is constant across the gap, and only the walls have given potentials."""
         prescribed = self.charge_density is not None or self.side_potentials is not None
         return self.permittivity.ndim == self.lower.ndim and not prescribed
 

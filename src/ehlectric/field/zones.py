@@ -22,7 +22,7 @@ HIGH_FIELD = 0.95
 # boundary cuts.
 SAMPLES = 8
 
-# Zone of a point contact: a function of points x, y [m] that tells which of them are inside.
+# Zone of a point contact: a function of points x, y [m] that returns which of them are inside.
 Zone = Callable[[Array, Array], NDArray[Any]]
 
 
@@ -51,7 +51,7 @@ def contact_zones(semi_axis_x: float, semi_axis_y: float) -> dict[str, Zone]:
     this strip. Together the zones cover the plane without overlap.
 
     ``semi_axis_x`` and ``semi_axis_y``, semi-axes of the Hertz ellipse [m], b along and a across entrainment.
-    Returns zones "hertz", "inlet", "outlet" and "sides": functions of points x, y [m] that tell which are
+    Returns zones "hertz", "inlet", "outlet" and "sides": functions of points x, y [m] that return which are
     inside.
 
     Examples

@@ -13,7 +13,7 @@ from ehlectric.arrays import Array
 from ehlectric.film.mesh import Mesh
 from ehlectric.formulas.polynomials import derivative_matrix, interpolation, lobatto_nodes, lobatto_weights
 
-# Number of Gauss points across the film. Where the stress changes by 200 Eyring stresses over the film the
+# Number of Gauss points across the film. If the stress changes by 200 Eyring stresses across the film, the
 # flux is accurate to 2e-8, where it changes by 500 to 2e-3.
 _POINTS = 32
 
@@ -97,8 +97,8 @@ def over_columns(values: Array, like: Array) -> Array:
 class Properties:
     """Viscosity and density of the oil across the film, each of shape (nz, nx, ny)."""
 
-    # log_ratio and log_ratio_p: ln of the viscosity over that of ``Fluid.log_viscosity``, and its derivative
-    # by P.
+    # log_ratio and log_ratio_p: ln of the viscosity divided by the viscosity of ``Fluid.log_viscosity``, and
+    # its derivative by P.
     log_ratio: Array
     log_ratio_p: Array
     density: Array
@@ -116,6 +116,6 @@ class Profile(Protocol):
     def __call__(self, pressure: Array, mesh: Mesh) -> Properties:
         """Properties at a pressure P (nx, ny), not below ambient, on any mesh of the same contact.
 
-        The flow is computed on coarser grids and on strips of the grid, too.
+        The flow is also computed on coarser grids and on strips of the grid.
         """
         ...

@@ -5,13 +5,13 @@ where more oil would leave a node than enters it, every node fulfils the complem
 
     P >= P_amb,   r >= 0,   (P - P_amb) r = 0.
 
-In the full film r = 0, from which the pressure follows. Where the film is cavitated, P = P_amb and the oil
-does not fill the gap. Where the film ruptures, this is the Reynolds (Swift-Stieber) condition P = P_amb and
-dP/dX = 0. In the wedge term of a stationary film a cavitated gap counts as full, unless the film forms again
-behind it (``ehlectric.film.starved_solver``). A transient film carries the mass of the oil that is left.
-Newton's method solves r = 0 at the full-film nodes and P = P_amb at the cavitated nodes. Before each step it
-decides anew which nodes are cavitated. This is a primal-dual active set method (M. Hintermueller, K. Ito and
-K. Kunisch, SIAM J. Optim. 13 (2002) 865, doi:10.1137/S1052623401383558).
+In the full film r = 0, from which the pressure follows. If the film is cavitated, P = P_amb and the oil
+does not fill the gap. At the rupture of the film, this is the Reynolds (Swift-Stieber) condition P = P_amb
+and dP/dX = 0. In the wedge term of a stationary film a cavitated gap counts as full, unless the film forms
+again behind it (``ehlectric.film.starved_solver``). A transient film carries the mass of the oil that is
+left. Newton's method solves r = 0 at the full-film nodes and P = P_amb at the cavitated nodes. Before each
+step it decides anew which nodes are cavitated. This is a primal-dual active set method (M. Hintermueller, K.
+Ito and K. Kunisch, SIAM J. Optim. 13 (2002) 865, doi:10.1137/S1052623401383558).
 """
 
 from __future__ import annotations

@@ -169,9 +169,9 @@ class Deflection:
         return matrix
 
     def shifted(self, steps: tuple[int, ...]) -> Array:
-        """Influence coefficients along a line of nodes beside those of a pressure. Returns deflection at the
-        node a step behind node i by the pressure of node j, over j - i from 1 - nx to nx - 1,
-        shape (n steps, 2 nx - 1); beyond the grid it is that of its largest distance.
+        """Influence coefficients along a line of nodes next to the nodes of a pressure. Returns deflection at
+        the node a step behind node i by the pressure of node j, over j - i from 1 - nx to nx - 1, shape (n
+        steps, 2 nx - 1); beyond the grid it is the coefficient of its largest distance.
         """
         if steps not in self._shifted:
             nx = len(self.influence)

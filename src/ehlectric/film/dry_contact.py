@@ -20,7 +20,7 @@ _MOST_STEPS = 400
 _RELIEVED = 1e-4
 _RELIEVING_STEPS = 200
 
-# Curvature along a direction, over that of a single node, that is only rounding.
+# Curvature along a direction, divided by the curvature of a single node, that is only rounding.
 _ROUNDING = 1e-9
 
 
@@ -77,7 +77,7 @@ def relieved(level: Level, state: State, boundary_film: float) -> State:
     On a finer grid a rough surface has waves that the film of the coarser grid does not know. Asperities that
     they push through the other surface are flattened here before the oil answers.
 
-    The result has H >= H_s and P_c >= 0 within the domain, P_c about zero where H > H_s; it carries more
+    The result fulfils H >= H_s and P_c >= 0 within the domain, P_c about zero where H > H_s; it carries more
     load.
 
     Conjugate gradients on the nodes in contact, as in ``dry_contact``, without the balance of load.

@@ -13,11 +13,11 @@ the convection is an upstream difference of second order where the oil flows for
 it flows back; across the contact it is of first order.
 
 One march along x solves the columns from the inlet to the outlet. The fluxes into the bodies at the column
-itself are implicit, those of the columns before it enter by the history of the moving surfaces. In the
-reverse flow of the inlet the columns depend on those behind them; there one banded system of all columns is
-exact. Three parts are taken from the last iterate: the history of the surfaces in the reverse flow, the heat
-that a slow body conducts upstream, and the convection across the contact. The march is repeated for the last
-two.
+itself are implicit, the fluxes at the columns before it enter by the history of the moving surfaces. In the
+reverse flow of the inlet the columns depend on the columns downstream; there one banded system of all columns
+is exact. Three parts are taken from the last iterate: the history of the surfaces in the reverse flow, the
+heat that a slow body conducts upstream, and the convection across the contact. The march is repeated for the
+last two.
 """
 
 from __future__ import annotations
@@ -71,8 +71,8 @@ _SLOW = 0.02
 class Surface:
     """Surface of a moving half-space on a uniform grid along its motion."""
 
-    # Temperature of the surface without its fluxes: that of the body far from the contact [K], or, in a time
-    # step, what the past has left at each node, shape (nx, ny).
+    # Temperature of the surface without its fluxes: the temperature of the body far from the contact [K], or,
+    # in a time step, what the past has left at each node, shape (nx, ny).
     bulk: Array | float
     # Temperature rise at 0, 1, ... cells behind a cell with unit flux [K m^2/W], shape (nx,).
     downstream: Array
@@ -190,7 +190,7 @@ class Mixing:
         lengths = np.maximum(np.linalg.norm(differences, axis=1), 1e-300)
         products = differences @ differences.T / np.outer(lengths, lengths)
         target = differences @ (self._weights * change) / lengths
-        # Nearly dependent differences are left out: they would combine far iterates with large factors.
+        # Nearly dependent differences are skipped: they would combine far iterates with large factors.
         factors = np.linalg.lstsq(products, target, rcond=_DEPENDENT)[0] / lengths
         following = np.array(image)
         for factor, other in zip(factors, self._images[:-1], strict=True):
@@ -203,7 +203,7 @@ class Mixing:
         self._changes.clear()
 
 
-# Flow of mass over the largest one of its column that is zero but for rounding.
+# Flow of mass divided by the largest one of its column that is zero except for rounding.
 _ROUNDING = 1e-12
 
 
@@ -259,7 +259,7 @@ class Stream:
         return self.filling * self.thickness * self.density
 
     def in_time(self, earlier: Earlier, pressure: Array) -> Stream:
-        """Flow of a time step with a pressure (nx, ny) [Pa] at its end: compression in time heats, too."""
+        """Flow of a time step with a pressure (nx, ny) [Pa] at its end; compression in time also heats."""
         rate = self.expansion * (pressure - earlier.pressure) / earlier.step
         by_pressure = self.compression_p + self.expansion / earlier.step
         return replace(self, compression=self.compression + rate, compression_p=by_pressure, earlier=earlier)
@@ -328,7 +328,8 @@ class _Convection:
     """Mass that flows to each node from its neighbours, over the spacing, (nz, nx, ny) [kg/(m^2 s)].
 
     D(m T) - T D(m) with the upstream difference D of the mass flow m: the factors of the neighbours, whose
-    sum is that of the node itself, and the divergence D(m). The heat of the whole film is thereby in balance.
+    sum is the factor of the node itself, and the divergence D(m). The heat of the whole film is thereby in
+    balance.
     """
 
     neighbours: tuple[Array, ...]  # of the columns i - 1, i - 2, i + 1 and of the lines j - 1 and j + 1
@@ -357,7 +358,7 @@ class _Convection:
 
 def _parts(flow: Array) -> tuple[Array, Array]:
     """Parts of a flow towards larger and towards smaller positions, both not negative."""
-    # At a surface at rest the flow is zero but for rounding, and rounding is no reverse flow.
+    # At a surface at rest the flow is zero except for rounding, and rounding is no reverse flow.
     flow = np.where(np.abs(flow) > _ROUNDING * np.max(np.abs(flow), axis=0), flow, 0.0)
     return np.maximum(flow, 0.0), np.maximum(-flow, 0.0)
 
@@ -501,8 +502,8 @@ def solve_energy(
 def finite_heat(
     stream: Stream, surfaces: tuple[Surface, Surface], last: Heat, inlet_temperature: float
 ) -> Heat | None:
-    """Temperature and heat flow into the bodies of a stream, from those of the last turn between film and
-    temperature; None where there is no finite solution.
+    """Temperature and heat flow into the bodies of a stream, from the values of the last turn between film
+    and temperature; None where there is no finite solution.
     """
     try:
         new = solve_energy(
@@ -652,7 +653,7 @@ class _Entry:
 class FrozenTemperature:
     """Temperature across the film as a ``Profile`` of its flow.
 
-    The temperature belongs to a pressure p0. Where the pressure changes, the temperature follows it by the
+    The temperature belongs to a pressure p0. If the pressure changes, the temperature follows it by the
     heat of compression, T + T_p (p - p0). Without T_p, film and temperature converge slowly at the pressure
     spike, which heats the oil in passing. Viscosity ratio and density are linear in p - p0 as well: they are
     computed only once, and exact where film and temperature have converged.

@@ -10,7 +10,7 @@ flows from high to low pressure. A face lies half-way between two nodes. Quantit
 enter as a mean of the two nodes, and this mean is taken in this module only.
 
 Another relation between flux and pressure gradient is one more function in ``FLOWS``, or the value of
-``Fluid.flow``, as that of a shear-thinning fluid (``film.shear_flow``).
+``Fluid.flow``, as for a shear-thinning fluid (``film.shear_flow``).
 """
 
 from __future__ import annotations
@@ -146,8 +146,9 @@ class Flow:
     def undrifted(self, cavitated: Mask) -> Flow:
         """Flow without the drift through the faces behind cavitated nodes, a mask (nx, ny).
 
-        The drift at a face is that of a gap that oil fills. Oil that fills a part of the gap drifts less: the
-        mass of a cavitated node counts as what flows through the face behind it, with the drift in it.
+        The drift at a face is the drift in a gap that oil fills. Oil that fills a part of the gap drifts
+        less: the mass of a cavitated node counts as what flows through the face behind it, with the drift in
+        it.
         """
         return replace(self, along=self.along.without_drift(cavitated[:-1]))
 
@@ -227,7 +228,7 @@ def mean_mobility(fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh) -
     """Poiseuille flow of a Newtonian fluid, F = eps dP/dX with the mean eps of the two nodes.
 
     It is the discretisation of Morris et al. (2022), doi:10.3390/lubricants10050087. Parameters and result
-    are those of ``mean_fluidity``; the fluxes are accurate to second order, too.
+    agree with ``mean_fluidity``; the fluxes are also accurate to second order.
     """
     k = evaluate(fluid, pressure, thickness)
     nodes = (k.eps, k.eps_p, k.eps_h, pressure)
@@ -259,13 +260,14 @@ def mean_fluidity(fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh) -
     ``pressure`` and ``thickness``, pressure P and film thickness H, dimensionless, H > 0, shape (nx, ny).
     Returns fluxes, conductances and derivatives; the fluxes are accurate to second order.
 
-    The same mean is that of D. L. Scharfetter and H. K. Gummel, IEEE Trans. Electron Devices 16 (1969) 64,
+    This is the mean of D. L. Scharfetter and H. K. Gummel, IEEE Trans. Electron Devices 16 (1969) 64,
     doi:10.1109/T-ED.1969.16566, for semiconductors. In the inlet of a thin film the viscosity changes by a
     large factor between nodes; the mean of the mobilities then lets too much oil flow back.
 
     Examples
     --------
-    Barus' law, ln eta = 4 P, between plates: the flow is that of the reduced pressure (1 - exp(-4 P))/4.
+    Barus' law, ln eta = 4 P, between plates: the flow equals the flow of the reduced pressure (1 - exp(-4
+    P))/4.
 
     >>> constant = lambda p: (np.ones_like(p), np.zeros_like(p))
     >>> law = lambda p: (4.0 * p, 4.0 + 0.0 * p)

@@ -22,9 +22,9 @@ from ehlectric.film.film_errors import reduced_pressure
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.problem import FilmProblem
 
-# Load that is missing in the whole contact over the part of it outside of the domain. Inside, the pressure is
-# lower by about that of the edges. With 79 contacts, loads N from 2.5 to 200, L from 0.5 to 25 and ratios of
-# the semi-axes from 0.5 to 8, on domains that end at 2 to 90 semi-axes, it was 1 to 2.
+# Load that is missing in the whole contact divided by the part of it outside of the domain. Inside, the
+# pressure is lower by about the pressure of the edges. With 79 contacts, loads N from 2.5 to 200, L from 0.5
+# to 25 and ratios of the semi-axes from 0.5 to 8, on domains that end at 2 to 90 semi-axes, it was 1 to 2.
 _WHOLE_LOAD = 2.0
 
 # Largest share of the load outside of a domain with a far field.
@@ -60,7 +60,9 @@ def _slope(problem: FilmProblem) -> float:
 
 
 def load_outside(problem: FilmProblem) -> float:
-    """Load that oil would carry upstream of the domain of a point contact and beside it, over its load."""
+    """Load that oil would carry upstream of the domain of a point contact and at its sides, divided by its
+    load.
+    """
     assert problem.width is not None
     missing = missing_load(
         problem.geometry.radius_ratio,
@@ -110,7 +112,9 @@ def lost_by_load(missing: Numbers, exponent: Numbers) -> Numbers:
 
 
 def left_of_load(share: Numbers) -> Numbers:
-    """Share of the load that a film with its far field does without, from that of ``load_outside``."""
+    """Share of the load that a film with its far field does without, from the share that ``load_outside``
+    returns.
+    """
     return _LEFT_OF_LOAD * share**2
 
 

@@ -184,13 +184,13 @@ def upstream_deficits(
     The reduced pressure is the integral of dP/eta. It follows from the Reynolds equation integrated once,
     dP/dX = eta lambda (rho H - q)/(rho H^3) with the flow q. Upstream of the domain P is taken as ambient and
     H as a parabola. In a point contact, with H = X^2/2 + (Rx/Ry) Y^2/2, oil also flows off to the sides. The
-    pressure is then that of a line contact, divided by 1 + (2/3) Rx/Ry (P. Kapitza, Zh. Tekh. Fiz. 25 (1955)
-    747).
+    pressure is then the pressure of a line contact, divided by 1 + (2/3) Rx/Ry (P. Kapitza, Zh. Tekh. Fiz. 25
+    (1955) 747).
 
     Far upstream P falls with the cube of the distance. With P_e at the edge X_e of the domain, P_e X_e/2 is
     carried upstream of it, and the film within lacks about P_e over the length X_e. A film of rigid bodies is
     thinner by this share of the load (A. Martin 1916: the film of a given load goes with 1/w). The pressure
-    at the edge is low, and the viscosity that of the oil at ambient pressure.
+    at the edge is low, and the viscosity equals the viscosity of the oil at ambient pressure.
     """
     if not (np.all(np.isfinite(pressure)) and np.all(mass > 0.0)):
         return 0.0, 0.0
@@ -278,7 +278,7 @@ def change_near(fine: Values, coarse: Values, places: list[tuple[float, float]])
 _COARSEST, _OF_FILM = 0.55, 0.75
 
 # Expected error from which on the grid does not see the film: stated errors are then 100 % or much too small,
-# as the film is that of the grid. Stated errors below the second number are then not believed.
+# as the film depends on the grid. Stated errors below the second number are then not believed.
 UNSEEN, LEAST_UNSEEN = 0.9, 0.5
 
 # Expected error above which a grid is taken to have no estimate, so that the next grid covers the domain.
@@ -302,7 +302,8 @@ def expected_error(problem: FilmProblem, times: int = 1) -> float | None:
 
 
 def expected_nodes(problem: FilmProblem, times: int = 1) -> float:
-    """Number of nodes that are solved for on a grid whose spacings are those of the problem over ``times``.
+    """Number of nodes that are solved for on a grid whose spacings are the spacings of the problem divided by
+    ``times``.
 
     A grid of a point contact that follows one whose error is known covers a patch of the domain only.
     """
@@ -346,11 +347,11 @@ def max_pressure_error(fine: GridSolution, coarse: GridSolution | None) -> float
     coarser grid, or if either solution did not converge.
 
     The pressure does not converge as the film does. It is a derivative of the deflection, so that short waves
-    of the roughness, which hardly change the film, are high peaks of the pressure. The pressure spike at the
+    of the roughness, which change the film little, are high peaks of the pressure. The pressure spike at the
     outlet is narrower than the spacing of most grids and grows with every finer grid. Its height on two grids
     may agree by chance, and it may exceed all other peaks on the next grid only.
 
-    The estimate is therefore taken from one grid, too. Where the grid resolves a peak, the fourth difference
+    The estimate is therefore also taken from one grid. If the grid resolves a peak, the fourth difference
     of the pressure falls by 16 from grid to grid. At a spike or step from one node to the next it is several
     times the height of the step. Half of it is added to the pressure of every node. An eighth of the
     second difference is added too, by which the peak of a parabola exceeds three nodes at most. The estimate
@@ -442,8 +443,8 @@ def rough_film_error(
 def _of_mean_gap(problem: FilmProblem, fine: GridSolution, coarse: GridSolution) -> float:
     """Relative change of the mean gap over the dry contact from the coarser grid, where the surfaces touch.
 
-    The least gap is that of the boundary film on all grids. The gap next to the spots changes from grid to
-    grid irregularly, so that its change is not divided as that of a film with a known order.
+    The minimum gap is the boundary film on all grids. The gap next to the spots changes from grid to
+    grid irregularly, so that its change is not divided as the change of a film with a known order.
     """
 
     def mean_gap(grid: GridSolution) -> float:
@@ -469,7 +470,7 @@ def change_of_minimum(fine: Values, coarse: Values) -> float:
 
     Examples
     --------
-    Two valleys change places, so that the minimum stays the same:
+    Two valleys change places, so that the minimum does not change:
 
     >>> import numpy as np
     >>> fine, coarse = Mesh.over(5, -1.0, 1.0), Mesh.over(3, -1.0, 1.0)

@@ -85,8 +85,8 @@ class FilmSolution(Values):
     film_fraction: Array | None = field(
         default=None, metadata=stored("nodes", "1", "0 to 1", _FRACTION, needed=False)
     )
-    # Largest amount of oil that appears or is lost up to any position along entrainment, over the mean flow
-    # through the Hertz zone. None of a film that does not carry its oil through cavities.
+    # Largest amount of oil that appears or is lost up to any position along entrainment, divided by the mean
+    # flow through the Hertz zone. None of a film without mass-conserving cavitation.
     mass_residual: float | None = field(default=None, metadata=number())
     # Supply of oil, meniscus and flooded film. None where the supply of oil is not given.
     starvation: Starvation | None = None

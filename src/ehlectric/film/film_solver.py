@@ -58,7 +58,7 @@ class RefinedSolution:
 
     @property
     def whole_problem(self) -> FilmProblem:
-        """Problem over the whole domain; that of a patch has the domain and the load of the patch."""
+        """Problem over the whole domain; the problem of a patch uses the domain and the load of the patch."""
         return self.problem if self.patch is None else self.patch.problem
 
     @property
@@ -167,7 +167,8 @@ class Starvation:
     # film of a point contact that was asked for by its ratio of 1: the least layer that floods it depends on
     # the domain.
     oil_layer: float | None = field(metadata=number())
-    # Central film thickness over that of the flooded film; None if the flooded film did not converge.
+    # Central film thickness divided by the central thickness of the flooded film; None if the flooded film
+    # did not converge.
     film_ratio: float | None = field(metadata=number())
     # Position of the first node on the line y = 0 that oil fills [m]; None if the film is flooded, or if oil
     # fills the gap at the inlet edge on this line.
@@ -235,7 +236,7 @@ class StarvedSolution(RefinedSolution):
     def side_deficit(self) -> float:
         """Share of the reduced pressure missing at the sides: of the flooded film if it sets the film.
 
-        No pressure is cut off where no node beside the sides of the domain is filled.
+        No pressure is cut off if no node next to the sides of the domain is filled.
         """
         filled = self._filled
         if not self.by_ratio and filled is not None and not np.any(filled[:, -2]):
@@ -304,8 +305,8 @@ def starved_solution(problem: FilmProblem, progress: Progress | None) -> Starved
     """Solve the film of a problem with a supply of oil, and refine its grid until the error is below the
     target.
 
-    The flooded film is solved on each grid first. The grid is refined over the whole domain, that of a point
-    contact at most twice.
+    The flooded film is solved on each grid first. The grid is refined over the whole domain, the grid of a
+    point contact at most twice.
     """
     supply = problem.supply
     assert supply is not None
@@ -335,7 +336,7 @@ def starved_on_grids(
     known: Sequence[GridSolution] = (),
     layer: Array | None = None,
 ) -> StarvedSolution:
-    """Starved film on grids that are finer than those of the known films, from the coarsest on.
+    """Starved film on grids that are finer than the grids of the known films, from the coarsest on.
 
     ``layer`` (ny,) is the layer of oil on the finest known grid.
     """

@@ -56,24 +56,25 @@ DEGREE = 12
 # Largest change of temperature in one outer loop [K].
 _MOST_CHANGE = 40.0
 
-# Largest number of outer loops. In all loops but the last the film has this number of Newton steps at most,
-# as far as this residual: its temperature is still to change.
+# Largest number of outer loops. In all loops except the last the film has this number of Newton steps at
+# most, as far as this residual: its temperature is still to change.
 MOST_LOOPS, _STEPS, _LOOSE = 60, 2, 1e-3
 
 # The same number of loops of a flooded film that is only a guess for one with a layer of oil.
 _GUESS_LOOPS = 25
 
-# Multiple of the Newton steps of a film that carries its oil, whose cavities grow by few nodes a step, and
-# least number of steps of one whose surfaces may touch: fewer would leave its spots unsettled.
+# Multiple of the Newton steps of a film with mass-conserving cavitation, whose cavities grow by few nodes a
+# step, and least number of steps of one whose surfaces may touch: fewer would leave its spots unsettled.
 _CARRYING, _TOUCHING = 3, 40
 
-# Successive loops in which a film that carries its oil misses its residual, at which the iteration ends, and
-# those without a smaller change of the temperature. It goes on where the least change is near its limit.
+# Successive loops in which a film with mass-conserving cavitation misses its residual, at which the iteration
+# ends, and successive loops without a smaller change of the temperature. It goes on where the least change is
+# near its limit.
 _MISSED, _PATIENCE, _NEAR = 5, 20, 10.0
 
 # Distance of the temperature, relative to its largest rise and absolute [K], and relative distance of the
-# central film thickness, at which film and temperature stand. The multiples are those of the finest grid, of
-# the next coarser one, which gives the estimates of the errors, and of all others.
+# central film thickness, at which film and temperature have converged. The multiples hold for the finest
+# grid, for the next coarser one, which gives the estimates of the errors, and for all others.
 _RISE, _KELVIN, _FILM = 3e-3, 5e-3, 5e-5
 _MULTIPLES = (1.0, 5.0, 25.0)
 
@@ -90,7 +91,7 @@ _SLOWEST = 0.9
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class HeatedGrid(GridSolution):
-    """Film with heat or shear on one grid; its status is that of film and temperature together."""
+    """Film with heat or shear on one grid; its status covers film and temperature together."""
 
     iteration: OuterIteration  # iteration that found it
     heat: Heat | None  # temperature and heat flow into the bodies; None for an isothermal film
@@ -104,7 +105,7 @@ class HeatedGrid(GridSolution):
 
     @property
     def largest_rise(self) -> float | None:
-        """Largest rise of the mid-film temperature over that of the oil that enters [K]."""
+        """Largest rise of the mid-film temperature above the temperature of the oil that enters [K]."""
         thermal, middle = self.iteration.physics.thermal, self.middle
         if middle is None or thermal is None:
             return None
@@ -123,7 +124,7 @@ class HeatedGrid(GridSolution):
 
     @property
     def filled(self) -> Mask | None:
-        """Nodes that oil fills, shape (nx, ny); None of a film that does not carry its oil."""
+        """Nodes that oil fills, shape (nx, ny); None of a film without mass-conserving cavitation."""
         return None if self.content is None else self.content.filled
 
 
@@ -141,7 +142,7 @@ class OuterIteration:
     # for a held film.
     held: bool = False
     degree: int = DEGREE  # degree of the polynomial across the film
-    # Oil at the inlet edge of a film that carries its oil through cavities; None of one whose cavities count
+    # Oil at the inlet edge of a film with mass-conserving cavitation; None of one whose cavities count
     # as full.
     supply: Supply | None = None
     most_loops: int = MOST_LOOPS  # largest number of outer loops
@@ -204,7 +205,7 @@ class OuterIteration:
     ) -> tuple[GridSolution, ShearedFlow, Heat | None]:
         """Film after at most ``steps`` Newton steps from a state, its flow, and the heat at its pressure.
 
-        ``carried`` has the nodes that oil fills at first, of a film that carries its oil.
+        ``carried`` has the nodes that oil fills at first, of a film with mass-conserving cavitation.
         """
         law = self.flow(state, heat)
         fluid = replace(self.problem.fluid, flow=law)
@@ -314,7 +315,7 @@ class OuterIteration:
     ) -> HeatedGrid:
         """Film and temperature from an initial guess of both.
 
-        ``filled`` (nx, ny) marks the nodes that oil fills in a guess that carries its oil through cavities;
+        ``filled`` (nx, ny) marks the nodes that oil fills in a guess with mass-conserving cavitation;
         None of one whose cavities count as full. A film without a supply that forms again behind a cavity has
         the oil carried through it.
         """
@@ -332,11 +333,11 @@ class OuterIteration:
             again = self._carrying(grid.state, grid.heat, full, first_order=first_order)
             if again.status == "converged":
                 return replace(again, steps=grid.steps + again.steps, loops=grid.loops + again.loops)
-        # A film that makes oil is better than none, and a warning says so.
+        # A film that creates oil is better than none; a warning reports it.
         return grid
 
     def _carrying(self, state: State, heat: Heat | None, filled: Mask, *, first_order: bool) -> HeatedGrid:
-        """Flooded film that carries its oil through cavities, from a guess and its filled nodes (nx, ny)."""
+        """Flooded film with mass-conserving cavitation, from a guess and its filled nodes (nx, ny)."""
         supply = flooded_inlet(self.level, self.problem.wedge_order, first_order=first_order)
         return replace(self, supply=supply)._turns(state, heat, with_inlet(filled), spike=False)
 
@@ -373,9 +374,9 @@ class OuterIteration:
         weight: Array,
         spike: bool,
     ) -> HeatedGrid:
-        """Film and temperature in turns until both stand, or their iteration ends without.
+        """Compute film and temperature alternately until both have converged, or their iteration ends.
 
-        ``weight`` (nx, ny) is that of the changes of the temperature.
+        ``weight`` (nx, ny) multiplies the changes of the temperature.
         """
         most, times = self.problem.max_iterations, 1 if carried is None else _CARRYING
         # The temperature in cavities and next to spots follows small changes of the film.
@@ -452,7 +453,7 @@ class OuterIteration:
         """Temperature of a held film together with its flow; None if it has no finite solution.
 
         The heat of shear of a cold Newtonian film is many orders of magnitude too large. The film, and above
-        all its spike, would follow each intermediate temperature. Where the pressure gradient and not the
+        all its spike, would follow each intermediate temperature. If the pressure gradient and not the
         slip drives the flow, the temperature of a film far from its solution may run away. The first
         temperature counts then.
         """
@@ -491,7 +492,7 @@ def goes_round(changes: list[float], allowed: float) -> bool:
 
 
 def change_between(weight: Array, heat: Heat, new: Heat, thermal: Thermal) -> float:
-    """Change of the temperature over that at which it stands."""
+    """Change of the temperature divided by the change at which it has converged."""
     rise = float(np.max(new.temperature)) - thermal.inlet_temperature
     change = np.max(weight * np.abs(new.temperature - heat.temperature))
     return float(change) / close_enough(rise)
@@ -539,8 +540,9 @@ def _near_edges(fraction: Array, mesh: Mesh) -> Array:
 # Variation of the solution for comparison: iteration and temperature -> iteration and initial temperature.
 Variation: TypeAlias = Callable[[OuterIteration, Heat], tuple[OuterIteration, Heat]]
 
-# Growth of the temperature at the pressure spike on a grid that is four times finer, over that from the next
-# coarser grid: as much again. Where the stress grows with the spike, the second doubling adds twice as much.
+# Growth of the temperature at the pressure spike on a grid that is four times finer, divided by the growth
+# from the next coarser grid: as much again. If the stress grows with the spike, the second doubling adds
+# twice as much.
 _GROWTH, _GROWTH_UNBOUNDED = 1.0, 3.0
 
 # Smallest error that is stated [K].
@@ -577,7 +579,7 @@ def _along(grids: list[HeatedGrid]) -> float | None:
 
     At first order the error is the difference to the next coarser grid, and half of the difference between
     the two grids before. The larger one counts, as a difference of two maxima passes through zero. A peak
-    that the grid hardly shows may still become the largest one.
+    that the grid barely shows may still become the largest one.
     """
     known = [grid for grid in grids[-3:] if grid.status == "converged" and grid.heat is not None]
     if len(known) < 2 or known[-2:] != grids[-2:]:
@@ -588,7 +590,7 @@ def _along(grids: list[HeatedGrid]) -> float | None:
 
 
 def _growing_peak(coarse: HeatedGrid, fine: HeatedGrid) -> float:
-    """Largest rise less that of the fine grid [K], if the growth from the coarse grid goes on."""
+    """Largest rise less the largest rise on the fine grid [K], if the growth from the coarse grid goes on."""
     before, now = coarse.middle, fine.middle
     assert before is not None and now is not None
     growth = np.maximum(now - on_mesh(before, coarse.level.mesh, fine.level.mesh), 0.0)
@@ -697,7 +699,7 @@ def _careful(
 
 
 def _variants(iteration: OuterIteration, *, held: bool) -> list[OuterIteration]:
-    """Iteration with and without films that are held; that with ``held`` comes first."""
+    """Iteration with and without films that are held; the iteration with ``held`` comes first."""
     return [replace(iteration, held=each) for each in (held, not held)]
 
 
@@ -727,7 +729,7 @@ def start_of(
 ) -> tuple[State, Heat | None, Mask | None]:
     """Initial guess: the film with heat on the coarser grid, or the isothermal film on the first grid.
 
-    Its filled nodes (nx, ny) are None of a film that does not carry its oil.
+    Its filled nodes (nx, ny) are None of a film without mass-conserving cavitation.
     """
     level = iteration.level
     same = [solution for solution in starts if solution.level.mesh.shape == level.mesh.shape]
@@ -745,7 +747,7 @@ def start_of(
 
 
 def _filled_on(level: Level, coarse: GridSolution) -> Mask | None:
-    """Nodes (nx, ny) that oil fills in a film on some grid; None if that does not carry its oil."""
+    """Nodes (nx, ny) that oil fills in a film on some grid; None if its cavitation does not conserve mass."""
     return None if coarse.content is None else filled_on(level.mesh, coarse.level.mesh, coarse.content.filled)
 
 

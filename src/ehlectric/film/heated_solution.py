@@ -46,8 +46,8 @@ from ehlectric.film.shear_flow import Traction, traction
 from ehlectric.film.starved_solver import Solver, StarvedProblem
 from ehlectric.runtime.threads import quiet_solution
 
-# Part of its heat that a film may make or lose by its grid. Where it is more, film and temperature do not
-# belong together, even if both stand still.
+# Part of its heat that a film may make or lose by its grid. If it is more, film and temperature do not
+# belong together, even if both no longer change.
 _MOST_IMBALANCE = 0.1
 
 # Largest number of nodes for a film with shear or heat at a known temperature, and for one with its own
@@ -88,8 +88,8 @@ class HeatedSolution(HeatedNodes):
     # Nodal values over the whole domain where the last grid is a patch; None where it is the whole domain.
     outside: HeatedNodes | None
     zeta: Array  # positions z/h of the nodes across the film, shape (nz,)
-    # max_temperature_rise and temperature_rise_error: largest rise of the mid-film temperature over that of
-    # the oil that enters [K], and the estimate of its error (``rise_error``).
+    # max_temperature_rise and temperature_rise_error: largest rise of the mid-film temperature above the
+    # temperature of the oil that enters [K], and the estimate of its error (``rise_error``).
     max_temperature_rise: float | None
     temperature_rise_error: float | None
     traction_coefficient: float
@@ -142,8 +142,8 @@ def heated_solution(
 ) -> tuple[RefinedSolution, RefinedSolution]:
     """Isothermal Newtonian film of a problem, and its film with heat or shear on the same grids.
 
-    The film is flooded first, and then has its supply of oil. Where this is a layer, the flooded film is only
-    a guess, and may be missed. ``order`` is the order of the wedge term.
+    The film is flooded first, and then has its supply of oil. If the supply is a layer, the flooded film is
+    only a guess, and may be missed. ``order`` is the order of the wedge term.
     """
     cold = replace(problem, physics=None, most_nodes=_most_nodes(problem))
     simple = film_method(cold)(cold, progress)

@@ -30,7 +30,7 @@ class Property:
     slopes: Array
     t: Array  # temperature on the range of the series, mapped to -1 ... 1
     half_range: float  # [K]
-    # Whether the property goes on beyond the range as a parabola, up to its vertex, in place of a line.
+    # Whether the property goes on beyond the range as a parabola, up to its vertex, instead of a line.
     curved: bool = False
 
     @cached_property
@@ -64,7 +64,7 @@ class Property:
 
     @cached_property
     def _reach(self) -> Array:
-        """Distance from the range, of a parabola at most that of its vertex."""
+        """Distance from the range, of a parabola at most the distance of its vertex."""
         beyond = self.t - self._inside
         slope, curvature = self._by_t, self._curvature
         vertex = np.divide(-slope, curvature, out=np.full_like(slope, np.inf), where=curvature != 0.0)
@@ -126,7 +126,7 @@ class HotOil:
     # lowest and highest: range of temperature [K].
     lowest: float
     highest: float
-    # Whether properties go on beyond the range as parabolas, up to their vertices, in place of lines.
+    # Whether properties go on beyond the range as parabolas, up to their vertices, instead of lines.
     curved: bool = False
 
     @classmethod
@@ -217,7 +217,9 @@ def _derived(coefficients: Array) -> Array:
 
 @cache
 def _derivative(count: int) -> Array:
-    """Matrix from the coefficients of a Chebyshev series to those of its derivative, (count - 1, count)."""
+    """Matrix from the coefficients of a Chebyshev series to the coefficients of its derivative, (count - 1,
+    count).
+    """
     return np.asarray(chebyshev.chebder(np.eye(count), axis=0))
 
 
@@ -243,7 +245,7 @@ class Body:
     12.47
     """
 
-    temperature: float  # bulk temperature, that of the surface before it enters the contact [K]
+    temperature: float  # bulk temperature: of the surface before it enters the contact [K]
     thermal_conductivity: float  # [W/(m K)]
     heat_capacity: float  # specific heat capacity [J/(kg K)]
     density: float  # [kg/m^3]
@@ -266,7 +268,7 @@ class Thermal:
 
 @dataclass(frozen=True)
 class Physics:
-    """Rheology and heat of a film, beside its isothermal Newtonian problem."""
+    """Rheology and heat of a film, in addition to its isothermal Newtonian problem."""
 
     rheology: Rheology  # law between shear stress and shear rate, with its constants in SI units
     # Speeds u_a and u_b of the surfaces 1 and 2 along x [m/s]; their mean is positive.
@@ -304,8 +306,8 @@ class HeatedFilm(Values):
     shear_stress: Array = field(
         metadata=stored("nodes", "Pa", "finite", "shear stress at mid-film along entrainment", needed=False)
     )  # shear stress at mid-film along entrainment [Pa], positive where surface 1 is the faster one
-    # Mean shear stress at mid-film over the mean pressure, dimensionless; its sign is that of the stress.
-    # None, as the other friction, if the film did not converge.
+    # Mean shear stress at mid-film divided by the mean pressure, dimensionless; its sign is the sign of the
+    # stress. None, as the other friction, if the film did not converge.
     traction_coefficient: float | None = field(metadata=number())
     # Rolling friction over the load, dimensionless, of each of the two surfaces.
     rolling_coefficient: float | None = field(metadata=number())
@@ -323,8 +325,8 @@ class HeatedFilm(Values):
         default=None,
         metadata=stored("zeta", "1", "increasing", f"fraction of the film, {_ACROSS}", needed=False),
     )
-    # Temperature in the film [K]; its first and last rows are those of the surfaces, shape (nz, nx) or
-    # (nz, nx, ny).
+    # Temperature in the film [K]; its first and last rows are the temperatures of the surfaces, shape (nz,
+    # nx) or (nz, nx, ny).
     temperature: Array | None = field(
         default=None,
         metadata=stored("zeta nodes", "K", "positive", f"temperature in the film, {_ACROSS}", needed=False),
@@ -332,7 +334,7 @@ class HeatedFilm(Values):
     mid_temperature: Array | None = field(
         default=None, metadata=stored("nodes", "K", "positive", "temperature at mid-film", needed=False)
     )  # [K]
-    # Largest temperature at mid-film less that of the oil in the inlet [K].
+    # Largest temperature at mid-film less the temperature of the oil in the inlet [K].
     max_temperature_rise: float | None = field(default=None, metadata=number())
     # Estimated error of ``max_temperature_rise`` by the grids along and across the film, the iteration and
     # extrapolated properties of the oil [K]; None if unknown.

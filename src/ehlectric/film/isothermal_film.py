@@ -53,7 +53,7 @@ class Film(FilmSolution):
     def domain_loss(self) -> float | None:
         """Estimated relative loss of film thickness because the domain is too small, dimensionless.
 
-        It is the share of the pressure that is missing, or that of the load where this is more, as in thick
+        It is the larger share of the missing pressure and the missing load; the load is larger in thick
         films of light loads. None for an instant of a transient film.
         """
         if self.inlet_deficit is None:
@@ -93,7 +93,7 @@ def solve_film(problem: FilmProblem, *, progress: Progress | None = None) -> Fil
     no error is raised if it did not converge.
 
     The equations are (1) to (13) of Morris et al. (2022), doi:10.3390/lubricants10050087, and a
-    complementarity condition for cavitation, which the paper leaves out. The iteration is nested as in full
+    complementarity condition for cavitation, which the paper omits. The iteration is nested as in full
     multigrid: the initial guess on every grid is the solution on the next coarser grid.
 
     Examples
@@ -118,7 +118,7 @@ def _film(refined: RefinedSolution) -> Film:
 
 
 def _on_line(values: NDArray[Any]) -> NDArray[Any]:
-    """Nodal values (nx,) from those with one node across (nx, 1)."""
+    """Nodal values (nx,) from values with one node across (nx, 1)."""
     return values[:, 0]
 
 
@@ -139,7 +139,8 @@ _LOST_AT_SIDES = (0.6, 0.6, 0.6, 0.6, 1.4)
 class PointFilm(FilmSolution):
     """Lubricant film of a point contact in SI units, with its status and residuals.
 
-    The class adds the attributes below to those of ``FilmSolution``. Nodal values have the shape (nx, ny).
+    The class adds the attributes below to the attributes of ``FilmSolution``. Nodal values have the shape
+    (nx, ny).
     """
 
     # Positions of the nodes across entrainment [m], shape (ny,).

@@ -22,7 +22,7 @@ COARSEST = 201
 COARSEST_POINT = 600
 
 # Line contacts with more nodes than the first number end at the second one: the dense solve is then a small
-# part of a cycle, and an exact solution on 201 nodes overshoots more beside the pressure spike.
+# part of a cycle, and an exact solution on 201 nodes overshoots more next to the pressure spike.
 _LARGE, _COARSEST_OF_LARGE = 10_000, 101
 
 # Ratio dX/dY of the grid spacings above which the next coarser grid has fewer nodes across entrainment only.
@@ -126,9 +126,9 @@ class Level:
     def restrict(self, residual: Array) -> Array:
         """Transfer a residual (nx, ny) of the next finer grid to this grid.
 
-        In a line contact the residual is injected. Beside the pressure spike neighbouring rows differ by
+        In a line contact the residual is injected. Next to the pressure spike neighbouring rows differ by
         orders of magnitude, and an average would add the errors of large rows to small rows. In a point
-        contact the residual is averaged. Neighbouring lines are hardly coupled in the Hertz zone, so that
+        contact the residual is averaged. Neighbouring lines are coupled weakly in the Hertz zone, so that
         their residuals may differ.
         """
         if self.averaged is None:
@@ -198,7 +198,7 @@ def _meshes(nodes: int, inlet: float, outlet: float, width: Width | None) -> lis
         coarsest = COARSEST if nodes <= _LARGE else _COARSEST_OF_LARGE
     while meshes[-1].weights.size > coarsest or len(meshes) < 2:
         mesh = meshes[-1]
-        # Only lines along x are relaxed. Where the nodes across are much closer, only the y axis is
+        # Only lines along x are relaxed. If the nodes across are much closer, only the y axis is
         # coarsened.
         if mesh.dy is None or mesh.dx <= NEARER * mesh.dy:
             nodes = nodes // 2 + 1

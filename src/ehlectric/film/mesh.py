@@ -37,7 +37,7 @@ class Width:
     def coarser(self) -> Width:
         """Domain with half the number of intervals and the same range of Y."""
         nodes = 2 * (self.y.size // 2) + 1 if self.halved else self.nodes // 2 + 1
-        # If the finest grid covers the whole domain, all coarser grids do so too.
+        # If the finest grid covers the whole domain, all coarser grids also cover it.
         return replace(self, nodes=nodes, symmetric=self.halved)
 
 

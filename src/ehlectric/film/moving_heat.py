@@ -4,8 +4,8 @@ A time step is implicit. At each node across the film the heat that the oil hold
 
     rho c theta h (T - T_before)/dt,
 
-and the mass that the gap gains there moves oil across the film. Compression heats the oil by the change of
-the pressure in time, too. A surface is a half-space that takes up the flux that each of its points has met on
+and the mass that the gap gains there moves oil across the film. Compression also heats the oil by the change
+of the pressure in time. A surface is a half-space that takes up the flux that each of its points has met on
 its way. Conduction along the surface is neglected in what changes with time. With the flux q of the
 stationary film, from which the motion starts, and the flux q' above it, the temperature of a surface with the
 speed u is
@@ -39,9 +39,11 @@ class Warmth:
     heat: Heat
     mass: Array  # mass theta rho h of the oil at the nodes across the film [kg/m^2], shape (nz, nx, ny)
     pressure: Array  # pressure [Pa], shape (nx, ny)
-    # Ends of the time steps so far [s], the first of which is that of the stationary film, shape (n + 1,).
+    # Ends of the time steps so far [s], the first of which is the time of the stationary film, shape (n +
+    # 1,).
     times: Array
-    # Flux into both surfaces in each step above that of the stationary film [W/m^2], shape (n, 2, nx, ny).
+    # Flux into both surfaces in each step above the flux of the stationary film [W/m^2], shape (n, 2, nx,
+    # ny).
     excess: Array
 
     @property
@@ -107,12 +109,14 @@ class MovingHeat:
         return Warmth(new, stream.mass, pressure, np.append(before.times, now), excess)
 
     def stands(self, solution: GridSolution, heat: Heat, new: Heat) -> bool:
-        """Whether a new temperature of a film is close enough to that with which the film was solved."""
+        """Whether a new temperature of a film is close enough to the temperature with which the film was
+        solved.
+        """
         weight = node_weight(self.iteration.level, solution.state)
         return change_between(weight, heat, new, self.thermal) < 1.0
 
     def _surface(self, number: int, before: Warmth, now: float, step: float) -> Surface:
-        """Surface whose temperature is known but for the flux of this step."""
+        """Surface whose temperature is known except for the flux of this step."""
         body, surface = self.thermal.bodies[number], self.surfaces[number]
         flux = self.stationary.flux[number]
         effusivity = np.sqrt(np.pi * body.density * body.heat_capacity * body.thermal_conductivity)

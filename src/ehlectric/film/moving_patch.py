@@ -1,9 +1,9 @@
 """Transient film of a contact, solved on the patch where a point contact's film is decided.
 
-The pressure outside the patch is that of the stationary film before the motion: roughness that passes there
-hardly changes it, as the gap is several times the film. Its deflection, its load and its values on the edges
-of the patch enter as in a stationary patch. A line contact, and a film that fills its domain, are solved on
-the whole domain.
+The pressure outside the patch is the pressure of the stationary film before the motion: roughness that passes
+there changes it very little, as the gap is several times the film. Its deflection, its load and its values on
+the edges of the patch enter as in a stationary patch. A line contact, and a film that fills its domain, are
+solved on the whole domain.
 """
 
 from __future__ import annotations
@@ -27,9 +27,9 @@ from ehlectric.film.problem import FilmProblem
 from ehlectric.film.unsteady import History, Instant, MovingGap, UnsteadyFilm
 from ehlectric.runtime.threads import quiet_solution
 
-# Distance of the patch's edge ahead of the dry contact, in semi-axes along entrainment. It is twice that of a
-# stationary patch: with 0.7 the central film of four moving rough contacts was off by up to 0.27 %, with 1.4
-# by 0.05 %.
+# Distance of the patch's edge ahead of the dry contact, in semi-axes along entrainment. It is twice the
+# distance of a stationary patch: with 0.7 the central film of four moving rough contacts was off by up to
+# 0.27 %, with 1.4 by 0.05 %.
 AHEAD = 1.4
 
 
@@ -127,7 +127,7 @@ class MovingFilm:
 
 
 def _composed(outside: NDArray[Any], inside: NDArray[Any], nodes: tuple[slice, slice]) -> NDArray[Any]:
-    """Nodal values of the whole domain (nx, ny), with those of a patch at its nodes."""
+    """Nodal values of the whole domain (nx, ny), with the values of a patch at its nodes."""
     values = outside.copy()
     values[nodes] = inside
     return values

@@ -5,7 +5,7 @@ the coarsest grid, where a dense factorisation solves the system. Each finer gri
 after the coarse-grid correction.
 
 Line relaxation changes all nodes of a line along x at once, with the band of the Jacobian around its
-diagonal. Where the deflection dominates the Jacobian, an unknown is not the pressure of one node but a dipole
+diagonal. If the deflection dominates the Jacobian, an unknown is not the pressure of one node but a dipole
 or a second difference of pressures. Its deflection decays faster with distance
 (``ehlectric.film.levels.Distribution``).
 """
@@ -103,8 +103,8 @@ def half_band(level: Level) -> int:
 def preconditioner_type(level: Level) -> type[np.floating[Any]]:
     """Type of the numbers of a preconditioner: single precision halves the work in a point contact.
 
-    GMRES needs no more of it, as its own products are of double precision. Beside the spike of a line contact
-    the coefficients differ by too many orders of magnitude.
+    GMRES needs no more of it, as its own products are of double precision. Next to the spike of a line
+    contact the coefficients differ by too many orders of magnitude.
     """
     return np.float64 if level.mesh.dy is None else np.float32
 
@@ -152,7 +152,7 @@ def _rows(gap: Gap, stencils: tuple[Stencil, Stencil], distributed: Mask, band: 
     rows = np.empty((ny, nx, 3 * band + 1), dtype=kind)
     rows[..., :band] = 0.0
     kept, inner = rows[..., band:], slice(1, -1)
-    # An unknown beside node i, at i + offset, also changes P of the nodes over which it is distributed.
+    # An unknown next to node i, at i + offset, also changes P of the nodes over which it is distributed.
     padded = np.zeros((ny, nx + 2 * band), dtype=kind)
     padded[:, band:-band] = distributed.T
     kept[...] = sum(
@@ -295,7 +295,7 @@ class DenseSolver:
 
         The rows of the derivatives must be zero at cavitated nodes.
         """
-        # Nodes before and behind the full film, as in a cavitated outlet, are left out.
+        # Nodes before and behind the full film, as in a cavitated outlet, are skipped.
         free = np.flatnonzero(full_film)
         part = slice(int(free[0]), int(free[-1]) + 1) if free.size else slice(0, 1)
         n = part.stop - part.start
@@ -346,7 +346,7 @@ def _fill_of_line(matrix: Array, gap: Gap, by_p: Stencil, by_h: Stencil, part: s
 def resolved_nodes(level: Level, eps: Array, full_film: Mask) -> Mask:
     """Mask of the nodes whose residual is passed to the coarser grids.
 
-    Beside the pressure spike of a line contact eps changes by orders of magnitude from node to node. There
+    Next to the pressure spike of a line contact eps changes by orders of magnitude from node to node. There
     only the relaxation acts, which is almost exact.
     """
     resolved = full_film.copy()

@@ -63,7 +63,7 @@ def nested_iteration(
     they were computed, after the known ones.
 
     If the solution on a grid does not converge, this grid and the next finer grid start from the Hertz
-    pressure. Where the surfaces touch on a grid, the next finer grid starts from this film at once.
+    pressure. If the surfaces touch on a grid, the next finer grid starts from this film at once.
     """
     solutions = list(known)
     for levels in reversed(_grids(problem, solved=known[-1].level.nodes if known else 0)):
@@ -206,7 +206,7 @@ def _mixed(
     *others, best = conserving.from_full(full, thorough=finest)
     if best.status == "converged":
         return _replaced([*others, *grids], best)
-    # A film that makes oil is better than none, and a warning says so.
+    # A film that creates oil is better than none; a warning reports it.
     return [*others, best, *grids]
 
 
@@ -222,11 +222,11 @@ def _replaced(grids: list[GridSolution], better: GridSolution) -> list[GridSolut
 
 def accurate_film(problem: FilmProblem, nodes: int, start: State) -> GridSolution:
     """Solution with the wedge term and the flow of the highest order, from a solution of first order. Returns
-    last iterate on the grid with ``nodes`` nodes; its tolerance is that of the coarser grids of the nested
-    iteration.
+    last iterate on the grid with ``nodes`` nodes; its tolerance equals the tolerance of the coarser grids of
+    the nested iteration.
     """
     fluid = problem.fluid
-    # All laws by name are those of a Newtonian fluid. The law of a sheared oil stays.
+    # All laws by name are laws of a Newtonian fluid. The law of a sheared oil stays.
     if isinstance(fluid.flow, str):
         fluid = replace(fluid, flow="newtonian")
     posed = problem if nodes == problem.nodes else problem.halved()
@@ -237,7 +237,7 @@ def accurate_film(problem: FilmProblem, nodes: int, start: State) -> GridSolutio
 def _grids(problem: FilmProblem, *, solved: int) -> list[list[Level]]:
     """Grids of the nested iteration from the finest on, each with the coarser grids of its preconditioner.
 
-    Grids of at most ``solved`` nodes along x are left out. If none is solved, there are at least two grids,
+    Grids of at most ``solved`` nodes along x are skipped. If none is solved, there are at least two grids,
     for the error estimate. Each has half the intervals of the grid before, along both axes. The grids of a
     preconditioner may have half the intervals along one axis only.
     """
@@ -304,7 +304,7 @@ def levels_of(problem: FilmProblem) -> list[Level]:
 def _line_levels(
     nodes: int, inlet: float, outlet: float, geometry: Geometry, wedge_order: int
 ) -> tuple[Level, ...]:
-    """Grids of a smooth line contact, which are the same for all contacts on as many nodes."""
+    """Grids of a smooth line contact; contacts on equally many nodes share them."""
     return tuple(hierarchy(nodes, inlet=inlet, outlet=outlet, geometry=geometry, wedge_order=wedge_order))
 
 
@@ -313,13 +313,14 @@ def _newton_on(
 ) -> Callable[[State], GridSolution]:
     """Newton's method for the film equations on the first of ``levels``: a function of the initial guess.
 
-    The tolerance is that of the problem on its own grid, and larger on coarser grids. ``spike`` tells whether
-    to solve the nodes of the pressure spike separately.
+    The tolerance is the problem's tolerance on its own grid, and larger on coarser grids. ``spike`` is
+    whether to solve the nodes of the pressure spike separately.
     """
     return partial(
         newton,
         grid_problem(problem, levels, progress),
-        # The residual of an interpolated film may be small although the film is that of the coarser grid.
+        # The residual of an interpolated film may be small although the film is still the film of the coarser
+        # grid.
         min_iterations=1,
         # The spike of a point contact is a ridge, of which no single line can be solved separately.
         eliminate_spike=spike and problem.width is None,
@@ -339,7 +340,7 @@ def interpolated_state(level: Level, coarse: GridSolution) -> State:
 def open_state(level: Level, coarse: GridSolution) -> State:
     """State on a grid with the pressure of a coarser solution and without contact.
 
-    Its thinnest gap is at least half of that of the coarser solution.
+    Its thinnest gap is at least half of the thinnest gap of the coarser solution.
     """
     return interpolated_state(level, coarse).lifted(0.5 * float(coarse.state.thickness.min()))
 

@@ -51,7 +51,7 @@ class NewtonStep:
 class State:
     """Iterate of the film on one grid, dimensionless."""
 
-    # Pressure P; where the surfaces touch, that of the oil and of the asperities together, shape (nx, ny).
+    # Pressure P; where the surfaces touch, the sum of the pressures of oil and asperities, shape (nx, ny).
     pressure: Array
     h00: float
     thickness: Array  # film thickness H, which follows from P and H00, shape (nx, ny)
@@ -142,7 +142,7 @@ class GridSolution:
 
 @dataclass(frozen=True)
 class Guess:
-    """Initial guess of a film on one grid that carries its oil."""
+    """Initial guess of a film on one grid with mass-conserving cavitation."""
 
     state: State
     filled: Mask  # nodes that oil fills, shape (nx, ny)
@@ -336,7 +336,7 @@ def linear_tolerance(norm: float, before: float, tolerance: float) -> float:
 def _linearised(
     fluid: Fluid, levels: list[Level], state: State, now: Residual, *, last: list[Linearised]
 ) -> list[Linearised]:
-    """Jacobians on all grids at a state; the coarser ones are those of the last step where they serve."""
+    """Jacobians on all grids at a state; the coarser ones are taken from the last step if they serve."""
     kept = with_kept_preconditioner(last, now.flow, state.thickness, now.full_film)
     if kept is not None:
         return kept

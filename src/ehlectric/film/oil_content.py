@@ -6,7 +6,7 @@ condition of Elrod and Adams in the whole domain:
     P >= P_amb,   theta <= 1,   (P - P_amb) (1 - theta) = 0,
     d(theta rho H)/dX - d/dX(eps dP/dX) - d/dY(eps dP/dY) = 0
 
-A node is filled (theta = 1) or cavitated (P = P_amb). Where the gap is cavitated, the mass m = theta rho H,
+A node is filled (theta = 1) or cavitated (P = P_amb). If the gap is cavitated, the mass m = theta rho H,
 of a hot film with its drift (``Flow.carried``), is carried along entrainment by an upstream difference of
 first order, which conserves it whatever the grid. It begins as the layer of oil at the inlet edge. The masses
 of a run of cavitated nodes follow from the rows of the Reynolds equation one after the other. They are
@@ -45,7 +45,7 @@ class Steepness:
     """
 
     part: Array  # part w of the mass behind a node that is a mean, from 0 to 1, shape (nx, ny)
-    # by_before and by_node: derivatives of w by the full mass of the node before and by that of the node,
+    # by_before and by_node: derivatives of w by the full mass of the node before and of the node,
     # shape (nx, ny); zero on coarser grids.
     by_before: Array
     by_node: Array
@@ -80,7 +80,8 @@ class Supply:
     # Nodes whose mass enters no formula of a higher order, although they may be filled, shape (nx, ny).
     upwind: Mask | bool = False
     steepness: Steepness | None = None  # of the gap at the state; None where surfaces cannot touch
-    # Whether the mass behind nodes to which the gap closes steeply is that of the node in place of the mean.
+    # Whether the mass downstream of nodes to which the gap closes steeply is the mass of the node instead of
+    # the mean.
     first_order: bool = False
 
     def wedge(self, mesh: Mesh, filled: Mask, full: Array | None = None) -> Stencil:
@@ -109,7 +110,7 @@ class Supply:
 
         Behind a filled node the flow is 3/2 m of the node minus 1/2 m of the node before, as if oil filled
         the node. One whose content is below the full gap thus would be under tension as a filled one, and the
-        iteration cannot go round in circles there.
+        iteration cannot oscillate there.
         """
         if self.order == 1:
             return mass
@@ -159,7 +160,7 @@ class Runs:
         return np.where(self.cavitated, total - np.where(self.before < 0, 0.0, first), 0.0)
 
     def reduced(self, rows: Array) -> Array:
-        """Rows (nx, ny) with the rows of the run before each node added; only those of filled nodes count.
+        """Rows (nx, ny) with the rows of the run before each node added; only rows of filled nodes count.
 
         Examples
         --------
@@ -174,7 +175,7 @@ class Runs:
 
 @dataclass(frozen=True)
 class Faces:
-    """Weights of the mass of three nodes in the mass at the face behind each node but the last."""
+    """Weights of the mass of three nodes in the mass at the downstream face of each node except the last."""
 
     # far, near and ahead: of the node before, of the node and of the one behind the face, (nx - 1, ny).
     far: Array
@@ -202,7 +203,7 @@ class Faces:
         return cls(far, near, ahead)
 
     def steep(self, filled: Mask, steepness: Steepness, full: Array | None, *, first_order: bool) -> Faces:
-        """Weights where the gap closes steeply; with ``full`` those of the derivatives by the mass."""
+        """Weights where the gap closes steeply; with ``full`` the weights of the derivatives by the mass."""
         mean = np.where(filled[1:] & (not first_order), 0.5, 0.0)
         part = np.where(filled, steepness.part, 0.0)[:-1]
         off = Faces(-self.far, 1.0 - mean - self.near, mean - self.ahead)
@@ -217,7 +218,7 @@ class Faces:
         return Faces(far, near, ahead)
 
     def __call__(self, mass: Array) -> Array:
-        """Mass (nx - 1, ny) at the faces from that of the nodes (nx, ny)."""
+        """Mass (nx - 1, ny) at the faces from the mass at the nodes (nx, ny)."""
         before: Array = np.concatenate([mass[:1], mass[:-2]])
         return self.far * before + self.near * mass[:-1] + self.ahead * mass[1:]
 
@@ -241,7 +242,7 @@ class Faces:
 
 
 def of_filled(flow: Flow, filled: Mask) -> Flow:
-    """Flow whose density is zero where the film is not filled, so that its mass is that of filled nodes."""
+    """Flow whose density is zero where the film is not filled, so that only filled nodes have mass."""
     k = flow.coefficients
     density, density_p = (np.where(filled, values, 0.0) for values in (k.density, k.density_p))
     flow = replace(flow, coefficients=replace(k, density=density, density_p=density_p))
@@ -260,9 +261,10 @@ def unreduced(level: Level, flow: Flow, thickness: Array, filled: Mask, supply: 
 
 
 def content(runs: Runs, rows: Array, full: Array, dx: float) -> Array:
-    """Mass of oil that the surfaces carry out of each node (nx, ny): that of the full gap at filled nodes.
+    """Mass of oil that the surfaces carry out of each node (nx, ny): the mass of the full gap at filled
+    nodes.
 
-    ``rows`` (nx, ny) are those of the Reynolds equation without the masses of cavitated nodes, as
+    ``rows`` (nx, ny) are the rows of the Reynolds equation without the masses of cavitated nodes, as
     ``unreduced`` returns them; ``full`` (nx, ny) is the mass that a full gap carries.
 
     Examples
@@ -288,7 +290,7 @@ def with_row_before(stencil: Stencil, rows: Mask) -> Stencil:
     """Stencil to whose ``rows`` (nx, ny) the row of the node before is added.
 
     A neighbour of the node before is one step further upstream; the one three steps upstream and those across
-    entrainment are left out.
+    entrainment are neglected.
     """
     c = stencil.coefficients.copy()
     for row in range(3):
@@ -332,8 +334,9 @@ class Carried:
     """Oil that is carried through cavities of a stationary film."""
 
     supply: Supply  # oil at the inlet edge and order of the wedge term
-    filled: Mask  # nodes that oil fills, those of the inlet edge among them, shape (nx, ny)
-    # Mass of oil that the surfaces carry out of each node, theta times that of the full gap, shape (nx, ny).
+    filled: Mask  # nodes that oil fills, with the nodes of the inlet edge, shape (nx, ny)
+    # Mass of oil that the surfaces carry out of each node, theta times the mass of the full gap, shape (nx,
+    # ny).
     mass: Array = field(default_factory=lambda: np.zeros((1, 1)))
 
     @property

@@ -23,7 +23,8 @@ from ehlectric.film.newton import GridSolution
 from ehlectric.film.problem import FilmProblem
 
 # Distances of the patch's edges from the dry contact, in semi-axes along entrainment: ahead of it, behind it
-# and beside it; and the same in lengths sqrt(2 H) over which the pressure of a thick film builds up.
+# and at its sides; and these distances in lengths sqrt(2 H) over which the pressure of a thick film builds
+# up.
 AHEAD, _AHEAD_THICK = 0.7, 1.0
 _BEHIND, _ACROSS = (0.3, 0.5), (0.5, 1.0)
 
@@ -157,7 +158,7 @@ class Joined:
     def __call__(self, coarse: NDArray[Any], fine: NDArray[Any]) -> NDArray[Any]:
         """Nodal values (nx, ny) from those on both meshes.
 
-        Outside the patch the coarse values are interpolated; flags are those of the nearest coarse node.
+        Outside the patch the coarse values are interpolated; flags are taken from the nearest coarse node.
         """
         mesh, values = self.coarse, self.coarse.mirrored(coarse)
         if values.dtype == bool:

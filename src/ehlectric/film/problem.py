@@ -27,7 +27,8 @@ class Scales:
     length: float = 1.0
     pressure: float = 1.0  # Hertz pressure p_h [Pa]
     thickness: float = 1.0  # film thickness of H = 1, b^2/R [m]
-    # Ambient pressure [Pa]. It is kept beside the dimensionless ambient pressure to avoid rounding errors.
+    # Ambient pressure [Pa]. It is kept in addition to the dimensionless ambient pressure to avoid rounding
+    # errors.
     ambient_pressure: float = 0.0
 
 
@@ -44,8 +45,8 @@ class OilSupply:
     # Thickness H of the oil on both surfaces together at the inlet edge and at ambient pressure: function of
     # Y (ny,) -> H (ny,), dimensionless.
     layer: Callable[[Array], Array] | None = None
-    # Central film thickness over that of the flooded contact, above 0 and up to 1, for which a uniform layer
-    # is searched.
+    # Central film thickness divided by the thickness of the flooded contact, above 0 and up to 1, for which a
+    # uniform layer is searched.
     film_ratio: float | None = None
 
 
@@ -61,8 +62,8 @@ class FilmProblem:
     thickness b^2/R [m] of the result, and its ambient pressure [Pa]; ``added_gap``, gap that roughness adds:
     function of X (nx,) and Y (ny,) -> H (nx, ny); ``source``, right side of the Reynolds equation: function
     of X (nx,) and Y (ny,) -> (nx, ny); zero by default; ``edge_pressure``, pressure P on the edges of the
-    domain, in place of ambient pressure: function of X (nx,) and Y (ny,) -> (nx, ny), of which only the edges
-    count; ``outside_load``, load that oil outside of the domain carries, part of that of the geometry;
+    domain, instead of ambient pressure: function of X (nx,) and Y (ny,) -> (nx, ny), of which only the edges
+    count; ``outside_load``, load that oil outside of the domain carries, part of the load of the geometry;
     ``load_exponent``, exponent with which the expected film of a point contact falls over the load;
     ``boundary_film``, thickness H_s of the boundary film at which the surfaces touch, dimensionless;
     ``hardness``, largest pressure over p_h where the surfaces touch; above it asperities are flattened;
@@ -124,7 +125,7 @@ class FilmProblem:
         return np.where(mesh.edge, excess, 0.0)
 
     def tell(self, mesh: Mesh, error: float | None) -> None:
-        """Tell ``on_grid`` the discretisation error of a grid of the refinement, if anybody asks for it."""
+        """Call ``on_grid``, if given, with the discretisation error of a grid of the refinement."""
         if self.on_grid is not None:
             self.on_grid(mesh, error)
 

@@ -111,7 +111,7 @@ def stencil_matrix(stencil: Stencil, nodes: Mask) -> sparse.csc_array:
     return sparse.csc_array(entries, shape=(n, n))
 
 
-# Mass rho H at the face i+1/2 from the nodes i-1, i and i+1, by the order of the wedge term: that of the
+# Mass rho H at the face i+1/2 from the nodes i-1, i and i+1, by the order of the wedge term: the mass of the
 # upstream node, of a line through the two upstream nodes, and of a parabola through all three.
 _AT_FACE = {1: (0.0, 1.0, 0.0), 2: (-0.5, 1.5, 0.0), 3: (-0.125, 0.75, 0.375)}
 
@@ -121,7 +121,7 @@ def wedge_stencil(shape: tuple[int, int], dx: float, *, order: int) -> Stencil:
     dX, dimensionless. Returns operator on the mass rho H.
 
     The difference of the masses at the two faces of a node. The first face has no second upstream node; above
-    the first order it takes the mean of its two nodes. The third order is that of B. P. Leonard, Comput.
+    the first order it takes the mean of its two nodes. The third order follows B. P. Leonard, Comput.
     Methods Appl. Mech. Eng. 19 (1979) 59, doi:10.1016/0045-7825(79)90034-3.
 
     Examples

@@ -2,7 +2,7 @@
 film, and traction.
 
 A face has the mean film thickness and density of its two nodes and the logarithmic mean of their fluidities,
-as for a Newtonian oil (``ehlectric.film.face_flow.mean_fluidity``). Where the viscosity varies across the
+as for a Newtonian oil (``ehlectric.film.face_flow.mean_fluidity``). If the viscosity varies across the
 film, the logarithm of its ratio to the viscosity of the reference temperature is the mean of the two nodes.
 The mass flux relative to the mean speed of the surfaces is, with the dimensionless flux of a column
 (``ehlectric.film.shear_stress``),
@@ -10,9 +10,9 @@ The mass flux relative to the mean speed of the surfaces is, with the dimensionl
     F = (12/lambda) H^2 S flux(a, w, q, g),    q = H dP/dX/S,    g = lambda SRR/(12 H S)
 
 Stresses are over p_h b/R, and S is the characteristic stress of the law. F is the mass
-flux less the mean density times u_m h. The wedge term is therefore that of a Newtonian oil with the mean
-density across the film. Nearly all columns have stress differences below the characteristic stress, for which
-few Gauss points across the film are exact. Only the columns at the pressure spike need many.
+flux less the mean density times u_m h. The wedge term therefore equals the wedge term of a Newtonian oil with
+the mean density across the film. Nearly all columns have stress differences below the characteristic stress,
+for which few Gauss points across the film are exact. Only the columns at the pressure spike need many.
 
 The shear stress in the film is tau = tau_m + (z - h/2) dp/dx. The mid-film stress tau_m drags both surfaces
 in opposite directions, and vanishes in pure rolling. The rest, h/2 dp/dx on each surface, resists the motion
@@ -60,8 +60,8 @@ from ehlectric.film.shear_stress import (
 )
 
 # Largest stress difference over the characteristic stress for which few points are enough, and the number of
-# these points for uniform properties and for those of a temperature profile. The flux is then exact to 1e-10
-# for the Eyring law and to 1e-7 for Carreau's law.
+# these points for uniform properties and for the properties of a temperature profile. The flux is then exact
+# to 1e-10 for the Eyring law and to 1e-7 for Carreau's law.
 _SMALL, _FEW, _FEW_OF_PROFILE = 2.0, 8, 12
 
 # Number of columns, as around a pressure spike, up to which two quadratures take longer than the larger one.
@@ -79,9 +79,9 @@ def flux_of(
 
     ``mean``, fluidity eta_0/eta of the columns, at the reference temperature, shape (...); ``gradient`` and
     ``slip``, q and g of ``shear_stress``, along the axis of the flux and, for d = 2, along the other axis,
-    shape (d, ...); ``profile``, logarithm of the viscosity over that at the reference temperature, and the
-    density, at the nodes across the film, shape (nz, ...). Returns flux and derivatives; those by viscosity
-    and density are by the values at the nodes across the film.
+    shape (d, ...); ``profile``, logarithm of the viscosity divided by the viscosity at the reference
+    temperature, and the density, at the nodes across the film, shape (nz, ...). Returns flux and derivatives;
+    the derivatives by viscosity and density are by the values at the nodes across the film.
 
     Examples
     --------
@@ -135,7 +135,7 @@ def _at_points(
 ) -> Flux:
     """Flux of some columns (n,) by one quadrature, by the equations of their law and number of axes.
 
-    The arguments are those of ``flux_of``.
+    The arguments are the arguments of ``flux_of``.
     """
     if profile is None:
         fluidity, weight = mean[np.newaxis], quadrature.offset[:, np.newaxis]
@@ -267,9 +267,9 @@ class ShearedFlow:
         gradient = (gap / spacing * difference / scale)[np.newaxis]
         sliding = (slip / (gap * scale))[np.newaxis]
         if lateral is not None:
-            # The derivatives by the gradient along the other axis are left out of the Jacobian, as they reach
-            # nodes outside its stencil. They are products of both gradients; Newton's method takes a few more
-            # steps without them.
+            # The derivatives by the gradient along the other axis are omitted from the Jacobian, as they
+            # reach nodes outside its stencil. They are products of both gradients; Newton's method takes a
+            # few more steps without them.
             gradient = np.concatenate([gradient, (gap * _mean(lateral) / scale)[np.newaxis]])
             still = np.zeros_like(sliding)
             sliding = np.concatenate([still, sliding] if across else [sliding, still])
@@ -298,7 +298,7 @@ class ShearedFlow:
 
 
 def drift_of(log_ratio: Array, density: Array, slide_to_roll_ratio: float) -> Array:
-    """Mass that flows through a gap without a gradient of P, less that of its oil at the mean speed.
+    """Mass that flows through a gap without a gradient of P, less the mass flow of its oil at the mean speed.
 
     ``log_ratio``, logarithm of the viscosity, and ``density``, at the nodes across the film, (nz, ...);
     ``slide_to_roll_ratio``, slip (u_2 - u_1)/u_m. The stress is the same across the film, so that the shear
@@ -330,7 +330,7 @@ def gradients(pressure: Array, mesh: Mesh) -> tuple[Array, Array]:
 
 
 def _mean(values: Array) -> Array:
-    """Means of neighbours along the last but one axis."""
+    """Means of neighbours along the second last axis."""
     return np.asarray(0.5 * (values[..., 1:, :] + values[..., :-1, :]))
 
 
@@ -508,7 +508,7 @@ def traction(
     of each node (nx, ny).
 
     ``filled`` (nx, ny) is the part of the gap that the oil fills. The stress of a cavitated film is this part
-    of that of a full film.
+    of the stress of a full film.
     """
     weights = stress_ratio / load * mesh.weights * part
     sliding = np.sum(weights * filled * columns.middle[0])
@@ -521,7 +521,7 @@ def filled_part(full_film: Mask, mass: Array) -> Array:
 
     ``full_film``, nodes with a full film, shape (nx, ny); ``mass``, mass rho H of a full film,
     shape (nx, ny). Returns one at the nodes with a full film and before the first of them; behind the last of
-    them the mass at the last full node over that of a full film, at most one, shape (nx, ny).
+    them the mass at the last full node divided by the mass of a full film, at most one, shape (nx, ny).
 
     Examples
     --------

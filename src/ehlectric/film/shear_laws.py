@@ -83,7 +83,7 @@ class ShearLaw:
     # (reduced rate x = mu gamma_dot/tau_s >= 0, constants) -> (reduced stress, its derivative by x). The
     # inverse of the law, or a close upper bound of it.
     stress: Callable[[Array, Constants], tuple[Array, Array]]
-    # Whether the rate factor is that of the mean stress, the same across the film (``even``).
+    # Whether the rate factor belongs to the mean stress and is uniform across the film (``even``).
     even: bool = False
 
 
@@ -183,7 +183,7 @@ def _eyring_stress(rate: Array, _constants: Constants) -> tuple[Array, Array]:
 
 
 def _carreau_stress(rate: Array, constants: Constants) -> tuple[Array, Array]:
-    """Stress of Carreau's law in rate, r = x (1 + x^2)^((n-1)/2), not below that of the law in stress."""
+    """Stress of Carreau's law in rate, r = x (1 + x^2)^((n-1)/2), at least the stress of the other law."""
     n = constants["carreau_exponent"]
     base = np.hypot(1.0, rate)
     return rate * base ** (n - 1.0), base ** (n - 3.0) * (1.0 + n * rate**2)
@@ -200,7 +200,7 @@ def _limiting_stress(rate: Array, _constants: Constants) -> tuple[Array, Array]:
     return stress, slope
 
 
-# Laws whose shear stress grows with pressure as a power of the viscosity. That of oils does not.
+# Laws whose shear stress grows with pressure as a power of the viscosity. The shear stress of oils does not.
 UNBOUNDED = ("newtonian", "carreau")
 
 # Shear-thinning laws by name.

@@ -7,22 +7,22 @@ stress t follows from the slip of the two surfaces, and the flux from t:
     Int a phi(tau) dzeta = g,    flux = Int w a phi(tau) dzeta,    phi(r) = r f(r^2)
 
 All quantities are dimensionless: stresses over the characteristic stress of the law, a = eta_0/eta over zeta,
-g the slip over the film thickness, and w the oil mass below zeta less half of that of the film. The flux is
-thereby that of the oil relative to the mean speed of the surfaces (integration by parts of Int rho u dzeta).
-It is the generalised Reynolds equation of P. Yang and S. Wen, J. Tribol. 112 (1990) 631,
+g the slip over the film thickness, and w the oil mass below zeta less half of the oil mass of the film. The
+flux is thereby the flux of the oil relative to the mean speed of the surfaces (integration by parts of Int
+rho u dzeta). It is the generalised Reynolds equation of P. Yang and S. Wen, J. Tribol. 112 (1990) 631,
 doi:10.1115/1.2920308, without its effective viscosities.
 
-A Newtonian oil has the rate factor f = 1 across the film. At a limiting shear stress the stress law alone
-would put all slip into a layer at one surface, and the flux would jump with the sign of the pressure
-gradient. Where the oil shears is not known there. The slip is therefore spread evenly: f is that of the mean
-stress Int a tau dzeta/Int a dzeta, which the limit bounds. The part of the stress that balances the pressure
-gradient is not limited. Stress and flux have closed forms,
+A Newtonian oil has the rate factor f = 1 across the film. At a limiting shear stress the stress law without a
+correction would put all slip into a layer at one surface, and the flux would jump with the sign of the
+pressure gradient. The position at which the oil shears is not known there. The slip is therefore spread
+evenly: f belongs to the mean stress Int a tau dzeta/Int a dzeta, which the limit bounds. The part of the
+stress that balances the pressure gradient is not limited. Stress and flux have closed forms,
 
     x = g/Int a,    tau_mean = r(abs(x)) x/abs(x),    f = abs(x)/r,    flux = B0 x + f K q
 
 with B0 = Int w a dzeta, K the covariance of w and zeta with the weight a.
 
-Along both axes of a point contact the equations are the same with vectors: the stress tau(zeta) = t + q (zeta
+Along both axes of a point contact the equations hold with vectors: the stress tau(zeta) = t + q (zeta
 - 1/2) has two components, and the shear rate has the direction of the stress. The mid-film stress t follows
 from two conditions, the slip along both axes, by Newton's method. The two conditions are the gradient of a
 convex function of t, so that there is one solution.
@@ -61,7 +61,7 @@ def uniform_eyring(fluidity: Array, gradient: Array, slip: Array) -> Flux:
 
     Examples
     --------
-    At a small stress the flux is a q/12, that of a Newtonian fluid:
+    At a small stress the flux is a q/12, as in a Newtonian fluid:
 
     >>> one = np.ones(1)
     >>> round(float(uniform_eyring(one, 1e-3 * one, 0.0 * one).flux[0] * 12e3), 6)
@@ -169,7 +169,8 @@ def column_flux(
     """Flux of columns with viscosity and density that vary across the film, at the Gauss points.
 
     ``fluidity``, a = eta_0/eta at the Gauss points, shape (nq, ...) or (1, ...); ``weight``, w: oil mass
-    below the point less half of that of the film; zeta - 1/2 for a density of one, shape (nq, ...) or (nq, 1,
+    below the point less half of the oil mass of the film; zeta - 1/2 for a density of one, shape (nq, ...) or
+    (nq, 1,
     ...); ``gradient`` and ``slip``, q and g, shape (...). Returns flux and derivatives, exact for this
     quadrature: t follows its condition in all of them.
     """
@@ -265,7 +266,8 @@ def even_flux(
     """Flux along the first axis of columns with one rate factor across the film.
 
     ``fluidity``, a = eta_0/eta at the Gauss points, shape (nq, ...) or (1, ...); ``weight``, w: oil mass
-    below the point less half of that of the film; zeta - 1/2 for a density of one, shape (nq, ...) or (nq, 1,
+    below the point less half of the oil mass of the film; zeta - 1/2 for a density of one, shape (nq, ...) or
+    (nq, 1,
     ...); ``gradient`` and ``slip``, q and g along the axis of the flux and, for d = 2, along the other axis,
     shape (d, ...).
 
@@ -463,13 +465,14 @@ def plane_flux(
     """Flux along the first axis of columns with stresses along both axes.
 
     ``fluidity``, a = eta_0/eta at the Gauss points, shape (nq, ...) or (1, ...); ``weight``, w: oil mass
-    below the point less half of that of the film; zeta - 1/2 for a density of one, shape (nq, ...) or (nq, 1,
+    below the point less half of the oil mass of the film; zeta - 1/2 for a density of one, shape (nq, ...) or
+    (nq, 1,
     ...); ``gradient`` and ``slip``, q and g along the axis of the flux, and along the other axis,
     shape (2, ...). Returns flux and derivatives, exact for this quadrature.
 
     Examples
     --------
-    At a small stress the flux along an axis is a q/12, that of a Newtonian fluid:
+    At a small stress the flux along an axis is a q/12, as in a Newtonian fluid:
 
     >>> oil = Rheology("eyring", {"eyring_stress": 5e6})
     >>> gradient, slip = np.array([[1.2e-3], [5e-3]]), np.array([[3e-3], [4e-3]])
@@ -484,7 +487,8 @@ def plane_flux(
     factor, slope = rheology.law.factor(np.sum(stress**2, axis=0), rheology.constants)
     rate = measure * factor * stress
     xx, xy, yy = measure * _tangent(factor, slope, stress)
-    # Multipliers of the two conditions of slip: the change of the flux with t over that of the slip with t.
+    # Multipliers of the two conditions of slip: the change of the flux with t divided by the change of the
+    # slip with t.
     by_t = np.stack([np.sum(weight * part, axis=0) for part in (xx, xy)])
     of_slip = _solved(np.stack([np.sum(part, axis=0) for part in (xx, xy, yy)]), by_t)
     free, other = weight - of_slip[0], -of_slip[1]

@@ -28,7 +28,7 @@ _THRESHOLD = 0.02
 # Nodes of the window on each side of the largest residual: ten times the width of the jump.
 _HALF_WINDOW = 20
 
-# Width of the margin beside the window, in nodes: its equations contain two nodes upstream and one
+# Width of the margin next to the window, in nodes: its equations contain two nodes upstream and one
 # downstream.
 _MARGIN = 2
 

@@ -111,9 +111,9 @@ _MOST_STEPS = 40
 def _of_full_order(problem: GridProblem, film: GridSolution, supply: Supply) -> GridSolution:
     """Solution whose nodes have no upwind difference that it does not need, and whose oil balances closely.
 
-    Nodes that went round in circles got such a difference. A residual that is small as a pressure may be much
-    oil where the gap is wide. The film is solved again under a supply without such differences, to a smaller
-    residual first; where both miss their tolerance, the solution stays.
+    Nodes that changed their state in turn got such a difference. A residual that is small as a pressure may
+    be much oil where the gap is wide. The film is solved again under a supply without such differences, to a
+    smaller residual first; where both miss their tolerance, the solution stays.
     """
     if film.status != "converged" or film.content is None:
         return film
@@ -124,7 +124,7 @@ def _of_full_order(problem: GridProblem, film: GridSolution, supply: Supply) -> 
         if again.status == "converged":
             return replace(again, steps=film.steps + again.steps)
         if min(again.final.norm, *(step.residual for step in again.steps)) > problem.tolerance:
-            # The steps to the larger residual are the same.
+            # The steps to the larger residual do not change.
             break
     return film
 
@@ -138,7 +138,7 @@ def isothermal(
 ) -> Solver:
     """Solver of films on one grid without heat; ``full_order`` as in ``_of_full_order``.
 
-    ``min_iterations`` and ``first_damping`` are those of the first solution, from the guess.
+    ``min_iterations`` and ``first_damping`` belong to the first solution, from the guess.
     """
 
     def film(guess: Guess, supply: Supply) -> GridSolution:
@@ -158,11 +158,12 @@ def isothermal(
 class StarvedProblem:
     """Starved film to be solved on one grid, with the flooded film."""
 
-    problem: FilmProblem  # problem whose number of nodes is that of the grid
+    problem: FilmProblem  # problem with the number of nodes of the grid
     posed: GridProblem  # lubricant, grids, asperities and stopping rule
     flooded: GridSolution
     film: Solver
-    # Film without heat with the same supply on this grid, from which that with heat starts; None without one.
+    # Film without heat with the same supply on this grid, from which the film with heat starts; None without
+    # one.
     cold: GridSolution | None = None
     with_heat: bool = False  # whether ``film`` finds films with heat or shear
     # Whether the wedge term is of first order where the gap closes steeply, as in ``Supply``
@@ -285,7 +286,7 @@ class StarvedProblem:
         return Guess(state, filled & ~(inlet & (state.thickness > _FILLED * layer)), self.flooded)
 
     def _in_steps(self, layer: Array) -> Iterator[GridSolution]:
-        """Films under a layer that falls from that of the flooded film; the last one is that asked for."""
+        """Films under a layer that falls from the layer of the flooded film to the requested layer."""
         least = float(np.min(layer))
         part = max(1.0, 0.9 * self.flooded_mass / max(least, 1e-300))
         fall: float = _FALL
@@ -306,7 +307,7 @@ class StarvedProblem:
             part = max(1.0, fall * part)
 
     def _follow(self, last: GridSolution, fall: float) -> Guess:
-        """Guess for a slightly thinner layer, ``fall`` times that of a converged film."""
+        """Guess for a slightly thinner layer, ``fall`` times the layer of a converged film."""
         assert last.content is not None
         state = last.state
         if not last.touches:
@@ -323,10 +324,10 @@ def at_centre_line(level: Level, layer: Array) -> float:
 # Relative difference from the ratio asked for at which the search ends, and its largest number of films.
 _CLOSE, _MOST_FILMS = 1e-4, 8
 
-# Exponent of the start of the search, r/(1 + r^gamma)^(1/gamma), of a circle: between those of light and
-# heavy ones. From ellipses that are wide across entrainment hardly any oil flows to the sides, so that their
-# exponent grows with their width: a start with too thick a layer is a film that is starved at its ends alone,
-# which hardly converges. Lines, whose layer is the film, start with the ratio itself.
+# Exponent of the start of the search, r/(1 + r^gamma)^(1/gamma), of a circle: between the exponents of light
+# and heavy ones. From ellipses that are wide across entrainment almost no oil flows to the sides, so that
+# their exponent grows with their width: a start with too thick a layer is a film that is starved only at its
+# ends, which often does not converge. Lines, whose layer is the film, start with the ratio itself.
 _EXPONENT = 3.0
 
 # Largest factor between two layers of the search, and the ratio above which a film is flooded.
@@ -339,9 +340,10 @@ def film_of_ratio(
     """Uniform layer of oil (ny,) for a ratio of central films, and its starved film.
 
     Returns ``layer``, thickness H of the layer, shape (ny,); None where it is not known: for a flooded film
-    that did not converge, and for that of a point contact, the least layer of which depends on the domain;
-    ``film``, its film; None for the flooded film, also where that did not converge and has no parts; the
-    ratio may be missed where a film did not converge. ``last`` (m,) is the layer of the coarser grid.
+    that did not converge, and for the flooded film of a point contact, the minimum layer of which depends on
+    the domain; ``film``, its film; None for the flooded film, also where that did not converge and has no
+    parts; the ratio may be missed where a film did not converge. ``last`` (m,) is the layer of the coarser
+    grid.
 
     Secant method for ln(film) over ln(layer), whose slope is between 0 and 1.
     """
@@ -387,8 +389,8 @@ def taken_layer(starved: StarvedProblem) -> Array:
 
 
 def first_layer(ratio: float, width: float | None) -> float:
-    """Mass of the first layer of a search over that of the flooded film at the centre. ``width``, semi-axis
-    of the dry contact across entrainment over that along it; None of a line.
+    """Mass of the first layer of a search divided by the mass of the flooded film at the centre. ``width``,
+    semi-axis of the dry contact across entrainment divided by the semi-axis along it; None of a line.
 
     Examples
     --------
@@ -402,7 +404,7 @@ def first_layer(ratio: float, width: float | None) -> float:
 
 
 def _next(tried: list[tuple[float, float]]) -> float:
-    """Logarithm of the next layer, from those of the last layers and what their films miss."""
+    """Logarithm of the next layer, from the last layers and what their films miss."""
     at, missed = tried[-1]
     slope = 1.0
     if len(tried) > 1:

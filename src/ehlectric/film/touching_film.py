@@ -10,19 +10,19 @@ be less than H_s under this pressure, the asperities are flattened, elastic and 
 is H_s.
 
 Gap and load follow from Q. The oil in the boundary film keeps its Reynolds equation, so that no mass is lost
-where surfaces touch: P is what drives the oil through a gap of the thickness H_s. Of the three states of a
-node, cavitated, full film and contact, the first two are those of the oil, and either may hold at a node in
-contact (``ehlectric.film.cavitation``).
+where surfaces touch: P is what drives the oil through a gap of the thickness H_s. A node has three
+states: cavitated, full film and contact. The first two are states of the oil, and either may hold at a node
+in contact (``ehlectric.film.cavitation``).
 
 The unknowns of a Newton step are the sum Q of the pressures of oil and asperities at all nodes, the pressure
 P of the oil where the surfaces touch, and H00. The rows of the nodes in contact ask for H = H_s. The pressure
 of the oil there follows from its own Reynolds equation by a sparse factorisation and is eliminated, so that
-the unknowns are those of a film without contact. Where oil is carried through cavities, its mass in them is
-eliminated with the pressure of the oil.
+the unknowns are the unknowns of a film without contact. If oil is carried through cavities, its mass in them
+is eliminated with the pressure of the oil.
 
 The difference of the rows of two neighbours in contact is the wedge term of an incompressible film through
-which no pressure drives oil, dH/dX = 0. Written in this form, the rows of a spot are like those of the Hertz
-zone of a heavy contact, and the V-cycles of the film (``ehlectric.film.multigrid``) serve as they are.
+which no pressure drives oil, dH/dX = 0. Written in this form, the rows of a spot are like the rows of the
+Hertz zone of a heavy contact, and the V-cycles of the film (``ehlectric.film.multigrid``) serve as they are.
 """
 
 from __future__ import annotations
@@ -74,7 +74,7 @@ from ehlectric.film.reynolds import (
 class Touching(Residual):
     """Residual of a film whose surfaces touch at some nodes, at one state.
 
-    Its flow is that of a gap of at least H_s. Its norm has the rows of all equations but those of the oil
+    Its flow is the flow in a gap of at least H_s. Its norm contains all rows except the rows of the oil
     where the surfaces touch.
     """
 
@@ -88,7 +88,7 @@ class Touching(Residual):
     oil_norm: float  # largest scaled residual of the oil where the surfaces touch, a pressure over p_h
     # Oil that is carried through cavities; None where a cavitated gap counts as full.
     carried: Carried | None = None
-    settled: bool = True  # whether the nodes that oil fills are those at which its mass was carried
+    settled: bool = True  # whether the nodes that oil fills equal the nodes at which its mass was carried
 
 
 def node_compliance(level: Level) -> float:
@@ -178,7 +178,7 @@ def assess_touching(
 def projected(fluid: Fluid, state: State, contact: Mask) -> State:
     """State whose contact pressure is nowhere negative, and zero where the surfaces do not touch.
 
-    The sum of both pressures, on which the gap depends, remains. Where the surfaces touch, the pressure of
+    The sum of both pressures, on which the gap depends, remains. If the surfaces touch, the pressure of
     the oil lies between ambient pressure and this sum.
     """
     ambient = fluid.ambient_pressure
@@ -188,7 +188,7 @@ def projected(fluid: Fluid, state: State, contact: Mask) -> State:
 
 @dataclass(frozen=True)
 class TouchingJacobian:
-    """Jacobian on the finest grid, with those of all grids that precondition it."""
+    """Jacobian on the finest grid, with the Jacobians of all grids that precondition it."""
 
     # Jacobians for Q and H00 on all grids, without the change of the oil where the surfaces touch. Rows
     # behind cavities contain the last row of the cavity.
@@ -278,8 +278,8 @@ class TouchingJacobian:
     def rest_of(self, oil: Array, dq: Array, dh: Array) -> Array:
         """Change of P of the oil where the surfaces touch, and of the mass in cavities, shape (nx, ny).
 
-        ``oil`` is the right side of the rows of the oil, ``dq`` the change of Q, which is that of P where the
-        surfaces do not touch, and ``dh`` the change of H, each (nx, ny).
+        ``oil`` is the right side of the rows of the oil, ``dq`` the change of Q, which is the change of P
+        where the surfaces do not touch, and ``dh`` the change of H, each (nx, ny).
         """
         change = np.zeros_like(dq)
         if self.factors is not None:
@@ -369,7 +369,7 @@ def _linearised(
 def _with_contact_rows(level: Level, by_h: Stencil, contact: Mask) -> Stencil:
     """Stencil by H whose rows in contact are a multiple of the change of H.
 
-    In a stationary film it is the difference to the node before where that is in contact, too.
+    In a stationary film it is the difference to the node before if this node is also in contact.
     """
     rows = by_h.coefficients.copy()
     rows[2][contact] = level.rate
@@ -433,7 +433,7 @@ def touching_newton(
     """Last iterate of Newton's method on one grid, where the surfaces may touch.
 
     Where the oil in cavities is carried through them, ``carried`` has the nodes that oil fills in the initial
-    guess. The state of the result has the contact pressure.
+    guess. The state of the result contains the contact pressure.
     """
     fluid, level, tolerance = problem.fluid, problem.level, problem.reachable_tolerance
     asperities = problem.asperities
@@ -530,7 +530,7 @@ def _released(level: Level, moved: State, state: State, boundary_film: float) ->
     """Projected state of a Newton step, whose nodes with negative contact pressure in the step open.
 
     The gap of a node in contact is the boundary film up to the error of the linear solution. Without contact
-    pressure, this error alone would decide whether the surfaces still touch.
+    pressure, only this error would decide whether the surfaces still touch.
     """
     least = np.minimum((state.thickness - boundary_film) / node_compliance(level), 0.0)
     opens = (moved.contact_pressure < 0.0) & (moved.contact_pressure <= least)
@@ -538,7 +538,9 @@ def _released(level: Level, moved: State, state: State, boundary_film: float) ->
 
 
 def is_solved(now: Touching, tolerance: float) -> bool:
-    """Whether all equations hold within a tolerance, those of the oil where surfaces touch within 1e-6."""
+    """Whether all equations hold within a tolerance, the equations of the oil where surfaces touch within
+    1e-6.
+    """
     return now.settled and now.norm <= tolerance and now.oil_norm <= max(tolerance, OIL_TOLERANCE)
 
 
@@ -546,8 +548,9 @@ def grid_solution(
     level: Level, state: State, now: Touching, steps: Sequence[NewtonStep], status: Status
 ) -> GridSolution:
     """Solution on a grid, with the residual in the form of a film without contact."""
-    # The gap of flattened asperities is that of the boundary film. So is that of asperities at the edges,
-    # where no pressure opens it, and wherever an iterate that did not converge sinks into the other surface.
+    # The gap of flattened asperities is the boundary film. This also holds for asperities at the edges,
+    # where no pressure opens the gap, and wherever an iterate that did not converge sinks into the other
+    # surface.
     of_flow = now.plastic | level.mesh.edge | (status != "converged")
     state = replace(state, thickness=np.where(of_flow, now.thickness, state.thickness))
     final = Residual(**{each.name: getattr(now, each.name) for each in fields(Residual)})

@@ -1,8 +1,8 @@
 """Films whose surfaces may touch, on one grid: dry contacts, initial guesses, and iteration in time.
 
-Newton's method converges from different initial guesses at different speeds. Where the oil carries part of
+Newton's method converges from different initial guesses at different speeds. If the oil carries part of
 the load, the dry contact with its pressure carried by the oil is near enough, since it has the shape that the
-surfaces take. Where the oil carries hardly any load, the dry contact itself is near enough. In between, the
+surfaces take. If the oil carries almost no load, the dry contact itself is near enough. In between, the
 film is followed in time from the dry contact on until it is stationary.
 
 A film that counts its cavities as full is a solution of the equations with a source of oil where it forms
@@ -10,7 +10,7 @@ again behind a cavity. Newton's method starts from it without this source. If th
 source is taken away in steps. If that does not help, both are tried with an upwind difference where the gap
 closes steeply, which is less accurate and converges more often.
 
-Where a ridge of a line contact touches, only the oil of the boundary film passes it. Whether such a ridge
+If a ridge of a line contact touches, only the oil of the boundary film passes it. Whether such a ridge
 parts depends on the ridges before it, and the film moves through it node by node as the valley in front of
 it fills. Newton's method for the stationary film skips this process and does not converge. In time each step
 is close to the last one, since the oil that a gap takes up has to flow there first:
@@ -58,7 +58,7 @@ _INTERMEDIATE = 1e-6
 
 @dataclass(frozen=True)
 class Conserving:
-    """Film that carries its oil through cavities, to be solved on one grid."""
+    """Film with mass-conserving cavitation, to be solved on one grid."""
 
     problem: GridProblem  # lubricant, grids, asperities and stopping rule
     order: int  # order of the wedge term where oil fills the gap: 1, 2 or 3
@@ -141,7 +141,7 @@ def pseudo_transient_film(problem: GridProblem, state: State) -> GridSolution:
     It has converged if its stationary residual is small after an infinite time step.
 
     Pseudo-transient continuation, C. T. Kelley and D. E. Keyes, SIAM J. Numer. Anal. 35 (1998) 508,
-    doi:10.1137/S0036142996304796. A small residual alone does not make a film stationary: oil creeps through
+    doi:10.1137/S0036142996304796. A film with a small residual need not be stationary: oil creeps through
     a boundary film so slowly that the film may change for a long time.
     """
     fluid, levels, level, asperities = problem.fluid, problem.levels, problem.level, problem.asperities

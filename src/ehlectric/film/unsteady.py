@@ -11,13 +11,13 @@ the last two instants is carried along the lines to the nodes. A time step is th
 whose wedge term is the mass at the node times a rate, and whose right side follows from the carried mass.
 
 A film that is carried through the Hertz zone keeps its shape. With time steps as long as the grid spacing the
-lines begin at nodes, and nothing is interpolated. Without motion the film is then equal to that of the
-stationary scheme of second order, to the last digit. Where the film is cavitated, its mass is the oil that
+lines begin at nodes, and nothing is interpolated. Without motion the film is then equal to the film of the
+stationary scheme of second order, to the last digit. If the film is cavitated, its mass is the oil that
 flows in, which does not fill the gap.
 
 With a supply of oil, a layer of oil travels at the mean speed u along the lines X - T = const until it fills
-the gap. Where the gap is filled at the foot of a line, the derivative of the mass along the line is the
-backward difference over two steps. The derivative of the mass at a meniscus is not bounded. Where the gap is
+the gap. If the gap is filled at the foot of a line, the derivative of the mass along the line is the
+backward difference over two steps. The derivative of the mass at a meniscus is not bounded. If the gap is
 not filled at the foot, it is therefore the difference over one step. Both are differences of one sum, which
 the row of the next node takes as it is:
 
@@ -26,9 +26,9 @@ the row of the next node takes as it is:
 
 Here r is the step over the last step. At the first filled node behind a meniscus, D is the same part of dT
 times the slope of the mass to the next node at the last instant. With equal steps, r = 1, the sum of W over
-the nodes changes by what crosses the ends of the domain alone. Between steps of different lengths the weight
-of the differences in D changes, and the sum of W with it. A film that does not change fulfils the equations
-of ``ehlectric.film.oil_content``.
+the nodes changes only by the flow across the ends of the domain. Between steps of different lengths the
+weight of the differences in D changes, and the sum of W with it. A film that does not change fulfils the
+equations of ``ehlectric.film.oil_content``.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ def step_levels(
     before it. ``added_gap`` (nx, ny) is the gap that moving roughness adds there at the new instant.
 
     With r = step/last step, the BDF2 weights of the new, the last and the earlier mass are (1 + 2r)/(1 + r),
-    -(1 + r) and r^2/(1 + r), all divided by the step. Where the line of the earlier mass begins upstream of
+    -(1 + r) and r^2/(1 + r), all divided by the step. If the line of the earlier mass begins upstream of
     the inlet, the difference is over one step only.
     """
     mesh, (step, last) = levels[0].mesh, steps
@@ -152,7 +152,7 @@ def lagrange_weights(part: float) -> tuple[float, float, float, float]:
 
 
 def mass_after(step: GridSolution) -> Array:
-    """Oil mass rho H (nx, ny) after a time step; at cavitated nodes that of the oil that is left."""
+    """Oil mass rho H (nx, ny) after a time step; at cavitated nodes the mass of the oil that is left."""
     level, final = step.level, step.final
     mass = final.coefficients.density * step.state.thickness
     rate = level.wedge.coefficients[2]
@@ -193,7 +193,7 @@ class Oil:
 
         Where all nodes around the foot of a line are filled, the values are interpolated by a cubic, and
         elsewhere linearly. Both are differences of flows through the faces, so that the sum of the values
-        changes by what crosses the ends alone. Upstream of the inlet edge a layer of oil is uniform.
+        changes only by the flow across the ends. Upstream of the inlet edge a layer of oil is uniform.
         """
         values = self.mass if values is None else values
         whole, part = _split(distance)
@@ -205,7 +205,7 @@ class Oil:
             return here.copy()
         filled = self._padded_mask(ghosts)
         (far, near, _, ahead) = lagrange_weights(part)
-        # Flow through the face behind each node but the first and the last one, in one step.
+        # Flow through the face downstream of each node except the first and the last, in one step.
         flow = part * padded[1:-1]
         cubic = far * padded[:-2] + (far + near) * padded[1:-1] - ahead * padded[2:]
         smooth = filled[:-2] & filled[1:-1] & filled[2:]
@@ -230,7 +230,7 @@ class Oil:
 
     @property
     def rise(self) -> Array:
-        """Mass at the next node minus that at the node, shape (nx, ny)."""
+        """Mass at the next node minus the mass at the node, shape (nx, ny)."""
         return np.append(np.diff(self.mass, axis=0), np.zeros_like(self.mass[:1]), axis=0)
 
     def _padded(self, values: Array, ghosts: int) -> Array:
@@ -263,7 +263,7 @@ def supplied_step_levels(
 ) -> list[Level]:
     """Grids with the Reynolds equation of one time step of a film with a supply of oil, as ``step_levels``.
 
-    On lines that are filled at the inlet edge the scheme is that of ``step_levels``.
+    On lines that are filled at the inlet edge the scheme equals the scheme of ``step_levels``.
     """
     mesh, (now, before), (step, last) = levels[0].mesh, instants, steps
     ratio, dx = step / last, mesh.dx
@@ -519,7 +519,7 @@ class UnsteadyFilm:
         """Initial guesses of a time step: the last film and, unless it is too thin, the extrapolated film.
 
         Each comes with a flag whether to solve the pressure spike separately. The guess with the smaller
-        residual comes first. Where short waves pass, this is often the last film.
+        residual comes first. If short waves pass, this is often the last film.
         """
         now, before = history.now.state, history.before.state
         ratio = step / (history.now.time - history.before.time)

@@ -8,8 +8,8 @@ No surface has these numbers of its own. Slope and curvature grow as finer waves
 for most machined surfaces: m4, the density and the radius of the summits belong to the sampling interval.
 
 Published fits give the share of the load that asperities carry against lambda. Lambda is the film thickness
-over the composite roughness sqrt(Rq1^2 + Rq2^2) of the undeformed surfaces. The fits agree within a factor of
-two below lambda 1.5 and differ by orders of magnitude above 2.
+divided by the composite roughness sqrt(Rq1^2 + Rq2^2) of the undeformed surfaces. The fits agree within a
+factor of two below lambda 1.5 and differ by orders of magnitude above 2.
 """
 
 from __future__ import annotations
@@ -95,7 +95,7 @@ def _integrals(order: float, at: Array) -> Array:
 
 
 def _worn(order: float, at: Array, highest: Array) -> Array:
-    """Integrals where higher summits lie at ``highest``: those below it by Gauss and Jacobi, and the rest."""
+    """Integrals where higher summits lie at ``highest``: lower summits by Gauss and Jacobi, and the rest."""
     width = np.maximum(np.minimum(highest, at + _FARTHEST) - at, 0.0)
     nodes, weights = _jacobi(order)
     t = np.multiply.outer(width, 0.5 * (1.0 + nodes))
@@ -159,7 +159,7 @@ _LEAST_INTERVALS = 8
 
 @dataclass(frozen=True)
 class SpectralMoments:
-    """Spectral moments of a line over a rough surface; those of two surfaces add up.
+    """Spectral moments of a line over a rough surface; the moments of two surfaces add up.
 
     Examples
     --------
@@ -197,7 +197,7 @@ class SpectralMoments:
 
         P. R. Nayak, Random process model of rough surfaces, J. Lubr. Technol. 93 (1971) 398-407. J. I.
         McCool, Comparison of models for the contact of rough surfaces, Wear 107 (1986) 37-60. The radius is
-        that of the mean curvature of all summits. Higher summits are sharper.
+        the radius of the mean curvature of all summits. Higher summits are sharper.
 
         Examples
         --------
@@ -312,7 +312,7 @@ class Summits:
 
     density: Numbers  # number of summits per area n [1/m^2], > 0
     radius: Numbers  # radius of the caps beta [m], > 0
-    # Standard deviation of the summit heights [m], > 0. Of two rough surfaces it is that of the sum of both
+    # Standard deviation of the summit heights [m], > 0. For two rough surfaces it belongs to the sum of both
     # heights, sqrt(sigma_s1^2 + sigma_s2^2).
     height_deviation: Numbers
     # Height above the mean of the summits, in standard deviations, to which all higher summits are worn down;
@@ -340,7 +340,7 @@ def greenwood_williamson(separation: ArrayLike, summits: Summits, reduced_modulu
 
     With l = d/sigma_s and E* = E'/2: pressure (4/3) n sqrt(beta) sigma_s^(3/2) E* F_3/2(l), real area
     fraction pi n beta sigma_s F_1(l), spots per area n F_0(l). Two rough surfaces are taken as the sum of
-    both heights against a flat: then ``summits`` are those of the sum.
+    both heights against a flat: then ``summits`` are the summits of the sum.
 
     ``separation``, distance d of the mean plane of the summits to the flat [m], >= -12 standard deviations,
     shape (...); ``reduced_modulus``, reduced modulus E' = 2 E* [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 -
@@ -456,7 +456,7 @@ def patir_cheng(film_parameter: ArrayLike) -> Array:
 def zhou_hoeprich(film_parameter: ArrayLike) -> Array:
     """Asperity load share exp(-2.32 lambda^0.97) of roller raceways after Zhou and Hoeprich.
 
-    The constants are those of the raceway of a tapered roller bearing 32216. A 32208 has 2.1 and 0.85.
+    The constants hold for the raceway of a tapered roller bearing 32216. A 32208 has 2.1 and 0.85.
 
     ``film_parameter``, lambda, dimensionless, >= 0, shape (...). Returns asperity load share, dimensionless,
     from 0 to 1, shape (...). Raises ValueError if a lambda is negative.
@@ -585,9 +585,9 @@ def area_while_touching(contact: AsperityContact, area: ArrayLike) -> Array:
     With the real area fraction f and the number N = n A of spots that are expected in the nominal area A. Of
     few expected spots it is the mean area of one, f/n; of many it is A f.
 
-    ``contact``, real area fraction and spots per area, shape (...); ``area``, nominal area, such as that of
-    the Hertz ellipse [m^2], >= 0, shape (...). Returns real area [m^2]; 0 where no spot is expected,
-    shape (...).
+    ``contact``, real area fraction and spots per area, shape (...); ``area``, nominal area, such as the area
+    of the Hertz ellipse [m^2], >= 0, shape (...). Returns real area [m^2]; 0 where no spot is expected, shape
+    (...).
 
     Examples
     --------
@@ -617,9 +617,9 @@ def bearing_time_share(inner: ArrayLike, outer: ArrayLike, axis: int = -1) -> Ar
     dimensionless; accurate for small shares too, shape (...). Raises ValueError if a share is not from 0 to
     1.
 
-    A vibration or a change of load thins several films at once. Where both contacts of an element close
-    together, the element conducts more often than p_inner p_outer; where several elements close together,
-    the bearing conducts less often than elements that take turns.
+    A vibration or a change of load thins several films at once. If both contacts of an element close
+    together, the element conducts more often than p_inner p_outer; if several elements close together,
+    the bearing conducts less often than elements that close one after the other.
 
     Examples
     --------
@@ -686,8 +686,8 @@ def spot_resistance(radius: ArrayLike, resistivity: float, mean_free_path: float
 
     G. Wexler, Proc. Phys. Soc. 89 (1966) 927-941. The factor is the fit of B. Nikolic and P. B. Allen, Phys.
     Rev. B 60 (1999) 3963, arXiv:cond-mat/9811296, to their exact solution; its constants are from memory.
-    The exact conductance is within 11 % of that of the plain sum of both resistances, and so is that
-    of the fit to a further 2 %.
+    The exact conductance is within 11 % of the conductance of the plain sum of both resistances, and so is
+    the conductance of the fit to a further 2 %.
 
     Examples
     --------

@@ -4,10 +4,10 @@ SI units.
 The rotor is a smooth conducting cylinder: a closed or bar-filled surface. The stator is a row of slots with
 parallel walls at the potential of the frame; the copper of the winding fills them from a depth below the
 bore on. The electric field of one slot, unrolled, is solved by its modes in the slot and in the air gap,
-matched at the opening. Where the copper lies deep, the capacitance of the gap is that of Carter
-(J. Inst. Electr. Eng. 29 (1901) 925): the smooth one over his coefficient.
+matched at the opening. If the copper lies deep, the capacitance of the gap follows Carter
+(J. Inst. Electr. Eng. 29 (1901) 925): the capacitance of the smooth gap divided by his coefficient.
 
-What the two-dimensional field leaves out adds to all of them: the end windings and the leads. Their share of
+The two-dimensional field neglects the end windings and the leads, which add to all of them. Their share of
 the capacitance from winding to rotor is not small in short machines (Stockbruegger and Ponick, Energies 14
 (2021) 174, doi:10.3390/en14010174).
 
@@ -80,7 +80,7 @@ def machine_capacitances(machine: Machine) -> MachineCapacitances:
     """Capacitances of a machine without its end windings. Returns capacitances [F].
 
     The cylinder of the gap has the capacitance ``2 pi epsilon_0 length / log(bore / (bore - 2 gap))``; its
-    parts to winding and frame are those of the unrolled gap. The insulation of the slots is a plate, as in
+    parts to winding and frame follow from the unrolled gap. The insulation of the slots is a plate, as in
     Muetze and Binder, IEEE Trans. Ind. Appl. 43 (2007) 665, doi:10.1109/TIA.2007.895734.
 
     Examples
@@ -105,7 +105,7 @@ def machine_capacitances(machine: Machine) -> MachineCapacitances:
 def gap_shares(
     opening: float, pitch: float, gap: float, depth: float, permittivity: float
 ) -> tuple[float, float]:
-    """Capacitances of a slotted air gap, as parts of that of a smooth one.
+    """Capacitances of a slotted air gap, as parts of the capacitance of a smooth gap.
 
     ``opening`` and ``pitch``, width of the slots and distance between them [m]; ``gap`` [m]; ``depth``, depth
     of the copper below the teeth [m]. Returns ``winding``, capacitance between rotor and winding; ``rotor``,
@@ -113,7 +113,7 @@ def gap_shares(
 
     Examples
     --------
-    Slots that are half as wide as their pitch, over a narrow gap: hardly more than the teeth count.
+    Slots that are half as wide as their pitch, next to a narrow gap: little more than the teeth count.
 
     >>> winding, rotor = gap_shares(1.0, 2.0, 0.01, 5.0, 1.0)
     >>> round(winding, 4), round(rotor, 2)
@@ -139,7 +139,7 @@ def _overlaps(waves: np.ndarray, modes: np.ndarray, opening: float) -> np.ndarra
     """Integrals of each wave times each mode over the opening, shape (waves, modes)."""
     half = 0.5 * opening
     plus, minus = waves[:, None] + modes, waves[:, None] - modes
-    # sinc of numpy is that of pi x.
+    # numpy's sinc(x) is sin(pi x)/(pi x).
     overlaps: np.ndarray = half * (np.sinc(plus * half / math.pi) + np.sinc(minus * half / math.pi))
     return overlaps
 
@@ -192,7 +192,7 @@ def stretched(start: ArrayLike, end: ArrayLike, scale: ArrayLike, nodes: int) ->
     scale = np.asarray(scale, dtype=float)[..., np.newaxis]
     first, last = (np.arcsinh(np.asarray(at, dtype=float)[..., np.newaxis] / scale) for at in (start, end))
     length = last - first
-    # scale sinh and cosh by one exponential. Where sinh cancels, x is small next to the scale.
+    # scale sinh and cosh by one exponential. If sinh cancels, x is small next to the scale.
     rises = np.exp(first + length * (0.5 * (points + 1.0)))
     rises *= 0.5 * scale
     falls = np.divide(0.25 * np.square(scale), rises)

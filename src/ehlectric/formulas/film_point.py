@@ -169,11 +169,11 @@ def nijenbanning_venner_moes(contact: PointContact) -> CentralThickness:
     G. Nijenbanning, C. H. Venner and H. Moes, Wear 176 (1994) 217-229, doi:10.1016/0043-1648(94)90150-3. The
     formula holds for D up to 1, that is, entrainment along the minor axis, and for all M and L.
 
-    For D towards 0 the elastic limits and the piezoviscous-rigid limit become those of the line contact,
+    For D towards 0 the elastic limits and the piezoviscous-rigid limit become the limits of the line contact,
     ``film_line.moes``, at the middle of the long ellipse. The load per length there is 3 F/4 over the long
     semi-axis. In the isoviscous-rigid limit H_RI is the film thickness where the pressure gradient vanishes,
-    1.226 times that at the centre. H_00 bounds the isoviscous-elastic film H_EI, which would otherwise grow
-    without bound as the load falls.
+    1.226 times the film thickness at the centre. H_00 bounds the isoviscous-elastic film H_EI, which would
+    otherwise grow without bound as the load falls.
 
     Examples
     --------

@@ -105,7 +105,7 @@ def _series(x: Array, y: Array, z: Array) -> Array:
 def reduced_radius(radius_1: N, radius_2: N) -> N:
     """Reduced radius R of two cylinders, 1/R = 1/R1 + 1/R2. ``radius_1`` and ``radius_2``, radii R1 and R2
     [m]; negative for a concave body, infinite for a plane. Returns R [m]; it is negative if the radius of a
-    concave body is smaller than that of the other body.
+    concave body is smaller than the radius of the other body.
 
     Eq. (4) of Morris et al. (2022), doi:10.3390/lubricants10050087.
 

@@ -5,7 +5,7 @@ With lengths in semi-axes along entrainment, b = 1 and a = k, the integral of ``
     I = 2 sqrt(w/((k^2 + w)(1 + w))) + 2/3 ((1 - x^2) F(w) + (k^2 - y^2) G(w)),
 
 where w is the root of x^2/(1 + w) + y^2/(k^2 + w) = 1, or zero inside the ellipse. F = R_D(w, k^2 + w, 1 + w)
-and G = R_D(w, 1 + w, k^2 + w) depend on w alone. They are analytic in v = sqrt(w), except at v = +-i and
+and G = R_D(w, 1 + w, k^2 + w) depend only on w. They are analytic in v = sqrt(w), except at v = +-i and
 v = +-ik, and fall with the third power of v. Their product with (1 + v/c)^3, c = sqrt(k), is therefore smooth
 in s = v/(v + c) from 0 to 1, where the singular points are at the distance c/(1 + c^2) or more. On many short
 pieces of s they are polynomials.
@@ -21,8 +21,8 @@ import numpy as np
 from ehlectric.arrays import Array, IntArray, Numbers
 from ehlectric.formulas.hertz import both_rd
 
-# Pieces and degree of the polynomials: deflections are within 1e-13 of those by elliptic integrals for ratios
-# from 1/50 to 50.
+# Pieces and degree of the polynomials: deflections are within 1e-13 of the deflections by elliptic integrals
+# for ratios from 1/50 to 50.
 _PIECES, _DEGREE = 256, 5
 
 # Points from which on polynomials are used. They take as long as the elliptic integrals of 1500 points, but
@@ -45,7 +45,7 @@ def unit_deflection(x2: Array, y2: Array, ratio: Numbers) -> Array:
 
     Examples
     --------
-    Far away it is that of a point load, 4/(3 r):
+    Far away it equals the deflection of a point load, 4/(3 r):
 
     >>> far = np.full(4000, 1e6)
     >>> round(float(unit_deflection(far, np.zeros(4000), 2.0)[0]) * 1e3 * 0.75, 5)
@@ -101,7 +101,7 @@ def _by_integrals(x2: Array, y2: Array, ratio: Array) -> Array:
 def _by_pieces(
     x2: Array, y2: Array, ratio: Numbers, first_piece: IntArray, tables: tuple[Array, Array]
 ) -> Array:
-    """Deflection by the polynomials of pieces, those of each ratio from a first piece on."""
+    """Deflection by the polynomials of pieces, of each ratio from a first piece on."""
     k2, c = ratio**2, np.sqrt(ratio)
     w = _root(x2, y2, k2)
     v = np.sqrt(w)

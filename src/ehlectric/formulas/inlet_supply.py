@@ -2,10 +2,10 @@
 rolling.
 
 The supply of oil to the contacts of a rolling bearing follows the kinematic replenishment factor of SKF's
-model of the frictional moment. The decay of a film without supply is that of van Zoelen, Venner and Lugt, for
+model of the frictional moment. The decay of a film without supply follows van Zoelen, Venner and Lugt, for
 a track to which no oil returns.
 
-The hydrodynamic resistance to rolling of flooded contacts in pure rolling is that of Biboulet and Houpert.
+The hydrodynamic resistance to rolling of flooded contacts in pure rolling follows Biboulet and Houpert.
 The force is the integral of h/2 dp/dx over the contact: the resistance of the oil on each of both surfaces.
 In pure rolling it takes the power 2 F u with the mean speed u of the surfaces. The formulas are fits to
 isothermal solutions. They run from rigid bodies in thin oil, of light loads, to bodies that deform.
@@ -42,8 +42,8 @@ def inlet_shear_factor(viscosity: Numbers, slope: Numbers, speed: Numbers, condu
 
     W. R. D. Wilson and S. Sheu, Effect of inlet shear heating due to sliding on elastohydrodynamic film
     thickness, ASME J. Lubr. Technol. 105 (1983) 187, doi:10.1115/1.3254563, eq. (8). It was derived for the
-    inlet of a line contact, and is used for elliptical contacts too. Of three published formulas it is the
-    nearest to solved films in pure rolling. Solved films contradict its term of sliding, which is left out.
+    inlet of a line contact, and is also used for elliptical contacts. Of three published formulas it is the
+    nearest to solved films in pure rolling. Solved films contradict its term of sliding, which is omitted.
 
     Examples
     --------
@@ -89,7 +89,7 @@ def replenishment_factor(
 
     SKF, Rolling bearings, PUB BU/P1 17000, and The SKF model for calculating the frictional moment. The form,
     K_rs, and K_Z of radial ball bearings agree in three or more independent programs; the other K_Z are from
-    memory: 5.1 is that of cylindrical rollers with a cage, and 4.4 that of cylindrical roller thrust
+    memory: 5.1 holds for cylindrical rollers with a cage, and 4.4 for cylindrical roller thrust
     bearings. SKF reduces the rolling frictional moment by the factor, and explains it by a thinner film. Its
     model is for bearings at steady speed and temperature, at constant load above the minimum load, with
     normal clearance, below the limiting speed; its oil bath is a low one.
@@ -125,9 +125,9 @@ def decay_rate(
 
     ``max_pressure``, Hertz pressure p_h [Pa]; ``semi_axes``, semi-axes a along and b across the track [m];
     ``viscosity``, viscosity eta0 of the oil at ambient pressure [Pa s]; ``pressure_viscosity_coefficient``
-    [1/Pa]; ``density_ratio``, density rho of the oil at the Hertz pressure over that at ambient pressure,
-    dimensionless; ``track_length``, length l of the tracks on both surfaces together from which one contact
-    presses oil [m]; all of shape (...). Returns rate [1/(m^2 s)], shape (...).
+    [1/Pa]; ``density_ratio``, density rho of the oil at the Hertz pressure divided by the density at ambient
+    pressure, dimensionless; ``track_length``, length l of the tracks on both surfaces together from which one
+    contact presses oil [m]; all of shape (...). Returns rate [1/(m^2 s)], shape (...).
 
     M. T. van Zoelen, C. H. Venner and P. M. Lugt, Proc. IMechE J 223 (2009) 541; C. H. Venner, M. T. van
     Zoelen and P. M. Lugt, Tribol. Int. 47 (2012) 175; both second-hand, as later work on grease prints the

@@ -57,7 +57,7 @@ def static_factor(ratio: float) -> float:
 
     The numbers follow from Hertz' formulas. They reproduce the 41 values from 0 to 0.4 of the table of ISO 76
     to 0.06, the table as read in a public JavaScript program for bearings, function
-    ``sfereRadiali``; its value at 0.06, 15.7 between 15.7 and 16.1, is left out.
+    ``sfereRadiali``; its value at 0.06, 15.7 between 15.7 and 16.1, is omitted.
 
     Examples
     --------
@@ -146,7 +146,7 @@ def ball_dynamic_rating(
 ) -> float:
     """Basic dynamic radial load rating of a ball bearing by ISO 281.
 
-    C_r = b_m f_c cos(a)^0.7 Z^(2/3) D^1.8 with b_m = 1.3, and 3.647 D^1.4 in place of D^1.8 above 25.4 mm.
+    C_r = b_m f_c cos(a)^0.7 Z^(2/3) D^1.8 with b_m = 1.3, and 3.647 D^1.4 instead of D^1.8 above 25.4 mm.
 
     ``ball_diameter`` and ``pitch_diameter``, ball diameter D and pitch diameter d_m [m]; ``contact_angle``
     [rad]. Returns C_r [N].
@@ -215,7 +215,7 @@ def thrust_ball_static_rating(elements: int, ball_diameter: float) -> float:
     """Basic static axial load rating of a thrust ball bearing, C_0a = f_0 Z D^2 of ISO 76.
 
     f_0 is the load that presses a ball of one millimetre to 4200 MPa into a groove of 0.54 of its diameter;
-    all balls carry the same. It is 61.6, also in the table of ISO 76.
+    all balls carry an equal load. It is 61.6, also in the table of ISO 76.
 
     ``ball_diameter`` D [m]. Returns C_0a [N].
 
@@ -235,7 +235,7 @@ def thrust_ball_dynamic_rating(elements: int, ball_diameter: float, pitch_diamet
     """Basic dynamic axial load rating of a thrust ball bearing by ISO 281.
 
     C_a = b_m f_c Z^(2/3) D^1.8 with b_m = 1.3, f_c = K (2 f/(2 f - 1))^0.41 (D/d_m)^0.3, f = 0.535 and
-    K = 47.79; 3.647 D^1.4 is in place of D^1.8 above 25.4 mm.
+    K = 47.79; 3.647 D^1.4 replaces D^1.8 above 25.4 mm.
 
     ``ball_diameter`` and ``pitch_diameter``, ball diameter D and pitch diameter d_m [m]. Returns C_a [N].
 

@@ -11,7 +11,7 @@ class MonotoneCubic:
     """Piecewise cubic curves with the slopes of Fritsch and Butland, which are monotone where the nodes are.
 
     Curves of c quantities at points of shape (...) have the same nodes for all quantities of a point. Nodes
-    before the place ``first`` of a point are left out.
+    before the place ``first`` of a point are ignored.
 
     F. N. Fritsch and J. Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300, doi:10.1137/0905021, with the
     slopes at the ends of C. B. Moler, Numerical Computing with Matlab, 2004, as
@@ -38,7 +38,8 @@ class MonotoneCubic:
         step = np.where(step > 0.0, step, 1.0)
         slopes = self._slopes(step, rise / step)
         begin, end = slopes[..., :-1] * step, slopes[..., 1:] * step
-        # Coefficients of the powers of the part of an interval; those of an interval lie next to each other.
+        # Coefficients of the powers of the part of an interval; the coefficients of an interval lie next to
+        # each other.
         parts = (y[..., :-1], begin, 3.0 * rise - 2.0 * begin - end, begin + end - 2.0 * rise)
         rows = np.moveaxis(np.stack(parts), (0, 1), (-2, -1))
         self._rows = np.ascontiguousarray(rows).reshape(-1, len(parts), y.shape[0])
@@ -63,7 +64,7 @@ class MonotoneCubic:
     def __call__(self, at: Array) -> Array:
         """Values at abscissae, shape (..., k), of all quantities, shape (c, ..., k).
 
-        Beyond the ends they are those at the ends.
+        Beyond the ends they equal the values at the ends.
         """
         if self._size == 1:
             return np.repeat(self._only, at.shape[-1], axis=-1)

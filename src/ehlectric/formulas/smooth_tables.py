@@ -4,8 +4,8 @@ The nodes along each variable are Leja points on its range: each is where the pr
 nodes before it is largest, so that more nodes can be added to those that are known. The i-th Newton
 polynomial is zero at the nodes before the i-th and one there. Polynomials of several variables are products
 of these. A product is used only with all products of lower numbers, so that its coefficient is the error that
-the others leave at its node. Products are added next to those with large coefficients, until all beyond are
-small.
+the others leave at its node. Products are added next to the products with large coefficients, until all
+beyond are small.
 
 M. A. Chkifa, A. Cohen and C. Schwab, Found. Comput. Math. 14 (2014) 601, doi:10.1007/s10208-013-9154-z.
 """
@@ -101,7 +101,7 @@ class SmoothTable:
         at = [self._scaled(values, k) for k, values in enumerate(variables)]
         counts = [matrix.shape[1], *(int(column.max()) + 1 for column in columns)]
         newton = [_newton(values, count) for values, count in zip(at, counts, strict=True)]
-        # Coefficients of the products of all variables but the first, for each value of the first one.
+        # Coefficients of the products of all variables except the first, for each value of the first one.
         of_first = matrix @ newton[0]
         size = at[-1].size
         group = np.arange(size) if group is None else group
@@ -132,10 +132,10 @@ class SmoothTable:
 
     @cached_property
     def _plan(self) -> tuple[list[IntArray], list[IntArray], Array]:
-        """How the products of all variables but the first are made, one variable after the other.
+        """How the products of all variables except the first are made, one variable after the other.
 
         For each of these variables, the row of the products of those before it, and the number of its
-        polynomial; coefficients, shape (products of all but the first, numbers of the first).
+        polynomial; coefficients, shape (products of all except the first, numbers of the first).
         """
         others, place = np.unique(self.numbers[:, 1:], axis=0, return_inverse=True)
         matrix = np.zeros((len(others), int(self.numbers[:, 0].max()) + 1))
@@ -202,7 +202,7 @@ class _Known:
         return self.function((self.low + half + half * scaled.T).T)
 
     def _add(self, new: Iterable[tuple[int, ...]]) -> None:
-        """Add products, each after those of lower numbers."""
+        """Add products, each after the products of lower numbers."""
         added = sorted(new, key=sum)
         self.numbers += added
         self.values = np.concatenate([self.values, self.at(leja_points()[np.array(added)].T)])
@@ -218,7 +218,7 @@ class _Known:
         self.table = SmoothTable(-ends, ends, rows, coefficients, np.nan)
 
     def grow(self, large: float) -> bool:
-        """Add products next to those with larger coefficients than ``large``; False where all have them."""
+        """Add products next to products with coefficients above ``large``; False where all have them."""
         sizes = dict(zip(self.numbers, np.abs(self.table.coefficients).tolist(), strict=True))
         known, variables = len(sizes), np.flatnonzero(self.high > self.low).tolist()
         queue = [number for number in self.numbers if sizes[number] > large]

@@ -42,7 +42,7 @@ def variance_shares(at: Array, values: Array) -> VarianceShares:
 
     Examples
     --------
-    f = x + 2 y + 3 x y has the variance 1/3 + 4/3 + 1: x alone has 1/8 of it, with y 1/2.
+    f = x + 2 y + 3 x y has the variance 1/3 + 4/3 + 1: x explains 1/8 of it, and x with y 1/2.
 
     >>> from scipy.stats import qmc
     >>> at = 2.0 * qmc.Sobol(2, seed=1).random(256) - 1.0

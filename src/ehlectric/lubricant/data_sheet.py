@@ -31,7 +31,7 @@ _CLOSE = 1e-12
 
 # Reference oils of ASTM D2270-10, appendix X2: viscosities at 40 degC of an oil of index 0, which is
 # L = a Y^2 + b Y + c, and of one of index 100, H = d Y^2 + e Y + f, with the same viscosity Y at 100 degC, in
-# mm^2/s. A row holds from its first number to that of the next row.
+# mm^2/s. A row holds from its first number to the first number of the next row.
 _REFERENCE = (
     (2.0, 1.14673, 1.7576, -0.109, 0.84155, 1.5521, -0.077),
     (3.8, 3.38095, -15.4952, 33.196, 0.78571, 1.7929, -0.183),
@@ -223,8 +223,8 @@ def so_klaus(kinematic_viscosity: Numbers, slope: Numbers, density: Numbers) -> 
 class Gold:
     """Correlation of Gold and others for a type of base oil, alpha = s nu^t.
 
-    With nu in mm^2/s, alpha is in 1/GPa. The constants are those of the programs GearC and Contact Mechanics
-    of the University of Porto; the paper itself was not read.
+    With nu in mm^2/s, alpha is in 1/GPa. The constants are taken from the programs GearC and Contact
+    Mechanics of the University of Porto; the paper itself was not read.
 
     Examples
     --------
@@ -270,11 +270,11 @@ def alpha_estimate(
     pressure and the temperature of the oil [kg/m^3]. Returns coefficient [1/Pa], with its scatter and its
     source; the arguments are floats, or arrays of shape (...) of many points. Raises InputError if the type
     is not known, or the viscosity is outside the range in which the correlations were compared with
-    measurements; of many points, those outside have NaN. Below 2 mm^2/s, the correlations are extrapolated
+    measurements; of many points, points outside have NaN. Below 2 mm^2/s, the correlations are extrapolated
     down to 1 mm^2/s, and the estimate is marked.
 
-    The publications' own scatter could not be read. The scatter given here is that of the coefficients in
-    the unit tests of this module: table 10.2 of ESDU 85027 (1985) with 13 mineral oils, castor oil, a
+    The publications' own scatter could not be read. The scatter given here was computed from the coefficients
+    in the unit tests of this module: table 10.2 of ESDU 85027 (1985) with 13 mineral oils, castor oil, a
     sebacate and polyglycols, the oils FVA 3, M100, N100 and PAO100 of the library, and four polyalphaolefins
     of a public program. Mineral oils have in the mean 0.92 times their estimate, and the others more than
     theirs. The estimates do not hold for phthalates and phosphate esters, which have up to twice as much.

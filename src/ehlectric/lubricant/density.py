@@ -12,8 +12,8 @@ from ehlectric.arrays import Array, Numbers
 from ehlectric.lubricant.law import Law, parameters_of, required
 from ehlectric.quantities.result_warnings import ResultWarning
 
-# Smallest volume over that at zero pressure. The volume of Tait's equation vanishes at a finite pressure, and
-# no contact compresses a liquid to its half.
+# Smallest volume divided by the volume at zero pressure. The volume of Tait's equation vanishes at a finite
+# pressure, and no contact compresses a liquid to its half.
 LEAST_VOLUME = 0.5
 
 
@@ -45,13 +45,13 @@ def tait(
     bulk modulus at zero pressure, dimensionless; ``tait_k00``, bulk modulus K00 at zero pressure,
     extrapolated to zero temperature [Pa]; ``tait_beta_k``, temperature coefficient beta_K of the bulk modulus
     [1/K]; ``tait_expansion`` and ``reference_temperature``, thermal expansion a_V [1/K] of the volume at zero
-    pressure and its temperature [K]. Returns density over that at zero pressure and the same temperature,
-    dimensionless, and its derivative by pressure [1/Pa], shape (...). Raises InputError if the temperature is
-    missing.
+    pressure and its temperature [K]. Returns density divided by the density at zero pressure and this
+    temperature, dimensionless, and its derivative by pressure [1/Pa], shape (...). Raises InputError if the
+    temperature is missing.
 
     The form of S. Bair, High-Pressure Rheology for Quantitative Elastohydrodynamics, Elsevier, 2007, as later
-    works quote it, after P. G. Tait. The volume is held at half of that at zero pressure, with a slope of
-    zero, because the equation gives no volume at all at a finite pressure. Oils reach the half at tens of
+    works quote it, after P. G. Tait. The volume is held at half of the volume at zero pressure, with a slope
+    of zero, because the equation gives no volume at all at a finite pressure. Oils reach the half at tens of
     gigapascals.
 
     Examples
@@ -93,8 +93,8 @@ def tait_pressure(
     reference_temperature: Numbers,
 ) -> Array:
     """Pressure [Pa] at which Tait's equation has a density ratio; the inverse of ``tait``. ``density_ratio``,
-    density over that at zero pressure and the same temperature, dimensionless, from 1 to 2, shape (...);
-    ``temperature`` [K].
+    density divided by the density at zero pressure and this temperature, dimensionless, from 1 to 2, shape
+    (...); ``temperature`` [K].
 
     Examples
     --------
@@ -135,9 +135,9 @@ def murnaghan(
     the bulk modulus, dimensionless; ``murnaghan_k00``, bulk modulus K00 at zero pressure, extrapolated to
     zero temperature [Pa]; ``murnaghan_beta_k``, temperature coefficient beta_K of the bulk modulus [1/K];
     ``murnaghan_expansion`` and ``reference_temperature``, thermal expansion a_V [1/K] of the volume at zero
-    pressure and its temperature [K]. Returns density over that at zero pressure and the same temperature,
-    dimensionless, and its derivative by pressure [1/Pa], shape (...). Raises InputError if the temperature is
-    missing.
+    pressure and its temperature [K]. Returns density divided by the density at zero pressure and this
+    temperature, dimensionless, and its derivative by pressure [1/Pa], shape (...). Raises InputError if the
+    temperature is missing.
 
     F. D. Murnaghan, The compressibility of media under extreme pressures, Proc. Natl. Acad. Sci. 30 (1944)
     244, doi:10.1073/pnas.30.9.244: the bulk modulus rises linearly with pressure. The law has no pole.

@@ -182,7 +182,7 @@ def doolittle_ambient(
 
 
 def _holds(temperature: Array, **parameters: Numbers) -> Mask:
-    """Whether temperatures [K] are those of a liquid with an occupied volume."""
+    """Whether a liquid at the temperatures [K] has an occupied volume."""
     oil = _Doolittle(**parameters)
     falls = np.greater(oil.expansion, oil.epsilon)
     return np.asarray(falls & (temperature > oil.glass()) & (temperature < oil.most()))

@@ -23,7 +23,7 @@ def clausius_mossotti(
     ``density_ratio``, density over the density at zero pressure, rho/rho0, dimensionless, > 0, shape (...);
     ``temperature`` [K]; ``relative_permittivity``, relative permittivity eps_r at the density rho0,
     dimensionless, >= 1. Returns relative permittivity, dimensionless, shape (...). Raises InputError if the
-    density ratio reaches the pole of the law, (eps_r + 2)/(eps_r - 1). An array of permittivities is that of
+    density ratio reaches the pole of the law, (eps_r + 2)/(eps_r - 1). An array of permittivities belongs to
     many points, of which those beyond the pole have NaN.
 
     Eq. (14) of Morris et al. (2022), doi:10.3390/lubricants10050087. The law holds for molecules without a

@@ -1,7 +1,7 @@
 """Thermal conductivity and volumetric heat capacity of an oil over pressure and temperature.
 
-The laws of heat capacity give that of a volume, rho c [J/(m^3 K)], which the energy equation of the film
-contains and which the sources print. The specific heat capacity c is this value over the density.
+The laws of heat capacity give the heat capacity of a volume, rho c [J/(m^3 K)], which the energy equation of
+the film contains and which the sources print. The specific heat capacity c is this value over the density.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ ASSUMED_CONDUCTIVITY, USUAL_CONDUCTIVITY = 0.137, (0.12, 0.16)
 
 
 def volume(pressure: ArrayLike, temperature: Array, state: TaitState) -> tuple[Array, Array]:
-    """Volume over that at zero pressure and the reference temperature, and its derivative by pressure."""
+    """Volume divided by the volume at zero pressure and reference temperature, and derivative by pressure."""
     ratio, slope = tait(pressure, temperature, **state)
     ambient = 1.0 + state["tait_expansion"] * (temperature - state["reference_temperature"])
     return ambient / ratio, -ambient * slope / ratio**2
@@ -202,7 +202,7 @@ def larsson_heat_capacity(
 
     Source of ``larsson_thermal_conductivity``. The product is the capacity of a volume: a later
     program divides it by the density ratio for the capacity of a mass. That program has the last factor
-    within the brackets of the temperature. Where b2 < 0, beta would become negative at pressures above those
+    within the brackets of the temperature. If b2 < 0, beta would become negative at pressures above those
     of the measurements; above its maximum at p = -b1/(2 b2) it is held.
 
     Examples

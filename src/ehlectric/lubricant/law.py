@@ -8,7 +8,7 @@ is ``law(temperature, *, parameters...) -> value``. The temperature [K] broadcas
 and so do the parameters: they are floats, or arrays of shape (n,) of n points, which are the last axis.
 Without a temperature, a law returns its value at the temperature for which the case gives the parameters. An
 isothermal law always does so, in the shape of the first argument. A law that changes with temperature raises
-``InputError`` without one. A temperature that is NaN is that of a point that was refused before: the law has
+``InputError`` without one. A temperature of NaN marks a point that was refused before: the law has
 NaN there, and no error.
 
 To add a law, write its function and add a ``Law`` to the table of its module: ``VISCOSITY_LAWS``,
@@ -18,8 +18,8 @@ parameter, or give the entry a ``Parameter``. Nothing else needs an edit: the ke
 bounds and messages, the labels of figures and the table of keys in the documentation are read from these
 tables. A function that does not take arrays of parameters and temperatures is called for one point after the
 other with ``numpy.vectorize`` where many points are computed at once, which takes some microseconds for each
-pressure and point. A law without values at some temperatures tells so by ``Law.holds``; an error of its
-function is that of all points.
+pressure and point. A law without values at some temperatures reports this by ``Law.holds``; an error of its
+function applies to all points.
 """
 
 from __future__ import annotations
@@ -126,8 +126,8 @@ class Law:
     # ``hint(viscosity, given)`` returns a text for the end of the error message about missing parameters.
     hint: Callable[[Numbers, Mapping[str, Numbers]], str] | None = None
     needs_temperature: bool = False
-    # ``holds(temperature, **parameters)`` tells for each point whether the law has a value at its temperature
-    # [K]; None for a law that has one at all temperatures.
+    # ``holds(temperature, **parameters)`` returns for each point whether the law has a value at its
+    # temperature [K]; None for a law that has one at all temperatures.
     holds: Callable[..., Mask] | None = None
     # ``atmospheric(temperature, **parameters)`` returns the viscosity eta0 [Pa s] at zero pressure and a
     # temperature [K], for a viscosity law that has one of its own.

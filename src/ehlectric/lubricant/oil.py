@@ -1,4 +1,6 @@
-"""Oil at one temperature, or at that of each of many points: its numbers, and its laws over pressure."""
+"""Oil at one temperature, or at the temperature of each of many points: its numbers, and its laws over
+pressure.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +23,7 @@ LAW_NAMES = (
     *("thermal_conductivity", "heat_capacity", "strength"),
 )
 
-# Share of the integral of alpha* beyond its end above which a warning tells that it has no definite value.
+# Share of the integral of alpha* beyond its end above which a warning reports that it has no definite value.
 _UNFINISHED = 0.01
 
 # Permittivity as a function of pressure [Pa] and density ratio.
@@ -137,7 +139,8 @@ class Oil:
     ambient_pressure: float  # pressure around the contact [Pa]
     # ln(eta/eta0) and its derivative by pressure [1/Pa], as a function of the pressure [Pa].
     log_viscosity: PressureLaw
-    # Density over that at zero pressure, and its derivative [1/Pa], as a function of the pressure [Pa].
+    # Density divided by the density at zero pressure, and its derivative [1/Pa], as a function of the
+    # pressure [Pa].
     density_ratio: PressureLaw
     # Relative permittivity as a function of the pressure [Pa] and of the density ratio.
     permittivity: Permittivity

@@ -140,7 +140,8 @@ class Samples:
         return self._curve.derivative()
 
     def log(self, pressure: ArrayLike) -> tuple[Array, Array]:
-        """Logarithm of the value over that at zero pressure, and its derivative by pressure [1/Pa].
+        """Logarithm of the value divided by the value at zero pressure, and its derivative by pressure
+        [1/Pa].
 
         Beyond the samples, where only iterations of a film go, the logarithm is continued by its last slope.
         """
@@ -151,7 +152,7 @@ class Samples:
         return np.asarray(value), np.asarray(slope)
 
     def ratio(self, pressure: ArrayLike, _temperature: ArrayLike | None = None, /) -> tuple[Array, Array]:
-        """Value over that at zero pressure, and its derivative by pressure [1/Pa]."""
+        """Value divided by the value at zero pressure, and its derivative by pressure [1/Pa]."""
         value, slope = self.log(pressure)
         ratio = np.exp(value)
         return ratio, ratio * slope

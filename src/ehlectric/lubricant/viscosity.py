@@ -54,7 +54,7 @@ def roelands_alpha(viscosity: Numbers, roelands_z: Numbers, roelands_pressure: N
     alpha = z (ln eta0 + 9.67)/p0, with eta0 in Pa s.
 
     ``viscosity``, viscosity eta0 at zero pressure and at this temperature [Pa s]; ``roelands_z``, exponent z,
-    dimensionless; it hardly changes with temperature; ``roelands_pressure``, constant p0 [Pa]; floats, or
+    dimensionless, almost independent of temperature; ``roelands_pressure``, constant p0 [Pa]; floats, or
     arrays of shape (...). Returns pressure-viscosity coefficient alpha [1/Pa], shape (...).
 
     C. J. A. Roelands, Correlational aspects of the viscosity-temperature-pressure relationship of
@@ -232,7 +232,7 @@ def reciprocal_asymptotic_alpha(law: PressureLaw) -> Numbers:
     rise with pressure, and NaN for a law that has no value.
 
     S. Bair, High-Pressure Rheology for Quantitative Elastohydrodynamics, Elsevier, 2007, after Blok (1963).
-    The integral ends at some 200 times the pressure that raises the viscosity e times, about 10 GPa, because
+    The integral ends at about 200 times the pressure that raises the viscosity e times, about 10 GPa, because
     laws that saturate or are capped have no finite integral. There the integrand of an oil is below 1e-8.
 
     Examples

@@ -46,8 +46,8 @@ def yasutomi(
 
     S. Yasutomi, S. Bair and W. O. Winer, J. Tribol. 106 (1984) 291, with the function F of the improved law
     of S. Bair and others (2013), as later works quote both. The original law has F = 1 - B1 ln(1 + B2 p), and
-    its constants are not those of this one. The number 2.303 of the printed law is ln 10. Below the glass
-    transition the law has a pole. There the viscosity is held at eta_g, with a slope of zero.
+    its constants are not the constants of this law. The number 2.303 of the printed law is ln 10. Below the
+    glass transition the law has a pole. There the viscosity is held at eta_g, with a slope of zero.
 
     Examples
     --------

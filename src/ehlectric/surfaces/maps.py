@@ -61,8 +61,8 @@ def filled(heights: Array, spacing_x: float, spacing_y: float) -> Array:
     the rim of the void. It stays between the lowest and the highest height at the rim. At a side of the map
     its slope is zero.
 
-    Heights and spacings along x and y are in metres. The result has the shape (nx, ny) of the heights, and no
-    NaN.
+    Heights and spacings along x and y are in metres. Its shape is the shape (nx, ny) of the heights, and it
+    contains no NaN.
 
     Examples
     --------

@@ -222,7 +222,7 @@ def trimmed(profile: Profile, length: float) -> Profile:
 
 @dataclass(frozen=True)
 class Processing:
-    """Processing steps of a profile or a map, in their order; a step whose value is None is left out."""
+    """Processing steps of a profile or a map, in their order; a step whose value is None is skipped."""
 
     form: Form = "none"  # form to remove: "none", "mean", "line" or "parabola"
     # cutoff_long and cutoff_short: cutoff wavelengths [m]; longer waves than ``cutoff_long``, shorter than

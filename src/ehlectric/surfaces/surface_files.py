@@ -55,7 +55,7 @@ BROKEN = (
 MOST_MEMBERS = 10_000
 
 # Largest ratio of the size of a member to its compressed size, beyond a size that does no harm [bytes].
-# Measured heights become at most some ten times smaller.
+# Measured heights become at most about ten times smaller.
 MOST_RATIO = 100
 HARMLESS = 16_000_000
 
@@ -153,8 +153,8 @@ def read_x3p(path: Path, content: bytes) -> HeightMap:
     The file is a ZIP archive with main.xml, a binary block of heights and, optionally, a block that marks the
     valid points. A height is Offset + Increment times the stored number, after the schema of openGPS. The
     schema requires the increment for integers only. For floats the increment is 1 by default, and is applied
-    if the file has one, as SurfaceTopography does. Each valid point is one bit, in the order of the heights
-    and with the lowest bit of a byte first.
+    if the file contains one, as SurfaceTopography does. Each valid point is one bit, in the order of the
+    heights and with the lowest bit of a byte first.
 
     Returns heights and spacings [m]. Raises InputError if the file is broken, or has other data than heights
     over a regular grid.
@@ -209,7 +209,7 @@ def _text(root: ElementTree.Element, place: str) -> str:
 
 
 def _check_axes(path: Path, root: ElementTree.Element) -> None:
-    """Raise an error unless the file has stored heights over equally spaced positions."""
+    """Raise an error unless the file stores heights at equally spaced positions."""
     kind = _text(root, "FeatureType")
     if kind not in ("", "SUR", "PRF"):
         raise InputError(path, f"is of the type {shown(kind)}", takes="a surface, SUR, or a profile, PRF")
@@ -405,7 +405,7 @@ class Surface:
                 takes=f"a line with at least {LEAST_POINTS} and {100 * (1 - MOST_VOID):.0f} %",
             )
         x = np.arange(z.size)
-        # Voids at the ends cannot be interpolated; they are left out.
+        # Voids at the ends cannot be interpolated; they are removed.
         first, last = x[there][[0, -1]]
         whole = np.interp(x, x[there], z[there])[first : last + 1]
         return _checked(Profile(spacing, whole), self.source)
@@ -413,7 +413,7 @@ class Surface:
     def map(self, *, along: str = "row") -> Map:
         """Whole surface as a map, with voids filled by a harmonic function.
 
-        Outer rows and columns that have no data at all are left out. Raises an InputError if the surface is a
+        Outer rows and columns that have no data at all are removed. Raises an InputError if the surface is a
         profile, has too many points, or too much of it is void.
         """
         if self.spacing_y is None:

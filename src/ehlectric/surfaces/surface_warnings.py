@@ -273,7 +273,7 @@ def map_variance_beyond(
     z = surface.heights - np.mean(surface.heights)
     # A Hann window removes the effect of the step between opposite sides.
     power = np.abs(np.fft.rfft2(z * np.outer(*(np.hanning(n) for n in z.shape)))) ** 2
-    # rfft2 leaves out negative frequencies along y: waves with a component along y count twice.
+    # rfft2 omits negative frequencies along y: waves with a component along y count twice.
     power[:, 1 : (z.shape[1] + 1) // 2] *= 2.0
     f_x = np.fft.fftfreq(z.shape[0], surface.spacing_x)[:, np.newaxis]
     f_y = np.fft.rfftfreq(z.shape[1], surface.spacing_y)

@@ -20,7 +20,7 @@ from ehlectric.quantities.units import known_factor, length_unit, to_si
 from ehlectric.runtime.text_table import Layout, NoTableError, decoded, layout_of
 from ehlectric.surfaces.profiles import LEAST_POINTS
 
-# Most lines of a text, of which each is looked at: twice those of the longest profiles of instruments.
+# Most lines of a text, of which each is looked at: twice the lines of the longest profiles of instruments.
 MOST_LINES = 2_000_000
 
 _UNITS = ("m", "mm", "um", "µm", "nm", "Å")
@@ -123,7 +123,7 @@ def _stated_units(layout: Layout) -> tuple[str | None, str | None]:
     while fields and not fields[-1]:
         fields.pop()
     if len(fields) != layout.width:
-        # The search alone would take the square of the length of a line without brackets.
+        # The search would take a time with the square of the length of a line without brackets.
         fields = _BRACKETED_FIELD.findall(line) if _BRACKETED_FIELDS.fullmatch(line) else []
     return (_unit_in(fields[0]), _unit_in(fields[1])) if len(fields) == layout.width else (None, None)
 

@@ -34,7 +34,7 @@ _ENDS = np.linspace(0.0, _END, 17)
 class OilGroups:
     """Coefficient and weak groups of an oil, from its laws of viscosity and density over pressure.
 
-    Those of many oils, whose laws have parameters of shape (n,), have the shape (n,).
+    Groups of many oils, whose laws have parameters of shape (n,), have the shape (n,).
     """
 
     alpha: Numbers  # pressure-viscosity coefficient of the atlas [1/Pa]
@@ -113,9 +113,9 @@ Laws = tuple[Callable[..., Any], Callable[..., Any]]
 
 # The logarithms of the film mass at the centre, the minimum, the mean over the central film, and the ratios
 # inlet and outlet change with the differences of an oil's shape (first row) and compressibility (second row)
-# from those of the reference oil, times (1, l, m, m^2, l m) with l = ln(L/10) and m = ln(M/50), times these
-# numbers. They are fitted to 585 line contacts of 38 oils with M from 0.3 to 500; M of a point contact is
-# that of the line contact with the same velocity parameter.
+# from the shape and compressibility of the reference oil, times (1, l, m, m^2, l m) with l = ln(L/10) and m =
+# ln(M/50), times these numbers. They are fitted to 585 line contacts of 38 oils with M from 0.3 to 500; M of
+# a point contact is the M of the line contact with the same velocity parameter.
 _OIL = {
     "central": ((0.116, -0.195, -0.024, 0.009, 0.010), (-0.089, 0.155, 0.001, 0.005, -0.053)),
     "minimum": ((0.078, -0.192, -0.048, 0.002, -0.005), (-1.153, -0.274, 0.004, 0.033, -0.045)),
@@ -135,8 +135,8 @@ _STIFF = {
     "outlet": (0.035, 0.013, 0.001),
 }
 
-# Further changes of point contacts, whose minimum lies beside the centre: these numbers times (1, l, m, ln k)
-# and the difference of the shape, fitted to 152 pairs of contacts that differ in their oil alone.
+# Further changes of point contacts, whose minimum is next to the centre: these numbers times (1, l, m, ln k)
+# and the difference of the shape, fitted to 152 pairs of contacts that differ only in their oil.
 _POINTS = {"minimum": (0.318, 0.012, 0.065, -0.069)}
 
 # Group L below which the changes fall in proportion to it: at L = 0 the film knows no law of the oil. Of 300
@@ -145,17 +145,18 @@ _LEAST_FITTED = 1.5
 
 # Spread between oils that 95 % of the fitted contacts keep: after the correction, and without it, for
 # contacts whose oil is not known. Below ``_LIGHT``, by M of a line, the spread and the error of the table are
-# twice as large, and that of the central film four times: the spike of the pressure passes the centre there.
+# twice as large, and the spread and error of the central film four times: the spike of the pressure passes
+# the centre there.
 _SPREAD = {"central": 0.006, "minimum": 0.011, "mean": 0.016, "zone": 0.003, "inlet": 0.025, "outlet": 0.028}
 _WHOLE = {"central": 0.020, "minimum": 0.032, "mean": 0.021, "zone": 0.004, "inlet": 0.030, "outlet": 0.031}
 _OTHER = 0.01
 _LIGHT = 5.0
 
-# More of the errors for oils that are compressed less than those of the fit, times what they are compressed
-# less, for films of nearly constant viscosity, and for the central film of contacts that are wide along
-# entrainment. In light contacts with incompressible oils the spike of the pressure passes the centre at other
-# loads, and films there are up to 20 % off. With L of 0.66 to 0.86 the film was 1.8 % off, where 1.5 % were
-# stated.
+# More of the errors for oils that are compressed less than the oils of the fit, times what they are
+# compressed less, for films of nearly constant viscosity, and for the central film of contacts that are wide
+# along entrainment. In light contacts with incompressible oils the spike of the pressure passes the centre at
+# other loads, and films there are up to 20 % off. With L of 0.66 to 0.86 the film was 1.8 % off, where 1.5 %
+# were stated.
 _STIFF_ERROR = {"central": 0.004, "minimum": 0.016, "mean": 0.02, "zone": 0.005}
 _STIFF_LIGHT = {"central": 0.2, "mean": 0.1, "zone": 0.15}
 _LIGHTEST, _ISOVISCOUS, _WIDE = 2.5, 0.008, 0.01
@@ -186,8 +187,8 @@ class AtlasFilm:
     mass: Numbers  # density ratio times film thickness at x = y = 0, which depends least on the oil
     central_pressure: Numbers  # pressure at x = y = 0 over the Hertz pressure
     # zone, inlet and outlet: mean of rho(0) h(0)/(rho h) over the Hertz zone; integral of dA/h before and
-    # behind the middle of the contact, outside the Hertz zone, over that of the dry gap plus the central
-    # film.
+    # behind the middle of the contact, outside the Hertz zone, divided by the integral of the dry gap plus
+    # the central film.
     zone: Numbers
     inlet: Numbers
     outlet: Numbers
@@ -220,7 +221,7 @@ def _coordinates(groups: Groups) -> tuple[Numbers, ...]:
 
 
 def _is_solvable(groups: Groups) -> Mask | bool:
-    """Whether Hertz pressures are among those with which films of points were solved."""
+    """Whether Hertz pressures are in the range in which films of point contacts were solved."""
     return groups.ratio is None or groups.hertz_number <= MOST_HERTZ
 
 
@@ -245,7 +246,7 @@ def _continued_at(groups: Groups) -> tuple[Numbers, ...]:
 
 
 def _nearest(groups: Groups, *, known: Mask | bool) -> Groups:
-    """Groups of contacts, and for those outside the atlas the nearest ones in its range."""
+    """Groups of contacts; for contacts outside the atlas, the nearest groups in its range."""
     nearest, lubricant, *others = _films(groups).nearest(*_continued_at(groups))
     load = np.where(known, np.asarray(groups.load_group), np.asarray(nearest))
     moes_l = np.where(known, groups.moes_l, lubricant / load**SKEW)
@@ -266,10 +267,10 @@ def atlas_film(
     """Film of smooth contacts from their groups.
 
     ``groups``, numbers of one contact, or arrays of many that broadcast to a shape (...), the points of an
-    oil of many points last; ``laws``, ln(eta/eta0) and rho/rho0 over pressure [Pa]; without them those of the
-    reference oil, with the spread between oils as an error; ``oil``, groups of the oil, where they are known
-    already; ``beyond``, whether the films of many contacts outside the atlas continue the films at its edge.
-    The formula has their own groups, and the ratio of the film to the formula is the ratio at the edge.
+    oil of many points last; ``laws``, ln(eta/eta0) and rho/rho0 over pressure [Pa]; without them the laws of
+    the reference oil, with the spread between oils as an error; ``oil``, groups of the oil, where they are
+    known already; ``beyond``, whether the films of many contacts outside the atlas continue the films at its
+    edge. The formula has their own groups, and the ratio of the film to the formula is the ratio at the edge.
     Returns numbers of the film with their errors. Raises InputError if a single contact is outside the range
     of the atlas; of many contacts, those that are outside have no numbers, unless they are ``beyond``.
     """
@@ -384,7 +385,7 @@ class OilChange:
         return self.of_lines(name) * self.of_stiff(name) * self.of_points(name)
 
     def of_lines(self, name: str) -> Numbers:
-        """Part of the factor that is fitted to line contacts; points have it, too."""
+        """Part of the factor that is fitted to line contacts; points have it as well."""
         offset, lubricant, load, square, both = (
             shape * self._shape + compressibility * self._compressibility
             for shape, compressibility in zip(*_OIL[name], strict=True)
@@ -394,7 +395,7 @@ class OilChange:
         return np.exp(change)
 
     def of_points(self, name: str) -> Numbers:
-        """Part of the factor of point contacts alone; 1 for numbers that change as those of lines do."""
+        """Part of the factor of only point contacts; 1 for numbers that change as in line contacts."""
         if self._ratio is None or name not in _POINTS:
             return 1.0
         terms = self.point_terms(self._ratio)

@@ -2,7 +2,7 @@
 each film.
 
 A smooth, fully flooded, isothermal contact has Moes' groups M and L, and for points the ratio k of the
-semi-axes, k = a/b with a across entrainment. The scales of the film equations follow from them alone. For
+semi-axes, k = a/b with a across entrainment. The scales of the film equations follow only from them. For
 lines
 
     lambda = 3 pi^2/(8 M^2),   alpha p_h = L (M/(2 pi))^(1/2),   H_Moes = (8 M/pi) H,
@@ -48,7 +48,7 @@ TOLERANCE = 1e-7
 _STEPS = 40
 
 # Exponent of the load group in the lubricant coordinate Y = L N^(1/6). In bearings L falls and N rises with
-# the viscosity and the speed, so that L and N are correlated, whereas Y and N are hardly so.
+# the viscosity and the speed, so that L and N are correlated, whereas the correlation of Y and N is weak.
 SKEW = 1.0 / 6.0
 
 

@@ -27,11 +27,12 @@ from ehlectric.errors import InputError
 #   minimum_x, minimum_y: place of the minimum in semi-axes b and a.
 NAMES = ("central", "minimum", "mean", "pressure", "zone", "inlet", "outlet", "minimum_x", "minimum_y")
 
-# The error of a spline through every node over that of a spline through every second one: a sixteenth for
-# smooth values; kinks, where the minimum changes its place or a spike passes the centre, do worse.
+# The error of a spline through every node divided by the error of a spline through every second node: a
+# sixteenth for smooth values; kinks, where the minimum changes its place or a spike passes the centre, do
+# worse.
 HALVED = 1.0 / 5.0
 
-# Relative distance within which a coordinate is that of a node.
+# Relative distance within which a coordinate equals the coordinate of a node.
 _ALIKE = 1e-9
 
 # Growth of the relative errors outside the table below and above each coordinate, for each change of it by a
@@ -219,7 +220,7 @@ def tensor_spline(logs: list[Array], values: Array, degree: int = 3) -> NdBSplin
 
 
 def _largest_near(values: Array) -> Array:
-    """Largest value of a node and its neighbours along each axis but the last."""
+    """Largest value of a node and its neighbours along each axis except the last."""
     for axis in range(values.ndim - 1):
         ends = [(1, 1) if i == axis else (0, 0) for i in range(values.ndim)]
         wide = np.pad(values, ends, mode="edge")
