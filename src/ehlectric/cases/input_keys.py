@@ -29,7 +29,6 @@ from ehlectric.errors import InputError
 from ehlectric.quantities.inputs import (
     BOTH,
     ENDS,
-    described,
     end_and_key,
     input_at,
     inputs,
@@ -82,47 +81,49 @@ def _entry(table: str, name: str) -> Quantity | None:
 
 
 def descriptions(table: str) -> dict[str, str]:
-    """Descriptions of the keys of a table of ``TABLES`` or of "sweep", in Markdown, each after its label.
+    """Return the meanings of the keys of a table of ``TABLES`` or of "sweep", in Markdown.
 
     Examples
     --------
     >>> descriptions("contact")["load"], descriptions("contact")["reduced_radius"]
-    ('load of a point contact', 'reduced radius, $R$, with $1/R = 1/R_1 + 1/R_2$')
+    ('load of a point contact', 'reduced radius $R$ of a line contact, with $1/R = 1/R_1 + 1/R_2$')
     """
     if table not in inputs():
         raise InputError.unknown(table, nearest(table, inputs()))
     laws = law_parameters() if table == "lubricant" else {}
     entries = {name: parameter.quantity for name, parameter in laws.items()} | dict(inputs()[table])
-    return {name: described(entry) for name, entry in entries.items()}
+    return {name: entry.meaning for name, entry in entries.items()}
 
 
 def describe(key: str) -> str:
-    """Description of a key of a case, bearing or sweep file, as plain text with its SI unit. Returns a phrase
-    with the unit in brackets, such as "load of a point contact [N]". Raises InputError where there is no such
-    key; with the nearest known one.
+    """Return the meaning of a key of a case, bearing or sweep file as plain text, with the SI unit.
+
+    The unit follows the first sentence, in brackets, as in "load of a point contact [N]". Raises InputError
+    if no file contains the key; the error names the nearest known key.
 
     Examples
     --------
     >>> describe("contact.load"), describe("roughness.1.hurst")
     ('load of a point contact [N]', 'Hurst exponent of a self-affine surface')
     >>> describe("bearing.radial_load")
-    'radial load, F_r, force on the inner ring across the axis [N]'
+    'radial load F_r: force on the inner ring perpendicular to the axis [N]'
     """
     table, name, _ = table_and_key(key)
     if not table or name not in (descriptions(table) if table in inputs() else {}):
         every = [f"{book}.{name}" for book in inputs() for name in descriptions(book)]
         raise InputError.unknown(key, nearest(key, every))
-    unit = unit_of(_numbered(key))
-    return f"{phrase(table, name)} [{printed(unit)}]" if unit else phrase(table, name)
+    unit, text = unit_of(_numbered(key)), phrase(table, name)
+    first, stop, others = text.partition(". ")
+    return f"{first} [{printed(unit)}]{stop}{others}" if unit else text
 
 
 def phrase(table: str, key: str) -> str:
-    """Description of a key of a table as plain text, which begins with the label of the key.
+    """Return the meaning of a key of a table as plain text.
 
     Examples
     --------
     >>> phrase("bearing", "radial_load"), phrase("contact.body", "youngs_modulus")
-    ('radial load, F_r, force on the inner ring across the axis', "Young's modulus, E")
+    ('radial load F_r: force on the inner ring perpendicular to the axis', "Young's modulus E of the body")
     """
     return plain_text(descriptions(table)[key])
 

@@ -18,7 +18,7 @@ from pydantic.fields import FieldInfo
 from ehlectric.cases.defaults import Contacts
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
-from ehlectric.quantities.inputs import described, inputs, plain_text
+from ehlectric.quantities.inputs import first_clause, inputs, plain_text
 from ehlectric.quantities.units import printed
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -106,8 +106,8 @@ def _listed(keys: type, fields: Fields) -> Iterator[str]:
     for book, key in [*names, *(("", key) for key in _MEANINGS if key in keys.__annotations__)]:
         given = _type_of(keys.__annotations__[key], fields.get(book, {}).get(key))
         unit = printed(inputs()[book][key].unit) if book and inputs()[book][key].unit else ""
-        meaning = _MEANINGS[key] if not book else plain_text(described(inputs()[book][key]))
-        clause = re.split(r"; |\. ", meaning)[0]
+        meaning = _MEANINGS[key] if not book else plain_text(inputs()[book][key].meaning)
+        clause = first_clause(meaning)
         short = clause.partition(": ")[0] if len(clause) > _LONG else clause
         yield _entry(f"{key} : {given}{f' [{unit}]' if unit else ''}", short)
 

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ehlectric.quantities.inputs import Input, attributes, described, input_at, plain_text
+from ehlectric.quantities.inputs import Input, attributes, first_clause, input_at, plain_text
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.units import printed, rounded
 
@@ -64,9 +64,7 @@ def help_text(key: str) -> str:
     entry = input_at(key)
     if entry is None:
         raise KeyError(key)
-    about = help_at(key)
-    # What follows a semicolon is about other keys of the file.
-    meaning = plain_text(described(entry).partition("; ")[0])
+    about, meaning = help_at(key), plain_text(first_clause(entry.meaning))
     parts = [meaning, about.more.rstrip("."), _usual_text(entry, about), _effect_text(about)]
     return " ".join(f"{part[0].upper()}{part[1:]}." for part in parts if part)
 

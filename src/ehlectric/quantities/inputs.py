@@ -224,17 +224,6 @@ def input_at(key: str) -> Input | None:
     return replace(entry, label=f"{entry.label} {_NUMBERED[table]} {number}") if table in _NUMBERED else None
 
 
-def described(entry: Quantity) -> str:
-    """Description of an input in Markdown, which begins with its label.
-
-    Examples
-    --------
-    >>> described(inputs()["contact"]["load"])
-    'load of a point contact'
-    """
-    return entry.meaning if entry.meaning.startswith(entry.label) else f"{entry.label}, {entry.meaning}"
-
-
 # Commands of LaTeX in descriptions, as plain text.
 _LATEX = {
     r"\\(?:mathrm|text)\{([^}]*)\}": r"\1",
@@ -264,3 +253,14 @@ def plain_text(text: str) -> str:
     for pattern, plain in _LATEX.items():
         text = re.sub(pattern, plain, text)
     return text
+
+
+def first_clause(text: str) -> str:
+    """Return the definition in a meaning: the text up to the first semicolon or full stop.
+
+    Examples
+    --------
+    >>> first_clause("radial clearance before mounting. Give this key or `bearing.clearance_class`.")
+    'radial clearance before mounting'
+    """
+    return re.split(r"; |\. ", text)[0].rstrip(".")

@@ -342,7 +342,7 @@ def _input_cells(case: SweptCase, entry: Input, numbers: Mapping[Source, int]) -
     if entry.source is not None:
         origin = f"{origin}: {entry.source.kind} [{numbers[entry.source]}]"
     name, other = named(end_and_key(entry.key)[1]), replaced_by(case, entry.key)
-    meaning = _meaning(entry.key).removeprefix(f"{name.text}, ")
+    meaning = _meaning(entry.key)
     if other:
         meaning = f"not used: the {named(other).text} of the drive takes its place"
     return name, input_text(case, entry.key, entry.value), origin, meaning
@@ -354,7 +354,7 @@ def _meaning(key: str) -> str:
         text = describe(key)
     except InputError:
         return "how the contacts are computed" if end_and_key(key)[1] == "contacts" else ""
-    return worded(re.split(r" \[|; |: ", text)[0])
+    return worded(re.split(r" \[|; |\. ", text)[0])
 
 
 def _assumptions(case: SweptCase, inputs: Iterable[Input]) -> Iterator[Block]:
