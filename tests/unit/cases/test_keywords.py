@@ -63,7 +63,7 @@ def test_editors_see_the_keywords(constructor, keys):
     [
         (Case.line, ["load_per_length : number [N/m], load per length", "temperature : number [K], temperature of the oil"]),
         (Case.point, ["radius_x : number [m]", "load : number [N], load", "lubricant : mapping or name,"]),
-        (BearingCase.of, ["inner_speed : number [rad/s], speed of the inner ring", "elements : int, number of rolling elements Z", "coating : mapping or name,"]),
+        (BearingCase.of, ["inner_speed : number [rad/s], speed of the inner ring", "elements : int, number of rolling elements Z", "coating : mapping or name table"]),
     ],
 )  # fmt: skip
 def test_help_shows_type_unit_and_meaning_of_every_keyword(constructor, entries):
