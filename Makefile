@@ -95,10 +95,10 @@ test: $(VENV)/.test
 # Long tests in shards of some ten minutes on two cores. What a shard leaves out is in the next but one: the
 # fourth takes all tests that no other shard takes.
 SHARDS := 5
-FILM := tests/unit/film
-PROCESSES := tests/attack tests/cli
+FILM := tests/film
+PROCESSES := tests/attack tests/commands
 NUMBERS := (convergence or published or measured or reference)
-IN_PROCESS := $(addprefix --ignore=,$(PROCESSES) tests/browser)
+IN_PROCESS := $(addprefix --ignore=,$(PROCESSES))
 SLOW := $(BIN)/python -m pytest --junitxml=build/slow-$$(date +%s).xml
 
 slow: $(VENV)/.test
@@ -109,24 +109,24 @@ slow: $(VENV)/.test
 	esac
 
 slow-1:
-	$(SLOW) -m "slow and convergence" $(FILM)
+	$(SLOW) -m "slow and $(NUMBERS)" $(FILM)
 
 # With what is no test: the gallery of the documentation, and both packages.
 slow-2: docs packages
-	$(SLOW) -m "slow and $(NUMBERS)" --ignore=$(FILM) $(IN_PROCESS)
+	$(SLOW) -m "slow and $(NUMBERS) and not browser" --ignore=$(FILM) $(IN_PROCESS)
 
 slow-3:
 	$(SLOW) -m slow $(PROCESSES)
 
 slow-4:
-	$(SLOW) -m "slow and not $(NUMBERS)" $(IN_PROCESS)
+	$(SLOW) -m "slow and not $(NUMBERS) and not browser" $(IN_PROCESS)
 
 # The browser's tests one at a time.
 slow-5: $(VENV)/.test
-	$(SLOW) -m slow -n 0 tests/browser
+	$(SLOW) -m "slow and browser" -n 0 tests/app
 
 thorough: $(VENV)/.test
-	EHLECTRIC_THOROUGH=1 $(BIN)/python -m pytest -m "slow or not slow" --ignore=tests/browser
+	EHLECTRIC_THOROUGH=1 $(BIN)/python -m pytest -m "not browser"
 
 lint: $(VENV)/.dev
 	$(BIN)/ruff format --check .
@@ -176,7 +176,7 @@ figures: $(VENV)/.test
 
 screenshots: $(VENV)/.test
 	EHLECTRIC_SCREENSHOTS=$(CURDIR)/docs/figures/app EHLECTRIC_BROWSER=required \
-	  $(BIN)/python -m pytest -q -n 0 -m slow tests/browser/test_screenshots.py
+	  $(BIN)/python -m pytest -q -n 0 -m slow tests/app/test_screenshots.py
 
 bench: $(VENV)/.dev
 	$(BIN)/python benchmarks/table.py

@@ -32,7 +32,7 @@ from ehlectric.runtime.threads import quiet_solution
 ROOT = Path(__file__).parents[1]
 TABLE = ROOT / "docs/data/amplitude_reduction.csv"
 FIGURE = ROOT / "docs/figures/amplitude_reduction.png"
-PUBLISHED = ROOT / "tests/published/data/amplitude_reduction.csv"
+PUBLISHED = ROOT / "tests/data/published/amplitude_reduction.csv"
 
 # Oil, steel and radius of Venner et al.; load and speed follow from M and L.
 RADIUS, MODULUS, VISCOSITY, ALPHA = 14.1e-3, 226e9, 0.04, 22e-9

@@ -1,7 +1,7 @@
 """All sixteen combinations of starved, hot and sheared, touching and moving, of line and point contacts.
 
 Run by hand: ``python -m benchmarks.combinations``. The contacts are those of
-``tests/unit/film/test_every_effect.py``; the table is that of the theory.
+``tests/film/test_every_effect.py``; the table is that of the theory.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from time import process_time
 from typing import Any
 
 import numpy as np
-from tests.unit.film.test_every_effect import film_of, moving, posed
+from tests.film.test_every_effect import film_of, moving, posed
 
 from ehlectric.errors import ConvergenceError
 from ehlectric.runtime.threads import quiet_solution

@@ -17,7 +17,7 @@ from dataclasses import replace
 from itertools import islice
 
 import numpy as np
-from tests.reference.hertz_point import radii_ratio
+from tests.formulas.hertz_point import radii_ratio
 
 from ehlectric import Case
 from ehlectric.contact.conditions import PointConditions, resolve_point

@@ -19,12 +19,12 @@ def durations(path: Path) -> dict[str, float]:
 
 
 def folder(name: str) -> str:
-    """Folder of a test, two below ``tests``; all examples in docstrings of the source are one."""
+    """Folder of a test, directly below ``tests``; all examples in docstrings of the source are one."""
     parts = name.partition("::")[0].split(".")
     if parts[0] != "tests":
         return "src, docstrings"
     folders = [part for part in parts[1:] if not part.startswith(("test_", "Test"))]
-    return "/".join(["tests", *folders[:2]])
+    return "/".join(["tests", *folders[:1]])
 
 
 def tables(seconds: dict[str, float]) -> str:

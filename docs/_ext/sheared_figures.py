@@ -14,7 +14,7 @@ if str(ROOT) not in sys.path:
     sys.path.insert(0, str(ROOT))
 
 from measured_figures.look import decades, label, new  # noqa: E402
-from tests.unit.film.sheared.contacts import friction, line_contact, solved  # noqa: E402
+from tests.film.sheared.contacts import friction, line_contact, solved  # noqa: E402
 
 from ehlectric.film.shear_laws import Rheology  # noqa: E402
 from ehlectric.quantities.palette import BLUE, GREEN, MIDDLE_GREY, ORANGE  # noqa: E402

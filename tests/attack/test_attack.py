@@ -13,7 +13,7 @@ from tests.attack.inputs import KINDS
 from tests.attack.kills import SCENARIOS, kill
 from tests.attack.runner import Runner
 from tests.attack.stock import make
-from tests.cli.test_drive_command import SHORT
+from tests.commands.test_drive_command import SHORT
 from tests.helpers.gate import gated
 from tests.helpers.places import EXAMPLES
 from tests.helpers.share import share, share_of

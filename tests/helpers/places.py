@@ -5,4 +5,7 @@ from pathlib import Path
 ROOT = Path(__file__).parents[2]
 EXAMPLES = ROOT / "examples"
 DEKTAK = EXAMPLES / "surfaces" / "dektak-1.csv"
-SURFACES = ROOT / "tests" / "data" / "surfaces"
+DATA = ROOT / "tests" / "data"
+SURFACES = DATA / "surfaces"
+PUBLISHED = DATA / "published"
+MEASURED = DATA / "measured"

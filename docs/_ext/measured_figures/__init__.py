@@ -37,6 +37,14 @@ FIGURES: dict[str, Callable[[], Drawn]] = {
     "equation_of_state": equation_of_state,
     "bearing_breakdown": bearing_breakdown,
 }
+# What computes and reads their values.
+_COMPUTED = (
+    "bearing/bearing_breakdown",
+    "contact/equation_of_state",
+    "helpers/ball_on_disc",
+    "helpers/measurements",
+    "motion/microdent",
+)
 _LOOK = {
     "font.size": 9.0,
     "axes.labelsize": 9.0,
@@ -65,7 +73,8 @@ def _write(app: Sphinx) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     sources = [
         *Path(ehlectric.__file__).parent.rglob("*.py"),
-        *(ROOT / "tests" / "measured").rglob("*.*"),
+        *(ROOT / "tests" / "data" / "measured").iterdir(),
+        *(ROOT / "tests" / f"{name}.py" for name in _COMPUTED),
         *Path(__file__).parent.glob("*.py"),
     ]
     newest = max(path.stat().st_mtime for path in sources if path.suffix != ".pyc")

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 from matplotlib.figure import Figure
-from tests.measured.bearing_breakdown import (
+from tests.bearing.bearing_breakdown import (
     BEST,
     EFFECTS,
     FAST,

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from tests.measured.computed import OILS, STEEL, ball_on_disc, capacitances
-from tests.measured.equation_of_state import values
-from tests.measured.reference import Reference, load
+from tests.contact.equation_of_state import values
+from tests.helpers.ball_on_disc import OILS, STEEL, ball_on_disc, capacitances
+from tests.helpers.measurements import Reference, load
 
 from ehlectric.quantities.palette import BLUE, GREEN, ORANGE
 from measured_figures.look import MEASURED, decades, label, new

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 from matplotlib.figure import Figure
-from tests.measured.microdent import DENTS, MICRO, OPTICS_END, at, measured, passage
+from tests.motion.microdent import DENTS, MICRO, OPTICS_END, at, measured, passage
 
 from ehlectric.quantities.palette import BLUE, ORANGE
 from measured_figures.look import label, new

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from tests.measured.computed import OILS, ball_on_disc, central_films
-from tests.measured.reference import exponent, film_log, load, zero_checks
+from tests.helpers.ball_on_disc import OILS, ball_on_disc, central_films
+from tests.helpers.measurements import exponent, film_log, load, zero_checks
 
 from ehlectric.quantities.palette import BLUE, GREEN
 from measured_figures.look import MEASURED, decades, label, new

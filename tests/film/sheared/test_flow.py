@@ -1,0 +1,225 @@
+"""Flow of a shear-thinning oil through the faces: derivatives in the Jacobian, and limits."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from ehlectric.film import reynolds
+from ehlectric.film.across_film import Across
+from ehlectric.film.face_flow import Undrifted, flow, mean_fluidity
+from ehlectric.film.mesh import Mesh, Width, on_mesh
+from ehlectric.film.shear_flow import ShearedFlow
+from ehlectric.film.shear_laws import Rheology
+from tests.film.sheared.contacts import Warm, fluid_of
+from tests.helpers.each import each
+
+LAWS = [
+    Rheology(),
+    Rheology("eyring", {"eyring_stress": 5e6}),
+    Rheology("carreau", {"carreau_stress": 6e6, "carreau_exponent": 0.45}),
+    Rheology("limiting", {"limiting_coefficient": 0.05}),
+]
+
+
+def sheared(rheology, mesh, *, warm=False, ratio=0.4):
+    """Fluid at 0.5 GPa with slip, and optionally with a temperature profile on the mesh."""
+    fluid = fluid_of(5e8, 1e-4, 2.0, "newtonian")
+    law = ShearedFlow(rheology, 5e6, 5e8, ratio)
+    if warm:
+        across = Across.of(6)
+        shape = np.random.default_rng(5).random((1, *mesh.shape))
+        zeta = across.zeta[:, np.newaxis, np.newaxis]
+        temperature = shape * (0.2 + zeta + 2.0 * zeta * (1.0 - zeta))
+        law = replace(law, profile=Warm(across, temperature, mesh, fluid))
+    return replace(fluid, flow=law)
+
+
+def state(mesh, seed):
+    """Random pressure, thickness and change of both."""
+    rng = np.random.default_rng(seed)
+    return tuple(low + 0.1 * rng.random(mesh.shape) for low in (0.3, 0.2, 0.5))
+
+
+def residual(fluid, mesh, pressure, thickness):
+    wedge = reynolds.wedge_stencil(mesh.shape, mesh.dx, order=2)
+    return reynolds.residual(flow(fluid, pressure, thickness, mesh), wedge, thickness, mesh)
+
+
+def check_jacobian(fluid, mesh, seed=3):
+    """Both stencils of the Jacobian against central differences of the residual."""
+    pressure, thickness, change = state(mesh, seed)
+    wedge = reynolds.wedge_stencil(mesh.shape, mesh.dx, order=2)
+    by_p, by_h = reynolds.linearise(flow(fluid, pressure, thickness, mesh), wedge, thickness, mesh)
+    step = 1e-6 * change
+    for stencil, p, h in ((by_p, step, 0.0), (by_h, 0.0, step)):
+        forward = residual(fluid, mesh, pressure + p, thickness + h)
+        back = residual(fluid, mesh, pressure - p, thickness - h)
+        expected = (forward - back) / 2e-6
+        np.testing.assert_allclose(stencil(change), expected, rtol=1e-6, atol=1e-6 * np.max(np.abs(expected)))
+
+
+@each("warm", [False, True])
+@each("rheology", LAWS, ids=lambda law: law.name)
+def test_derivatives_of_a_line(rheology, warm):
+    """The Jacobian is the derivative of the residual, through P, H, the properties and the shear."""
+    mesh = Mesh.over(20, -2.0, 1.0)
+    check_jacobian(sheared(rheology, mesh, warm=warm), mesh)
+
+
+@each("warm", [False, True])
+@each("rheology", [LAWS[0], LAWS[3]], ids=lambda law: law.name)
+def test_derivatives_of_a_point(rheology, warm):
+    """Laws whose flux does not depend on the gradient along the other axis have the exact Jacobian."""
+    mesh = Mesh.over(12, -2.0, 1.0, Width(11, 2.0))
+    assert mesh.symmetric
+    check_jacobian(sheared(rheology, mesh, warm=warm), mesh)
+
+
+@each("warm", [False, True])
+@each("symmetric", [False, True])
+def test_derivatives_of_a_point_whose_pressure_rises_along_one_axis(symmetric, warm):
+    """Without a gradient along the other axis the derivatives by it vanish, and the Jacobian is exact.
+
+    The pressure and its change depend on x only; the film thickness is any.
+    """
+    mesh = Mesh.over(12, -2.0, 1.0, Width(11, 2.0, symmetric=symmetric))
+    fluid = sheared(LAWS[1], mesh, warm=warm)
+    pressure, thickness, change = state(mesh, 4)
+    pressure, change = (np.repeat(values[:, :1], mesh.shape[1], axis=1) for values in (pressure, change))
+    wedge = reynolds.wedge_stencil(mesh.shape, mesh.dx, order=2)
+    by_p, by_h = reynolds.linearise(flow(fluid, pressure, thickness, mesh), wedge, thickness, mesh)
+    step = 1e-6 * change
+    for stencil, p, h in ((by_p, step, 0.0), (by_h, 0.0, step)):
+        forward = residual(fluid, mesh, pressure + p, thickness + h)
+        back = residual(fluid, mesh, pressure - p, thickness - h)
+        expected = (forward - back) / 2e-6
+        np.testing.assert_allclose(stencil(change), expected, rtol=1e-6, atol=1e-6 * np.max(np.abs(expected)))
+
+
+@each("width", [None, Width(9, 2.0)])
+@each(
+    "rheology",
+    [
+        Rheology(),
+        Rheology("eyring", {"eyring_stress": 1e14}),
+        Rheology("carreau", {"carreau_stress": 1e14, "carreau_exponent": 0.4}),
+    ],
+    ids=lambda law: law.name,
+)
+def test_large_stresses_give_the_newtonian_flux(rheology, width):
+    """The flux and its derivatives are those of the Newtonian law, whatever the slip is."""
+    mesh = Mesh.over(15, -2.0, 1.0, width)
+    fluid = sheared(rheology, mesh)
+    pressure, thickness, _ = state(mesh, 1)
+    found, expected = flow(fluid, pressure, thickness, mesh), mean_fluidity(fluid, pressure, thickness, mesh)
+    pairs = [(found.along, expected.along)]
+    if width is not None:
+        pairs.append((found.across, expected.across))
+    for face, newtonian in pairs:
+        for name in ("flux", "conductance"):
+            np.testing.assert_allclose(getattr(face, name), getattr(newtonian, name), rtol=1e-10)
+        for sides, others in (
+            (face.by_gap, newtonian.by_gap),
+            (face.by_properties, newtonian.by_properties),
+        ):
+            scale = np.max(np.abs(others.before))
+            np.testing.assert_allclose(sides.before, others.before, rtol=1e-9, atol=1e-10 * scale)
+            np.testing.assert_allclose(sides.after, others.after, rtol=1e-9, atol=1e-10 * scale)
+
+
+@each("width", [None, Width(9, 2.0)])
+@each("rheology", LAWS, ids=lambda law: law.name)
+def test_uniform_profile_is_no_profile(rheology, width):
+    """At the reference temperature across the film the flux is that without a profile."""
+    mesh = Mesh.over(15, -2.0, 1.0, width)
+    fluid = sheared(rheology, mesh)
+    cold = Warm(Across.of(6), np.zeros((7, *mesh.shape)), mesh, fluid)
+    profiled = replace(fluid, flow=replace(fluid.flow, profile=cold))
+    pressure, thickness, _ = state(mesh, 2)
+    with_it, without = (flow(oil, pressure, thickness, mesh) for oil in (profiled, fluid))
+    np.testing.assert_allclose(with_it.coefficients.density, without.coefficients.density, rtol=1e-14)
+    scale = np.max(np.abs(without.along.flux))
+    np.testing.assert_allclose(with_it.along.flux, without.along.flux, rtol=1e-9, atol=1e-12 * scale)
+    np.testing.assert_allclose(with_it.along.conductance, without.along.conductance, rtol=1e-9)
+
+
+@each("rheology", LAWS, ids=lambda law: law.name)
+def test_reversed_slip_mirrors_the_stress(rheology):
+    """The film of equal surfaces does not change; stress and speed are those of the other surface."""
+    mesh = Mesh.over(15, -2.0, 1.0, Width(9, 2.0))
+    pressure, thickness, _ = state(mesh, 6)
+    one, other = (sheared(rheology, mesh, ratio=ratio) for ratio in (0.4, -0.4))
+    fluxes = [flow(oil, pressure, thickness, mesh) for oil in (one, other)]
+    np.testing.assert_allclose(fluxes[1].along.flux, fluxes[0].along.flux, rtol=1e-10)
+    first, second = (oil.flow.columns(oil, pressure, thickness, mesh) for oil in (one, other))
+    np.testing.assert_allclose(second.middle[0], -first.middle[0], rtol=1e-10)
+    np.testing.assert_allclose(second.speed[0], first.speed[0, ::-1], rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(second.heating, first.heating[::-1], rtol=1e-9, atol=1e-15)
+
+
+@each("rheology", LAWS, ids=lambda law: law.name)
+def test_columns_carry_the_flux_between_the_surfaces(rheology):
+    """Both surfaces have their speeds, and Int rho u dz is rho_e H less the flux of a uniform gradient."""
+    mesh = Mesh.over(9, -2.0, 1.0)
+    fluid = sheared(rheology, mesh, warm=True)
+    temperature = np.repeat(fluid.flow.profile.temperature[:, 4:5], 9, axis=1)
+    profile = replace(fluid.flow.profile, temperature=temperature)
+    fluid = replace(fluid, flow=replace(fluid.flow, profile=profile))
+    fluid = replace(
+        fluid, log_viscosity=lambda p: (0.0 * p, 0.0 * p), density=lambda p: (1.0 + 0.0 * p, 0.0 * p)
+    )
+    pressure = 0.4 + 1e-6 * mesh.x[:, np.newaxis]
+    thickness = np.full(mesh.shape, 0.2)
+    columns = fluid.flow.columns(fluid, pressure, thickness, mesh)
+    np.testing.assert_allclose(columns.speed[0, 0], 0.8, rtol=1e-13)
+    np.testing.assert_allclose(columns.speed[0, -1], 1.2, rtol=1e-13)
+    weights = columns.across.weights[:, np.newaxis, np.newaxis]
+    carried = thickness * np.sum(weights * columns.density * columns.speed[0], axis=0)
+    found = flow(fluid, pressure, thickness, mesh)
+    expected = found.coefficients.density * thickness
+    expected[1:-1] -= 0.5 * mesh.dx * (found.along.flux[1:] + found.along.flux[:-1])
+    np.testing.assert_allclose(carried[1:-1], expected[1:-1], rtol=1e-6)
+
+
+def test_profiles_are_moved_to_other_meshes():
+    """A temperature linear in x and y is the same on a coarser grid and on a strip of the grid."""
+    width = Width(9, 2.0)
+    fine, coarse = Mesh.over(17, -2.0, 2.0, width), Mesh.over(9, -2.0, 2.0, width.coarser())
+    strip = Mesh(fine.x[3:8], fine.y[:1])
+
+    def linear(mesh):
+        return (mesh.x[:, np.newaxis] + 0.5 * mesh.y)[np.newaxis]
+
+    np.testing.assert_allclose(on_mesh(linear(fine), fine, coarse), linear(coarse), atol=1e-14)
+    line = Mesh.over(17, -2.0, 2.0)
+    np.testing.assert_allclose(on_mesh(linear(line), line, strip), linear(strip), atol=1e-14)
+    assert on_mesh(linear(fine), fine, fine) is not None
+
+
+@each("rheology", LAWS)
+def test_drift_is_the_flow_without_a_gradient(rheology):
+    """At a uniform pressure nothing else flows; behind cavitated nodes it is taken away, and only once."""
+    mesh = Mesh.over(9, -1.0, 1.0)
+    fluid = sheared(rheology, mesh, warm=True)
+    _, thickness, _ = state(mesh, 3)
+    found = flow(fluid, np.full(mesh.shape, 0.3), thickness, mesh)
+    assert np.all(np.abs(found.along.drift) > 0.0)
+    np.testing.assert_allclose(found.along.drift, found.along.flux, rtol=1e-6)
+    cavitated = (mesh.x < 0.0)[:, np.newaxis]
+    taken = found.undrifted(cavitated)
+    np.testing.assert_allclose(taken.along.flux[:4], 0.0, atol=1e-6 * np.abs(found.along.flux).max())
+    np.testing.assert_array_equal(taken.along.flux[4:], found.along.flux[4:])
+    np.testing.assert_array_equal(taken.undrifted(cavitated).along.flux, taken.along.flux)
+
+
+def test_drift_is_left_out_on_coarser_grids_and_halves_too():
+    """Each of their nodes is cavitated as that of the grid that has the mask."""
+    mesh = Mesh.over(9, -1.0, 1.0, Width(9, 1.0, symmetric=True))
+    coarse = Mesh.over(5, -1.0, 1.0, Width(5, 1.0, symmetric=True))
+    fluid = sheared(LAWS[1], mesh, warm=True)
+    cavitated = np.broadcast_to((mesh.x < 0.0)[:, np.newaxis], mesh.shape)
+    pressure, thickness = np.full(coarse.shape, 0.3), np.full(coarse.shape, 0.2)
+    found = Undrifted(fluid.flow, mesh, cavitated)(fluid, pressure, thickness, coarse).along.flux
+    whole = fluid.flow(fluid, pressure, thickness, coarse).along.flux
+    np.testing.assert_allclose(found[:2], 0.0, atol=1e-6 * np.abs(whole).max())
+    np.testing.assert_array_equal(found[2:], whole[2:])
