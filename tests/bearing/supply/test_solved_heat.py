@@ -40,7 +40,7 @@ def rollers():
 
 @pytest.mark.slow
 def test_solved_factor_of_balls_is_near_to_the_formula():
-    """Solved films in pure rolling are 0.6 to 2 % above Wilson and Sheu, by docs/theory/bearing.md."""
+    """Solved films in pure rolling are 0.6 to 2 % above Wilson and Sheu, by docs/validation/bearings.md."""
     quick = prepare_bearing(case(factor="inlet-shear"), 1)
     inner, _ = quick.rings
     solved, _ = film_factor.solved_contact(case(), inner, largest_load(quick, inner))
