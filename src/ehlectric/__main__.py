@@ -8,18 +8,18 @@ import sys
 from ehlectric.runtime.memory import in_bytes, is_out_of_memory, left_of_process, out_of_memory
 from ehlectric.runtime.worker_processes import cores
 
-# Memory that the libraries of every command take [bytes of address space], and that of BLAS for each core.
-# With less they do not fail in words: BLAS waits for ever, or ends the process.
+# Memory that the libraries of every command take [bytes of address space], and memory of BLAS for each core.
+# With less they fail without a message: BLAS waits endlessly, or ends the process.
 LEAST_MEMORY, MEMORY_OF_CORE = 750_000_000, 20_000_000
 _TOO_LITTLE, _INTERRUPTED = 2, 130
 
-# New objects after which Python searches them for cycles. Loading the libraries makes some 100,000 that stay:
-# with the usual 700 the searches take a tenth of a short command.
+# New objects after which Python searches them for cycles. Loading the libraries makes about 100,000 that
+# stay: with the usual 700 the searches take a tenth of a short command.
 _NEW_OBJECTS = 10_000
 
 
 def main() -> None:
-    """Entry point of the ``ehlectric`` command, also where there is hardly any memory."""
+    """Entry point of the ``ehlectric`` command, also where there is almost no memory."""
     left, least = left_of_process(), LEAST_MEMORY + MEMORY_OF_CORE * cores()
     if left < least:
         message = f"memory: got {in_bytes(max(0.0, left))}, what ulimit leaves to this process"

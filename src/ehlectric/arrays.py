@@ -40,7 +40,7 @@ def where(known: Booleans, values: Numbers) -> Numbers | None: ...
 
 
 def where(known: Booleans, values: Numbers) -> Numbers | None:
-    """Values where they are known: of one point the value or None, of many points NaN in place of None.
+    """Values where they are known: of one point the value or None, of many points NaN instead of None.
 
     ``known``, whether each point has its value, shape (...); ``values``, shape (...).
 
@@ -80,7 +80,7 @@ def as_float(values: Numbers | np.floating[Any] | NDArray[np.floating[Any]]) -> 
 
 
 def labels(*choices: tuple[Booleans, str | Texts] | str | Texts) -> str | Texts:
-    """Text for each point: that of the first condition that holds, or the last one.
+    """Text for each point: the text of the first condition that holds, or the last one.
 
     ``choices``, pairs of a condition of shape (...) and its text, and the text of all other points. Returns a
     text for one point, an array of texts for many.

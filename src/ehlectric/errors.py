@@ -44,7 +44,7 @@ def printable(text: str) -> str:
 
 
 def short(text: str, most: int = _MOST_SHOWN) -> str:
-    """Text of at most ``most`` characters: the middle of a longer one is left out.
+    """Text of at most ``most`` characters: the middle of a longer one is cut.
 
     Examples
     --------
@@ -60,7 +60,7 @@ def short(text: str, most: int = _MOST_SHOWN) -> str:
 def _line(text: str) -> str:
     """Text on one line: line breaks become spaces, other control characters are escaped.
 
-    The middle of a text that would fill a screen is left out.
+    The middle of a text that would fill a screen is cut.
     """
     return short(printable(" ".join(text.splitlines())), _LONGEST_LINE)
 
@@ -76,7 +76,7 @@ class InputError(ValueError):
     key : object, optional
         Dotted key of the wrong input, or name of an option or a file.
     says : str, optional
-        Text in place of "got VALUE".
+        Text instead of "got VALUE".
     got : object, optional
         Value of the input, as the line shows it.
     takes : str, optional
@@ -89,7 +89,7 @@ class InputError(ValueError):
     text : str
         The line without the key.
     got : object
-        Value of the input, or the text in its place; None if the line has neither.
+        Value of the input, or the text instead; None if the line has neither.
     takes : str or None
         Values that are allowed; None if the line does not state them.
     several : tuple of InputError
@@ -133,7 +133,7 @@ class InputError(ValueError):
 
     @property
     def is_missing(self) -> bool:
-        """Whether the error is that of a value that is missing."""
+        """Whether the error concerns a missing value."""
         return self.text.startswith("missing")
 
     @classmethod

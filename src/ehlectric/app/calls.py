@@ -56,7 +56,7 @@ BEARING_OVER_SPEED: Call[BearingAnswer] = Call("bearing_answers.answer_over_spee
 BEARING_WHOLE: Call[BearingAnswer] = Call("bearing_answers.whole_quick_answer")
 BEARING_SOLVED: Call[BearingAnswer] = Call("bearing_answers.solve_contacts")
 
-# A bearing beside that with a remedy.
+# A bearing without and with a remedy.
 REMEDY_QUICK: Call[RemedyAnswer] = Call("remedy_answers.quick_remedy")
 REMEDY_WHOLE: Call[RemedyAnswer] = Call("remedy_answers.whole_remedy")
 

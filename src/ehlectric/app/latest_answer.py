@@ -37,7 +37,7 @@ class OnlyLast:
             self._running = False
 
     def drop(self) -> None:
-        """Leave out the call that waits."""
+        """Drop the call that waits."""
         self._waiting = None
 
 
@@ -68,7 +68,7 @@ class LatestAnswer(Generic[I, T]):
         self._later: asyncio.Task[None] | None = None
 
     def ask(self, inputs: I) -> asyncio.Task[None]:
-        """Ask for the answers to new inputs; the task ends when the latest inputs have their quick answer."""
+        """Ask for the answers to new inputs; the task ends with the immediate answer to the latest inputs."""
         self.drop()
         self._pending = (self._request, inputs)
         if self._running is None or self._running.done():

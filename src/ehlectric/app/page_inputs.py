@@ -4,8 +4,8 @@ A page has no other state of its inputs, so that a link and a downloaded file ha
 the texts that were typed, such as "1800 N". An address has a pair of dotted key and value for every input,
 both as in TOML, but texts without quotes where they cannot be mistaken for another value.
 
-Inputs of the sweep page are those of a sweep file with its base case inside, so that the downloaded file runs
-as it is, and ``show``, the dotted key of the shown result, which only the address has.
+Inputs of the sweep page are the inputs of a sweep file with its base case inside, so that the downloaded file
+runs as it is, and ``show``, the dotted key of the shown result, which only the address has.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ from urllib.parse import parse_qsl, urlencode, urlsplit
 from ehlectric.cases.key_names import MOST_DEEP, refuse_deep, refuse_long_keys
 from ehlectric.errors import InputError, shown
 
-# Longest query of an address that is read or written [characters]: far above that of any case, and below
-# what servers and browsers take.
+# Longest query of an address that is read or written [characters]: far above the length of any case, and
+# below what servers and browsers take.
 LONGEST_QUERY = 16_000
 
 # Parts of an address that are no inputs: the token of a server that other machines reach.
@@ -119,7 +119,7 @@ class Inputs:
 
     @classmethod
     def of_link(cls, pairs: Iterable[tuple[str, str]], start: Self) -> tuple[Self, InputError | None]:
-        """Inputs of an address, or those of a start where it has none or is wrong, and then its error."""
+        """Inputs of an address, or of a start where it has none or is wrong, and then its error."""
         try:
             inputs = cls.of_query(pairs)
         except InputError as error:
@@ -385,7 +385,7 @@ class Range:
 
 
 def sweep_inputs(inputs: Inputs) -> Inputs | None:
-    """Inputs of the sweep page from an address: its own, or those of the page of a case.
+    """Inputs of the sweep page from an address: its own, or the inputs of the page of a case.
 
     Examples
     --------
@@ -464,7 +464,7 @@ _UNCERTAINTY, _UNCERTAINTY_SAMPLES = "uncertainty.", 256
 def with_shown(inputs: Inputs, key: str, solved: Inputs | None) -> Inputs:
     """Inputs of the sweep page that show another result of the points.
 
-    Those of ``uncertainty`` need samples, which are asked for. They stay for another result where the
+    Inputs of ``uncertainty`` need samples, which are asked for. They stay for another result where the
     ``solved`` sweep has them, whose map stays valid then.
 
     Examples

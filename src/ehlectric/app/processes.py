@@ -52,7 +52,7 @@ class Bounds:
 class Worker:
     """Process that calls functions, one at a time.
 
-    The process starts with the first call, within the bounds that ``bounds`` returns then. Where it has died,
+    The process starts with the first call, within the bounds that ``bounds`` returns then. If it has died,
     the next call starts another.
     """
 
@@ -123,7 +123,7 @@ class Worker:
     def kill(self) -> None:
         """End the process now, with all that it started."""
         process = self._process
-        # Where the server of forks has died, its processes count as dead, but one that answers is alive.
+        # Where the server of forks has died, its processes count as dead, except a process that answers.
         if process is None or not (process.is_alive() or self._using.locked()):
             return
         with contextlib.suppress(OSError, AttributeError):

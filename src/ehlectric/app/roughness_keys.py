@@ -20,7 +20,7 @@ class RoughKey:
     choices: Mapping[str, str] = field(default_factory=dict)
     number: bool = False  # whether the value is a number without a unit
     point: bool = False  # whether only point contacts use it
-    needed: bool = False  # whether a made surface must have it
+    needed: bool = False  # whether a generated surface must have it
 
 
 _DATA = form_data("roughness")
@@ -28,13 +28,13 @@ FILE_KEYS, STEP_KEYS, PLACE_KEYS, MOTION_KEYS = (
     tuple(RoughKey(**entry) for entry in _DATA[name]) for name in ("file", "steps", "place", "motion")
 )
 
-# Names of the kinds of made surfaces, and the keys of each.
+# Names of the kinds of generated surfaces, and the keys of each.
 GENERATOR_NAMES: Mapping[str, str] = {kind: entry["label"] for kind, entry in _DATA["generators"].items()}
 GENERATOR_KEYS: Mapping[str, tuple[RoughKey, ...]] = {
     kind: tuple(RoughKey(**key) for key in entry["keys"]) for kind, entry in _DATA["generators"].items()
 }
 
-# Kinds of made surfaces with processing steps: random ones.
+# Kinds of generated surfaces with processing steps: random ones.
 STEPPED = ("gaussian", "self-affine")
 
 
@@ -60,7 +60,7 @@ def value_of(key: RoughKey, text: str) -> str | int | float | bool | None:
     return text
 
 
-# Values with which a made surface begins: the examples of the keys that it needs. All are assumptions.
+# Values with which a generated surface begins: the examples of the keys that it needs. All are assumptions.
 FIRST_VALUES: Mapping[str, Mapping[str, Any]] = {
     kind: {key.key: value_of(key, key.example) for key in keys if key.needed}
     for kind, keys in GENERATOR_KEYS.items()

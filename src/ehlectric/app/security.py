@@ -1,8 +1,8 @@
 """Access to the pages: requests that are answered or refused, their size and number, and what pages may load.
 
-A message of a browser that cannot be read, such as that of a scanner, is one line of the log. The libraries
-behind the pages write a traceback for each of them, by which anybody could fill the log and hide the faults
-of the program. These faults keep their traceback.
+A message of a browser that cannot be read, such as the message of a scanner, is one line of the log. The
+libraries behind the pages write a traceback for each of them, by which anybody could fill the log and hide
+the faults of the program. These faults keep their traceback.
 
 Bound to this machine, the server answers only requests that name this machine, so that no other page in the
 browser reaches it by a name of its own (DNS rebinding). Bound to another address, it asks for a token, which
@@ -96,7 +96,7 @@ class _Marked:
         await self._send({"type": "http.response.body", "body": body})
 
 
-# Largest body of a request [bytes]: that of the largest text file of a surface that is read.
+# Largest body of a request [bytes]: the largest text file of a surface that is read.
 MOST_BODY = 100_000_000
 
 # Bodies of all requests at once, which are kept in memory until a page takes them [bytes].
@@ -114,8 +114,8 @@ def with_bounded_bodies(inner: ASGIApp, most: int = MOST_BODY, at_once: int = MO
 
     It also refuses a request when those that are being answered have large bodies together.
 
-    ``most`` is the largest size of a body [bytes], and ``at_once`` that of the bodies of all requests that
-    are being answered [bytes].
+    ``most`` is the largest size of a body [bytes], and ``at_once`` the size of the bodies of all requests
+    that are being answered [bytes].
     """
     open_bodies = 0
 
@@ -305,7 +305,7 @@ class Guard:
         """Give the cookie, and lead the browser to the address without the token.
 
         A page leads it on, because browsers do not send a strict cookie along a redirection from another
-        site, such as that of a mail with the link.
+        site, such as a mail with the link.
         """
         query = urlencode([(key, value) for key, value in _query(scope) if key != _KEY])
         # One slash, because two would name another host.
@@ -316,7 +316,7 @@ class Guard:
 
 
 def is_loopback(host: str) -> bool:
-    """Whether a name or address is that of this machine.
+    """Whether a name or address denotes this machine.
 
     Examples
     --------

@@ -31,7 +31,7 @@ from ehlectric.runtime.locks import not_ignored
 # Time in which a browser may come back, as after a computer slept, before its session ends [s].
 _RECONNECT = 20.0
 
-# Time in which a browser connects to a page, where others wait for one [s]. Where none waits, NiceGUI gives a
+# Time in which a browser connects to a page, where others wait for one [s]. If none waits, NiceGUI gives a
 # page without a browser up after a minute.
 _UNSEEN = 5.0
 
@@ -80,7 +80,9 @@ class _Server(uvicorn.Server):
 
     @contextmanager
     def capture_signals(self) -> Iterator[None]:
-        """Context in which signals end the server; also that of a closed terminal, unless it is ignored."""
+        """Context in which signals end the server; also the signal of a closed terminal, unless it is
+        ignored.
+        """
         hangup = [number for number in not_ignored() if number.name == "SIGHUP"]
         with super().capture_signals():
             before = {number: signal.signal(number, self.handle_exit) for number in hangup}

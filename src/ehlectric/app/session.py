@@ -179,7 +179,9 @@ class Session:
         return name
 
     def _refuse_too_much(self, given: str, size: int) -> None:
-        """Raise InputError for a file that is too large [bytes], or too large beside those of the session."""
+        """Raise InputError for a file that is too large [bytes], or too large together with the files of the
+        session.
+        """
         kept = sum(
             max(path.stat().st_size, self._coming.get(f"{SURFACES}/{path.name}", 0))
             for path in self.folder.glob(f"{SURFACES}/*")

@@ -273,13 +273,14 @@ class SweepPoint:
     query: str  # query of the address, which holds the inputs of the point with all digits
 
 
-# Change of a result that is shown as none: the results have four digits [%].
+# Change of a result that is shown as none: results are shown with four digits [%].
 _NO_CHANGE = 0.005
 
 # Smallest change that is marked [%].
 _MARKED = 1.0
 
-# Critical speeds are found along speeds that depend on that of the case: a smaller change means nothing [%].
+# Critical speeds are found along speeds that depend on the speed of the case: a smaller change means nothing
+# [%].
 _SPEED_ACCURACY = 1.0
 
 
@@ -392,7 +393,7 @@ class Effect:
 
     @property
     def same(self) -> bool:
-        """Whether both cases show the same."""
+        """Whether both cases show equal values."""
         first, second = self.first, self.second
         return first is not None and second is not None and first.with_unit == second.with_unit
 
@@ -472,7 +473,7 @@ def only_in(first: Side, second: Side) -> list[PageWarning]:
 
 
 def in_both(first: Side, second: Side) -> list[PageWarning]:
-    """Warnings of the first case that the second has, too."""
+    """Warnings of the first case that the second also has."""
     codes = {warning.code for warning in second.warnings}
     return [warning for warning in first.warnings if warning.code in codes]
 
@@ -515,7 +516,7 @@ class Note:
 def notes_of(
     numbers: Sequence[Number], warnings: Iterable[PageWarning], said: Collection[str] = ()
 ) -> tuple[Note, ...]:
-    """Notes below the numbers of a page, in the order of the warnings, without those with ``said`` codes.
+    """Notes below the numbers of a page, in the order of the warnings, without notes with ``said`` codes.
     Warnings with one code and one meaning are one note.
 
     Examples
@@ -560,8 +561,8 @@ class Deciding:
     said: tuple[str, ...] = ()
 
 
-# Texts of an answer at once in place of what the whole one adds: a number, and the range of the margin next
-# to the margin.
+# Texts of an immediate answer instead of what the whole answer adds: a number, and the range of the margin
+# next to the margin.
 PENDING = "…"
 RANGE_FOLLOWS = "its range within the stated ranges follows"
 
@@ -647,13 +648,14 @@ class BearingAnswer(PageAnswer):
     differences: tuple[Difference, ...] = ()
     # Margins if one input changes; None unless ``over_speed``, and without a margin.
     effects: Table | None = None
-    # Duty cycle of a solved bearing; None without one, and of a quick answer, which its page asks for later.
+    # Duty cycle of a solved bearing; None without one, and of an immediate answer, which its page asks for
+    # later.
     duty: DutyAnswer | None = None
 
 
 @dataclass(frozen=True)
 class RemedyAnswer:
-    """Answer about a bearing beside that with a remedy."""
+    """Answer about a bearing without and with a remedy."""
 
     table: Table  # what changes, now and with the remedy
     whole: bool  # whether it has the range of the margin, the probability and the critical speed
@@ -665,7 +667,7 @@ class Reach:
 
     x: tuple[float, float]  # ends of the range, in ``unit``
     y: tuple[float, float]
-    at: tuple[float, float]  # first point, such as that of the minimum film, in ``unit``
+    at: tuple[float, float]  # first point, such as the place of the minimum film, in ``unit``
     unit: str
     turned: bool = False  # whether the maps have y along the page
     first: str = "the smallest film"
@@ -686,7 +688,7 @@ class ContactAnswer(PageAnswer):
 class DriveAnswer(PageAnswer):
     """Answer about a drive."""
 
-    simulated: bool  # whether the drive was simulated; otherwise the answer is that of the capacitive divider
+    simulated: bool  # whether the drive was simulated; otherwise a capacitive divider gives the answer
     ends: Table  # numbers of both bearings side by side
     # The drive and its remedies side by side; None before a simulation, and without remedies.
     remedies: Table | None = None

@@ -1,8 +1,9 @@
-"""Work of the app: temporary folders, quick answers, and jobs that report progress and can be cancelled.
+"""Work of the app: temporary folders, immediate answers, and jobs that report progress and can be cancelled.
 
 The process of the server computes nothing, so that every page answers at once whatever is being solved. A
-quick answer waits for one of a few warm processes. A job has a process of its own, which is killed when it is
-cancelled, when its tab is closed, or when it uses more time or memory than is allowed. Sessions take turns.
+immediate answer waits for one of a few warm processes. A job has a process of its own, which is killed when
+it is cancelled, when its tab is closed, or when it uses more time or memory than is allowed. Sessions are
+served alternately.
 """
 
 from __future__ import annotations
@@ -78,7 +79,7 @@ class Scratch:
         return Path(tempfile.mkdtemp(prefix="session-", dir=self.folder))
 
     def remove(self) -> None:
-        """Remove the folder with all that is in it; that of multiprocessing lasts until the exit."""
+        """Remove the folder with all that is in it; the folder of multiprocessing lasts until the exit."""
         for entry in list(self.folder.iterdir()) if self.folder.exists() else []:
             if entry.is_dir() and not entry.name.startswith(_MULTIPROCESSING):
                 shutil.rmtree(entry, ignore_errors=True)
@@ -165,7 +166,7 @@ class Job:
     result: Any = None  # what the function returned, of a job that is done
     error: Exception | None = None
     call: tuple[Callable[..., Any], tuple[Any, ...]] | None = None
-    owner: object = None  # session of the job; sessions take turns
+    owner: object = None  # session of the job; sessions are served alternately
     _worker: Worker | None = None
     _ended: asyncio.Event = field(default_factory=asyncio.Event)
 
@@ -210,9 +211,9 @@ class Limits:
     waiting: int = 100  # jobs of all sessions that may wait
     # Address space of a process of a job and of each that it starts [bytes].
     memory: float = field(default_factory=lambda: min(8e9, max(2e9, available_memory() / 2.0)))
-    quick_memory: float = 4e9  # address space of a process of quick answers [bytes]
+    quick_memory: float = 4e9  # address space of a process of immediate answers [bytes]
     seconds: float = 3600.0  # time of a job [s]
-    patience: float = 30.0  # time of a quick answer [s]
+    patience: float = 30.0  # time of an immediate answer [s]
 
 
 def limits_of(*, jobs: int | None, gigabytes: float | None, minutes: float) -> Limits:
@@ -254,7 +255,7 @@ class Work:
         return Scratch()
 
     def warm(self) -> None:
-        """Start the processes of quick answers, which load what they need; this does not wait for them."""
+        """Start the processes of immediate answers, which load what they need, without waiting for them."""
         for worker in self._quick:
             self._threads.submit(worker.start)
 
@@ -276,7 +277,7 @@ class Work:
             self.scratch.remove()
 
     async def answer(self, function: Call[Any], values: tuple[Any, ...]) -> Returned | Raised:
-        """Outcome of a function in one of the processes of quick answers."""
+        """Outcome of a function in one of the processes of immediate answers."""
         worker = await self._idle.get()
         loop, overdue = asyncio.get_running_loop(), asyncio.Event()
 

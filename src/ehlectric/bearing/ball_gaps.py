@@ -1,7 +1,7 @@
 """Integrals over the gaps of balls whose films are dry gaps widened by a number.
 
 With the semi-axis b along rolling as the unit of length on the raceway and b^2/Rx as the unit of the gap, a
-dry contact depends on the ratio of its radii alone. Positions along entrainment are positive behind the
+dry contact depends only on the ratio of its radii. Positions along entrainment are positive behind the
 contact. Ends of domains are distances from its middle, all positive.
 """
 
@@ -43,7 +43,7 @@ class DomainLaw:
     outlet: float
     side: Callable[[Numbers], Numbers]
     rule: DomainRule  # further ends
-    coarseness: float = 1.0  # factor on the errors of polynomials in place of integrals
+    coarseness: float = 1.0  # factor on the errors of polynomials instead of integrals
     nodes: Nodes = FINE  # nodes of the integrals around films
 
     def ends(self, state: tuple[int, ...], length: Numbers, unit: UnitContact) -> Ends:
@@ -142,7 +142,7 @@ def rims(unit: UnitContact, domain: tuple[Numbers, Numbers, Numbers]) -> tuple[A
 
 
 def _axis_ratios(radius_x: Numbers, radius_y: Numbers) -> Numbers:
-    """Ratios of semi-axes, of which those of equal radii are computed once; 1 without radii."""
+    """Ratios of semi-axes, computed once for equal radii; 1 without radii."""
     if np.ndim(radius_x) == np.ndim(radius_y) == 0:
         return axis_ratio(float(radius_x), float(radius_y))
     radius_ratio = np.where(np.isfinite(radius_x * radius_y), radius_y / radius_x, 1.0)
@@ -198,7 +198,8 @@ def _around(
     lengths = b[:, np.newaxis]
     missing = missing_gap(race, thickness - scale[:, np.newaxis] * opened, x * lengths, y * lengths)
     offset, mismatch = matched_offset(missing, thickness, start=films - scale * unit.approach)
-    # Pressure over modulus with which the opening of the unit contact is that of ``LoadedContact``.
+    # Pressure over modulus with which the opening of the unit contact equals the opening of
+    # ``LoadedContact``.
     a = unit.ratio * b
     contact = LoadedContact(
         DryContact(b, a, unit.opening * scale / a, 0.0), 1.0, offset, mismatch, unit.ratio
@@ -231,7 +232,7 @@ def _between(unit: UnitContact, *ends: Array, middle: Array) -> Array:
     """As ``between_directly``, for few contacts."""
     inlet, outlet, side, *far = ends
     ratio, middle = unit.ratio, for_nodes(middle, 3)
-    # Ahead and behind over the whole side, denser in the middle, and beside the default ends.
+    # Ahead and behind over the whole side, denser in the middle, and next to the default ends.
     ahead, behind, further = (_geometric(*pair) for pair in zip((inlet, outlet, side), far, strict=True))
     whole = for_nodes(far[2]) * _AT**2, for_nodes(far[2]) * 2.0 * _AT * _PART
     along = (
@@ -261,7 +262,7 @@ def _geometric(near: Array, far: Array) -> tuple[Array, Array]:
 
 
 # Nodes and weights on 0 to 1 with which the gap around the Hertz ellipse is integrated. The integrals are
-# within 1e-4 of those with three times as many nodes.
+# within 1e-4 of the integrals with three times as many nodes.
 _FINE, _FINE_PART = (0.5 * values for values in np.polynomial.legendre.leggauss(32))
 _FINE = _FINE + 0.5
 
@@ -290,12 +291,12 @@ def around_ellipse_directly(radius_ratio: Array, middle: Array, law: DomainLaw) 
 def parts_around_ellipse(radius_ratio: float, law: DomainLaw) -> tuple[_Part, _Part]:
     """Weights and gaps of the integrals of ``around_ellipse_directly``, before and behind the middle.
 
-    Lengths are in b. Beside the ellipse, x is the cosine of an angle, so that its edge is smooth in this
+    Lengths are in b. Next to the ellipse, x is the cosine of an angle, so that its edge is smooth in this
     angle; away from it nodes are dense at the edge.
     """
     unit = UnitContact.of(1.0, radius_ratio)
     side = float(law.side(unit.ratio))
-    # Beside the ellipse: angle and distance from its edge.
+    # Next to the ellipse: angle and distance from its edge.
     angle, far = 0.5 * np.pi * _FINE[:, np.newaxis], _FINE**3
     edge = np.sin(angle)
     near = np.cos(angle), edge + (side - edge) * far

@@ -215,7 +215,7 @@ def margin_with_films(solution: BearingSolution, scale: Array) -> Array:
 
 def strength_per_volt(solution: BearingSolution) -> Numbers | None:
     """Maximum field strength per volt across the films, of all contacts and positions of the cage [1/m]:
-    that under the highest summits.
+    the field strength under the highest summits.
 
     None for ceramic elements, and where surfaces touch; of many points NaN where surfaces touch.
     """
@@ -239,10 +239,11 @@ class BearingCosts:
     and below a lambda ratio of 1, where no voltage is computed.
     """
 
-    # Capacitance that a discharge through the films empties [F]: that of the films, and those between the
-    # shaft and everything else, which a coating on a ring puts in series with its own.
+    # Capacitance that a discharge through the films empties [F]: the capacitance of the films, and the
+    # capacitances between the shaft and everything else, which a coating on a ring puts in series with its
+    # own.
     discharged_capacitance: Numbers | None
-    # Energy C V^2/2 that is stored in the films alone, at the shaft voltage [J].
+    # Energy C V^2/2 that is stored only in the films, at the shaft voltage [J].
     bearing_energy: Numbers | None
     # Energy C V^2/2 of ``discharged_capacitance`` at the shaft voltage, of which V is across the films [J].
     discharge_energy: Numbers | None
@@ -255,8 +256,8 @@ class BearingCosts:
     # both rings load, with the cage at its first position.
     hertz_area: Numbers
     current_density: Numbers | None  # peak current over ``hertz_area`` [A/m^2]
-    # Peak current over the smaller contact of the most loaded element, as if it flowed through this element
-    # alone [A/m^2].
+    # Peak current over the smaller contact of the most loaded element, as if it flowed only through this
+    # element [A/m^2].
     element_current_density: Numbers | None
     current_density_limits: tuple[float, ...] | None  # published limits of ``current_density`` [A/m^2]
 
@@ -266,8 +267,8 @@ def bearing_costs(solution: BearingSolution) -> BearingCosts:
     values in SI units.
 
     One discharge empties all of the charge. Winding and frame have fixed potentials meanwhile, so that their
-    capacitances to the rotor and those of both bearings are parallel. If the first breakdown leaves the other
-    contact of its element intact, the energy flows only at the ring-to-ring breakdown.
+    capacitances to the rotor and the capacitances of both bearings are parallel. If the first breakdown
+    leaves the other contact of its element intact, the energy flows only at the ring-to-ring breakdown.
 
     Behind a coating of the capacitance C_c, a discharge of films of the capacitance C at the voltage V moves
     the charge of all other capacitances C_s of the shaft only as far as the coating lets it pass. The energy
@@ -360,28 +361,29 @@ class ShaftLeakage:
 
     time_constant: Numbers  # time constant T of the shaft voltage right after an edge of the inverter [s]
     # Time constant of the voltage across the films right after an edge [s]. Without a coating on a ring, it
-    # is that of the shaft voltage.
+    # is the time constant of the shaft voltage.
     film_time_constant: Numbers
     # Part of the shaft voltage that is left after a period of the inverter, dimensionless; exp(-1/(f T))
     # without a coating. None without a switching frequency.
     after_period: Numbers | None
     # Part of the voltage across the films that is left after a period, dimensionless; None likewise.
     film_after_period: Numbers | None
-    # Shaft voltage at the end of an edge over that of the capacitive divider, dimensionless; None without a
-    # rise time.
+    # Shaft voltage at the end of an edge divided by the voltage of the capacitive divider, dimensionless;
+    # None without a rise time.
     after_rise: Numbers | None
 
 
 @dataclass(frozen=True)
 class Decay:
-    """Two voltages in series, across films and coating, that decay through the oil beside a capacitance.
+    """Two voltages in series, across films and coating, that decay through the oil, with a capacitance in
+    parallel.
 
     The current i into films and coating changes their voltages by V' = (i - G V)/C and V_c' = i/C_c. The sum
     of both falls by (i + G_s (V + V_c))/C_s. The coating itself does not leak.
 
     Examples
     --------
-    Films alone, with nothing else at the shaft but a large coating, have the time constant C/G of their oil:
+    Films with nothing else at the shaft except a large coating have the time constant C/G of their oil:
 
     >>> decay = Decay(films=1e-10, conductance=1e-8, elastance=1e-3, shaft=1e-20, leak=0.0)
     >>> round(decay.film_time_constant, 6)
@@ -424,7 +426,8 @@ class Decay:
         return self._along(lambda rate: np.exp(rate * time))
 
     def after_rise(self, time: Numbers) -> Numbers:
-        """Shaft voltage at the end of an edge that lasts a time [s], over that of the capacitive divider.
+        """Shaft voltage at the end of an edge that lasts a time [s], divided by the voltage of the capacitive
+        divider.
 
         It is the mean over the edge of the voltages that its parts leave.
         """
@@ -490,7 +493,7 @@ def _decay(solution: BearingSolution, motor: Motor, tau: Numbers) -> Decay:
     share: Numbers
     leak: Numbers
     if second is None:
-        # Two equal bearings share what is beside them: half of it belongs to each.
+        # Two equal bearings share what is parallel to them: half of it belongs to each.
         share, leak = 0.5 * machine + path.parallel, 0.0
     else:
         share, leak = machine + path.parallel + second, conductance * second / films
@@ -527,7 +530,7 @@ def leakage_warning_conditions(solution: BearingSolution) -> Iterator[WarningCon
 
 
 def _period_text(frequency: float | None) -> str:
-    """Period of the inverter [s] by its frequency [Hz], or those of typical inverters, as text."""
+    """Period of the inverter [s] by its frequency [Hz], or the periods of typical inverters, as text."""
     if frequency is not None:
         return f"{amount(1.0 / frequency, 's')}, a period of the inverter"
     longest, shortest = (amount(1.0 / at, "s") for at in TYPICAL)

@@ -48,7 +48,7 @@ class Kind(Generic[G, C]):
     contact: Callable[[RingContacts[G], Numbers], C]  # contacts with a ring and load [N] -> contact
     # Contacts with a ring and gaps [m] -> capacitances in vacuum [F] of rigid elements and the raceway.
     rigid_capacitance: Callable[[RingContacts[G], Numbers], Numbers]
-    loads: int  # number of loads that are solved for each ring, without those of light elements
+    loads: int  # number of loads that are solved for each ring, without loads of light elements
     # Exponents of the load in the Hertz pressure and in the semi-axes along and across the rolling direction.
     dry_exponents: tuple[float, float, float]
 
@@ -96,7 +96,7 @@ def _roller_geometry(bearing: Bearing, angle: Numbers | None = None) -> RollerBe
         bearing.element_diameter,
         bearing.pitch_diameter,
         bearing.roller_length,
-        # Of inclined rollers the preload or the play of a pair stands in its place.
+        # Inclined rollers have the preload or the play of a pair instead.
         0.0 if bearing.radial_clearance is None else bearing.radial_clearance,
         bearing.profile,
         0.0 if inclined is None else inclined,
@@ -104,7 +104,7 @@ def _roller_geometry(bearing: Bearing, angle: Numbers | None = None) -> RollerBe
     )
 
 
-# What is common to bearings with balls, and to those with rollers.
+# Common properties of bearings with balls, and of bearings with rollers.
 _OF_BALLS: dict[str, Any] = {
     "contact": BallContact,
     "rigid_capacitance": rigid_ball,

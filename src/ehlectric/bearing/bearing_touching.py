@@ -38,8 +38,8 @@ from ehlectric.quantities.statement import Statement
 DEFAULT_SHARE = "patir_cheng"
 
 # Shares of time up to which a bearing is called capacitive, and from which it is called resistive. Within 1 %
-# of either end the time-averaged current or charge is that of the one state to 1 %, which is less than the
-# error of any film. Such a bearing still discharges at times: 1 % of the time is minutes in a day.
+# of either end the time-averaged current or charge equals the value of the one state to 1 %, which is less
+# than the error of any film. Such a bearing still discharges at times: 1 % of the time is minutes in a day.
 CAPACITIVE, RESISTIVE = 0.01, 0.99
 
 
@@ -83,7 +83,7 @@ class BearingDuty:
     rings: tuple[tuple[RingDuty, RingDuty], ...]
     # Share of time in which at least one element touches both rings, mean over the positions.
     touching_time_share: Numbers
-    clarke_time_share: Numbers  # the same with Clarke's fit for each contact
+    clarke_time_share: Numbers  # contact time share with Clarke's fit for each contact
     insulated: bool  # whether ceramic elements or a coating insulate, so that the bearing never conducts
     model: str  # what the share of time of a contact is from: "clarke" or "greenwood_williamson"
     regime: Any  # regime of each point in one word, shape (...)
@@ -125,12 +125,12 @@ def duty_of(
 ) -> BearingDuty:
     """Load shares of asperities, and shares of time with contact, in a solved bearing.
 
-    ``film_scale`` is a factor on all film thicknesses, for those of quick contacts that are scaled to solved
-    ones. ``ring_scales`` are further factors on the central films of the contacts with each ring; by default
-    those by which its most loaded contact has the film that was solved with heat and supply, where there is
-    one. Films are those of smooth surfaces, and the roughness is that of the unloaded surfaces, which
-    pressure flattens. An element conducts while both its contacts do, and one element shorts the bearing. All
-    contacts are taken as independent.
+    ``film_scale`` is a factor on all film thicknesses, for films of estimated contacts that are scaled to
+    solved films. ``ring_scales`` are further factors on the central films of the contacts with each ring; by
+    default the factors by which its most loaded contact has the film that was solved with heat and supply,
+    where there is one. Films belong to smooth surfaces, and the roughness belongs to the unloaded surfaces,
+    which pressure flattens. An element conducts while both its contacts do, and one element shorts the
+    bearing. All contacts are taken as independent.
     """
     inner, outer = solved_scales(solution) if ring_scales is None else ring_scales
     rings = tuple(

@@ -27,8 +27,8 @@ def series(first: Array, second: Array) -> Array:
 class Circuit:
     """Capacitances of a bearing's contacts and the voltages at which their films break down.
 
-    Of one bearing, or of many points of operation: arrays then have the shape of the points before that of
-    the n elements.
+    Of one bearing, or of many points of operation: arrays then have the shape of the points before the axis
+    of the n elements.
 
     Examples
     --------
@@ -55,7 +55,7 @@ class Circuit:
     # dielectric strength, shape (..., n).
     inner_breakdown: Array
     outer_breakdown: Array
-    # Shape parameter m of Weibull's law. The breakdown voltages are then those at a probability of 63.2 %.
+    # Shape parameter m of Weibull's law. The breakdown voltages then have a probability of 63.2 %.
     # None for a strength without scatter.
     shape: Numbers | None = None
 
@@ -101,7 +101,7 @@ class Circuit:
 
         With Weibull's law, it is the voltage at which the probability that any contact has broken down is
         63.2 %. The exponents (V/V_k)^m of all contacts then add up to 1, where V_k is the bearing voltage at
-        which contact k alone has this probability.
+        which contact k by itself has this probability.
 
         W. Weibull, J. Appl. Mech. 18 (1951) 293, doi:10.1115/1.4010337.
         """
@@ -182,7 +182,7 @@ def leaking_admittance(
 
 @dataclass(frozen=True)
 class Path:
-    """Capacitances between shaft and housing next to those of the films.
+    """Capacitances between shaft and housing in parallel to the films.
 
     Examples
     --------
@@ -202,7 +202,7 @@ class Path:
     resistance: Numbers = field(default=math.inf, metadata=stored("", "ohm", "positive or infinite"))
     coating_breakdown: Numbers | None = field(
         default=None, metadata=stored("", "V", "finite or NaN", unknown=True)
-    )  # breakdown voltage of the coating alone [V]; None without one
+    )  # breakdown voltage of only the coating [V]; None without one
 
     @property
     def coated(self) -> bool:
@@ -212,8 +212,8 @@ class Path:
     def film_share(self, films: Numbers) -> Numbers:
         """Share of the shaft voltage across films of a capacitance [F], C_c/(C_c + C), dimensionless.
 
-        The share is that of a capacitive divider: right after an edge of the voltage, and at frequencies far
-        above those at which oil and coating conduct.
+        The share is the share of a capacitive divider: right after an edge of the voltage, and at frequencies
+        far above the frequencies at which oil and coating conduct.
         """
         return 1.0 / (1.0 + films / self.coating)
 
@@ -257,8 +257,9 @@ def shaft_first_break(circuit: Circuit, path: Path) -> Numbers:
 def shaft_through_breakdown(circuit: Circuit, path: Path) -> Numbers:
     """Smallest shaft voltage at which an element breaks down from ring to ring, shape (...) [V].
 
-    After the first contact of an element has broken down, the capacitance of its element is that of the other
-    contact. The capacitance of the films is then larger, and their share of the shaft voltage smaller.
+    After the first contact of an element has broken down, the capacitance of its element equals the
+    capacitance of the other contact. The capacitance of the films is then larger, and their share of the
+    shaft voltage smaller.
 
     Examples
     --------

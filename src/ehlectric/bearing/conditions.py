@@ -1,6 +1,6 @@
 """Conditions that the contacts of a bearing share: geometry, materials, and oil at its temperatures.
 
-Those of many points have arrays of shape (n,), and floats where the points do not differ.
+Conditions of many points are arrays of shape (n,), and floats where the points do not differ.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ class Solid:
     poissons_ratio: float  # poisson's ratio, dimensionless
     density: float  # [kg/m^3]
     conducting: bool  # whether the material conducts electricity
-    dielectric_strength: float | None = None  # [V/m]; None where the library has none
+    dielectric_strength: float | None = None  # [V/m]; None without a value in the library
     strength_of: str = ""  # material and norm that this strength is of
 
     @classmethod
@@ -89,12 +89,12 @@ class RingConditions:
     """Conditions of the contacts with one ring: their films form at the temperature of the surfaces."""
 
     temperature: Numbers  # [K]
-    # Oil at this temperature, with an ambient pressure of 0: pressures are those above the ambient one.
+    # Oil at this temperature, with an ambient pressure of 0: pressures are relative to the ambient pressure.
     oil: Oil
     discharge: Discharge  # dielectric strength and conductivity at this temperature
-    film_factor: Numbers  # film thickness over that of isothermal, fully flooded oil, dimensionless
+    film_factor: Numbers  # film thickness / isothermal, fully flooded film thickness, dimensionless
     # heat_factor and supply_factor: parts of ``film_factor`` by the heat in the inlet and by the supply of
-    # oil, dimensionless; None where ``film_factor`` alone is known, which then contains both.
+    # oil, dimensionless; None where only ``film_factor`` is known, which then contains both.
     heat_factor: Numbers | None = None
     supply_factor: Numbers | None = None
     # Part by the heat in the inlet as the formula has it; None where no heat is computed.

@@ -90,7 +90,7 @@ class DutyRows(CycleRows):
     first_break: Array = field(metadata=stored("duty_row", "V", _MAYBE))
     shaft_voltage: Array = field(metadata=stored("duty_row", "V", _MAYBE))
     margin: Array = field(metadata=stored("duty_row", "", _MAYBE))
-    # Probability of breakdown within what is uncertain, from 0 to 1: of a margin below 1, or surfaces that
+    # Probability of breakdown within the uncertain inputs, from 0 to 1: of a margin below 1, or surfaces that
     # touch. It is 0 without a voltage, and NaN at a standstill and where it is not known.
     breakdown_probability: Array = field(metadata=stored("duty_row", "", _MAYBE))
     state: Array = field(metadata=stored("duty_row", "", "whole"))  # number of the state in ``STATES``
@@ -142,7 +142,7 @@ class Stretch:
     least_margin: float | None = field(metadata=number())
     lambda_ratio: float = field(metadata=number())  # at this time
     speed: float = field(metadata=number())  # at this time [rad/s]
-    why: str = field(metadata=number("text"))  # input that makes it so, or that none alone does
+    why: str = field(metadata=number("text"))  # input that causes it, or that no single input does
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -274,9 +274,9 @@ class DutyResult(Values):
 def run_duty(case: BearingCase) -> DutyResult | None:
     """Result of the duty cycle of a bearing file; None without one.
 
-    Contacts are from the atlas, or by formula where the case says so. Each row of the cycle is a stationary
-    bearing, and stands for the time from halfway to the row before to halfway to the next. Raises InputError
-    where the file of the cycle cannot be used, or the bearing has no quick contacts.
+    Contacts are from the atlas, or from formulas if the case requests them. Each row of the cycle is a
+    stationary bearing, and stands for the time from halfway to the row before to halfway to the next. Raises
+    InputError where the file of the cycle cannot be used, or the bearing has no estimated contacts.
     """
     if case.duty is None:
         return None
@@ -347,7 +347,7 @@ def _moves(speed: Array) -> Mask:
 
 
 def _given(case: BearingCase, cycle: Cycle) -> dict[str, Array]:
-    """Inputs of all rows by the names of their columns, SI units, shape (n,); those of the case without a
+    """Inputs of all rows by the names of their columns, SI units, shape (n,); inputs of the case without a
     column.
     """
     bearing, motor = case.bearing, case.motor
@@ -362,8 +362,8 @@ def _given(case: BearingCase, cycle: Cycle) -> dict[str, Array]:
 
 
 def rows_of(case: BearingCase, cycle: Cycle) -> tuple[DutyRows, PointValues]:
-    """Rows of a cycle of a bearing with quick contacts, and the values of those that are no standstill, with
-    reasons by the places of the rows.
+    """Rows of a cycle of a bearing with estimated contacts, and the values of rows that are no standstill,
+    with reasons by the places of the rows.
     """
     given, time = _given(case, cycle), cycle.time
     moves = _moves(given["speed"])
@@ -404,7 +404,7 @@ def _at(case: BearingCase, given: Mapping[str, Array]) -> PointValues:
 
 
 def _inputs_of_films(case: BearingCase, given: Mapping[str, Array]) -> dict[str, Array]:
-    """Inputs of the films by dotted key, SI units, from those of rows by column."""
+    """Inputs of the films by dotted key, SI units, from inputs of rows by column."""
     bearing = case.bearing
     inputs = {CYCLE.columns["speed"].key: np.abs(given["speed"])}
     for name in ("radial_load", "axial_load"):
@@ -420,7 +420,7 @@ def _inputs_of_films(case: BearingCase, given: Mapping[str, Array]) -> dict[str,
 
 
 def _probabilities(case: BearingCase, rows: DutyRows) -> Array:
-    """Probability of breakdown of each row within what is uncertain, and its bounds, shape (n, 3).
+    """Probability of breakdown of each row within the uncertain inputs, and its bounds, shape (n, 3).
 
     They are computed at rows that are spread over margin and lambda ratio, and interpolated between them.
     Rows with touching surfaces have no margin: the lambda ratio divided by the shaft voltage replaces it.

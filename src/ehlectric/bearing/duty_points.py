@@ -30,14 +30,15 @@ _OF_LIFE = ("viscosity", "reference_turns")
 # Quantities of a point: lambda ratio, capacitance [F], first breakdown and shaft voltage [V], and margin.
 NAMES = ("lambda_ratio", "capacitance", "first_break", "shaft_voltage", "margin")
 
-# Largest number of points that are solved, which take some seconds; more are interpolated.
+# Largest number of points that are solved, which take several seconds; more are interpolated.
 MOST_SOLVED = 4000
 
 # Quantities that touching surfaces do not have, and those that fall to 0 where summits begin to touch.
 _VOLTAGES = ("first_break", "shaft_voltage", "margin")
 _OVER_SUMMITS = ("first_break", "margin")
 
-# Interpolated lambda ratio, over that of touching surfaces, from which a point may have a voltage after all.
+# Interpolated lambda ratio, divided by the ratio of touching surfaces, from which a point may have a voltage
+# after all.
 _NEARLY = 0.95
 
 # Points at which the interpolation is compared with solved ones.
@@ -60,7 +61,7 @@ class PointValues:
 
 
 def values_at(case: BearingCase, inputs: Mapping[str, Array]) -> PointValues:
-    """Quantities of a bearing with quick contacts at many points, equal ones computed once.
+    """Quantities of a bearing with estimated contacts at many points, equal ones computed once.
 
     ``inputs``, numbers by dotted key, SI units, shape (n,). More than ``MOST_SOLVED`` different points are
     interpolated.
@@ -112,7 +113,7 @@ def _interpolated(case: BearingCase, keys: tuple[str, ...], table: Array) -> Poi
     height = case.bearing.summit_height
     smooth = _smooth(design.values, height)
     values = {name: _between(column, corners, weights) for name, column in smooth.items()}
-    # No voltage is computed where surfaces touch. Points next to those with touching surfaces are solved.
+    # No voltage is computed where surfaces touch. Points next to points with touching surfaces are solved.
     touching = touches(values["lambda_ratio"], height)
     for name in _VOLTAGES:
         part = part_over_summits(values["lambda_ratio"], height) if name in _OVER_SUMMITS else 1.0
@@ -133,7 +134,7 @@ def _interpolated(case: BearingCase, keys: tuple[str, ...], table: Array) -> Poi
 
 
 def _smooth(values: Mapping[str, Array], height: float) -> dict[str, Array]:
-    """Quantities with the voltages of smooth films, which are powers of the inputs, in place of those over
+    """Quantities with the voltages of smooth films, which are powers of the inputs, instead of voltages over
     summits of a height in units of the composite Rq.
     """
     part = part_over_summits(values["lambda_ratio"], height)
@@ -214,7 +215,7 @@ def spread_places(at: Array, number: int) -> IntArray:
 
 
 def _between(column: Array, corners: IntArray, weights: Array) -> Array:
-    """Values between corners, by logarithms; corners without a value are left out."""
+    """Values between corners, by logarithms; corners without a value are ignored."""
     logs = np.log(np.where(column > 0.0, column, np.nan))[corners]
     known = np.isfinite(logs)
     total = np.sum(weights, axis=-1, where=known)

@@ -51,7 +51,7 @@ from ehlectric.runtime.progress import LOGGER
 def half_time(solution: BearingSolution) -> Numbers | None:
     """Time [s] after which the film of the most loaded contact of a ring has halved without supply. Returns
     smaller time of both rings, shape (...); None for a flooded bearing, whose tracks are filled up at every
-    passage, and for rollers, from whose contacts hardly any oil flows to the sides.
+    passage, and for rollers, from whose contacts almost no oil flows to the sides.
 
     All contacts are taken as loaded like the most loaded one, so that real films decay more slowly.
     """
@@ -91,7 +91,7 @@ def track_length(conditions: BearingConditions[Any], angle: Numbers, *, inner: b
     """Length of track on both surfaces from which one contact with a ring presses oil, shape (...) [m].
 
     All Z contacts with the ring share its track of the length pi (d_m -+ D cos a), and both contacts of an
-    element share that of the length pi D on its surface.
+    element share the track of the length pi D on its surface.
     """
     bearing = conditions.bearing
     sign = -1.0 if inner else 1.0
@@ -146,17 +146,18 @@ def solved_contact(
 ) -> tuple[float, ContactFriction | None]:
     """Film factor of the heat in a contact, and its friction and temperature in pure rolling.
 
-    ``load`` [N]. Returns ``factor``, central film thickness with heat over that of the isothermal Newtonian
-    film, both flooded, dimensionless; ``friction``, rolling friction and temperature of the film with its
-    heat and its supply of oil, None where the film with both does not converge; those of the same contact are
-    kept. Raises InputError where the contact is beyond the model, or the oil has no values at its
-    temperatures; ConvergenceError where one of both flooded films does not converge.
+    ``load`` [N]. Returns ``factor``, central film thickness with heat divided by the thickness of the
+    isothermal Newtonian film, both flooded, dimensionless; ``friction``, rolling friction and temperature of
+    the film with its heat and its supply of oil, None where the film with both does not converge; results of
+    equal contacts are kept. Raises InputError where the contact is beyond the model, or the oil has no values
+    at its temperatures; ConvergenceError where one of both flooded films does not converge.
 
     A share of the flooded film as supply is solved together with the heat. A rule for the supply has no film
     of its own: it is a factor on the film, and as published one on the force of rolling.
 
-    Both surfaces have the entrainment speed: the slip by spin, of the cage and along the ellipse is left out.
-    The oil thins where it is sheared if the lubricant has an Eyring stress, and is Newtonian otherwise.
+    Both surfaces have the entrainment speed: the slip by spin, of the cage and along the ellipse is
+    neglected. The oil thins where it is sheared if the lubricant has an Eyring stress, and is Newtonian
+    otherwise.
     """
     contact: Contact = kind_of(ring).contact(_flooded(ring), load)
     check_contact(contact)
@@ -176,7 +177,7 @@ def solved_contact(
         friction = _starved(hot, flooded.grid, float(ring.supply_factor))
     if friction is None:
         return flooded.factor, None
-    # Load and power of a line contact are those of a metre of it.
+    # Load and power of a line contact hold for a metre of it.
     length = case.bearing.roller_length or 1.0
     return flooded.factor, replace(friction, load=load, power_loss=length * friction.power_loss)
 
@@ -229,7 +230,7 @@ def _with_nodes(grid: Grid, parts: int) -> Grid:
 class _FloodedFilm:
     """Flooded film with heat of a contact."""
 
-    factor: float  # central film with heat over that without it, dimensionless
+    factor: float  # central film with heat / film without heat, dimensionless
     friction: ContactFriction
     grid: Grid  # grid on which it converged
 
@@ -259,7 +260,7 @@ def _solved(hot: _HotContact) -> _FloodedFilm:
 def _starved(hot: _HotContact, grid: Grid, ratio: float) -> ContactFriction | None:
     """Friction of the film with heat under the layer of oil that leaves a ratio of the flooded film.
 
-    None where this film does not converge, as some do that are hardly starved. It takes seconds.
+    None where this film does not converge, as some do that are only slightly starved. It takes seconds.
     """
     film = hot.film(grid, OilSupply(film_ratio=ratio))
     if not film.converged or film.starvation is None:
@@ -270,7 +271,7 @@ def _starved(hot: _HotContact, grid: Grid, ratio: float) -> ContactFriction | No
 
 def _by_rule(flooded: ContactFriction, factor: float) -> ContactFriction:
     """Friction by a rule for the supply, a factor on the film and on the force of rolling; the temperatures
-    are those of the flooded film.
+    are the temperatures of the flooded film.
     """
     assert flooded.solved_thickness is not None
     return replace(
@@ -320,7 +321,7 @@ def factors_of(case: BearingCase, geometry: Geometry, oil: Oil, temperature: Num
 
 
 def _inlet_shear(case: BearingCase, geometry: Geometry, oil: Oil, temperature: Numbers) -> Numbers:
-    """Film over the isothermal one at a temperature [K] by the formula of the heat in the inlet."""
+    """Film divided by the isothermal film at a temperature [K], from the formula of inlet shear heating."""
     bearing = case.bearing
     # Speed at the free contact angle: it differs little from the speed at the loaded contact angle.
     speeds = rolling_speeds(
@@ -337,7 +338,7 @@ def _inlet_shear(case: BearingCase, geometry: Geometry, oil: Oil, temperature: N
 
 
 def _supply_factor(bearing: Bearing, oil: Oil) -> Numbers:
-    """Film thickness over the fully flooded one, by the number or the rule of the file."""
+    """Film thickness divided by the fully flooded thickness, by the number or the rule of the file."""
     if isinstance(bearing.supply, float):
         return bearing.supply
     if not bearing.by_supply_rule:
@@ -365,13 +366,13 @@ def _supply_factor(bearing: Bearing, oil: Oil) -> Numbers:
 
 def rolling_force(ring: RingContacts[Any], friction: ContactFriction, load: Array) -> Array:
     """Hydrodynamic rolling force on each surface of the contacts with a ring. ``load``, loads of the contacts
-    [N]; 0 without contact, shape (...). Returns force [N]: that of the solved contact times the ratio of the
-    forces at both loads by formula, shape (...).
+    [N]; 0 without contact, shape (...). Returns force [N]: the force of the solved contact times the ratio of
+    the forces at both loads from formulas, shape (...).
 
-    The formulas are those of Biboulet and Houpert (2010), doi:10.1243/13506501JET790 and JET791. The force of
-    a heavily loaded ball goes with the cube root of the load, that of a roller does not depend on it. Heat
-    and a short supply of oil reduce the force of all contacts as that of the solved one, and heat that of
-    lightly loaded ones too much.
+    The formulas follow Biboulet and Houpert (2010), doi:10.1243/13506501JET790 and JET791. The force of
+    a heavily loaded ball goes with the cube root of the load, the force of a roller does not depend on it.
+    Heat and a short supply of oil reduce the force of all contacts as in the solved contact, and heat reduces
+    the force of lightly loaded contacts too much.
     """
     # The formulas take the speed of the surfaces, which a film factor would reduce.
     conditions = replace(kind_of(ring).contact(ring, friction.load).conditions, film_factor=1.0)
@@ -417,10 +418,11 @@ def friction_summary(solution: BearingSolution) -> dict[str, float | None]:
 
 
 def solved_scales(solution: BearingSolution) -> tuple[float, float]:
-    """Film of the most loaded contact with each ring, solved with heat and supply, over that of the solution.
+    """Film of the most loaded contact with each ring, solved with heat and supply, divided by the solution's
+    film.
 
-    The films of a solution are those of a slower bearing, by the exponent of a formula, and may be by formula
-    themselves. 1 where no film with heat and supply is known.
+    The films of a solution are films of a slower bearing, by the exponent of a formula, and may be from
+    formulas themselves. 1 where no film with heat and supply is known.
     """
     inner, outer = (
         1.0
@@ -436,11 +438,12 @@ def solved_scales(solution: BearingSolution) -> tuple[float, float]:
 # flooded film is then about twice as thick as the layer, or more.
 _LOW = 0.5
 
-# Film factor below which films differ from it by more than some per cent, as the speed at which they are
+# Film factor below which films differ from it by more than several per cent, as the speed at which they are
 # computed is reduced with one exponent for all contacts: for balls from the atlas 5 % here, 16 % at 0.1.
 _FAR = 0.5
 
-# Half time of a film without supply [s] below which a bearing runs for long without it: all but slow ones.
+# Half time of a film without supply [s] below which a bearing runs for long without it: all except slow
+# bearings.
 _SOON = 3600.0
 
 # Heat of a film factor in words.
@@ -500,7 +503,7 @@ def _with_conductivity(solution: BearingSolution, conductivity: float) -> float:
 
 
 def _film_words(solution: BearingSolution) -> tuple[str, str]:
-    """Film factor of one bearing with its parts, and what it leaves out, in words."""
+    """Film factor of one bearing with its parts, and what it neglects, in words."""
     bearing = solution.case.bearing
     factor, supply = bearing.film_factor, bearing.supply
     left = "any starvation and heat beyond this factor"

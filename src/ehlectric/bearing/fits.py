@@ -107,7 +107,7 @@ class Mounting:
     """Bearing between its shaft and its housing, with all dimensions at the reference temperature."""
 
     # shaft, inner_ring, outer_ring and housing: parts, each of its own diameters when free. A ring ends at
-    # its raceway: shoulders and the depth of the groove are left out.
+    # its raceway: shoulders and the depth of the groove are neglected.
     shaft: ThickRing
     inner_ring: ThickRing
     outer_ring: ThickRing
@@ -122,7 +122,7 @@ class Mounting:
 
     @property
     def unmounted_clearance(self) -> Numbers:
-        """Clearance before mounting at the reference temperature: the room beside two elements [m]."""
+        """Clearance before mounting at the reference temperature: the room next to two elements [m]."""
         return self.outer_ring.inner_diameter - self.inner_ring.outer_diameter - 2.0 * self.element_diameter
 
     def interferences(self, temperatures: Temperatures) -> tuple[Numbers, Numbers]:

@@ -6,8 +6,8 @@ ends of this domain follow from one length, sqrt(2 R h) of the film by a formula
 sides. For each combination of ends that are cut off or not, the capacitance is an analytic function of four
 numbers, and an even one of the contact angle. It is not analytic where the domain reaches the shoulder of the
 groove: these contacts are integrated, and so are few contacts. In bearings of different sizes the radius of
-the ball is the unit of lengths, and the pitch diameter over that of the ball is a further variable; where
-their grooves are not similar, their contacts are integrated, too.
+the ball is the unit of lengths, and the ratio of pitch diameter to ball diameter is a further variable; if
+their grooves are not similar, their contacts are also integrated.
 """
 
 from __future__ import annotations
@@ -85,7 +85,7 @@ class _Size:
 _EQUAL = 1e-12
 
 
-# Raceways of which the points are kept: those of both rings of some bearings.
+# Raceways of which the points are kept: the raceways of both rings of some bearings.
 _KEPT = 8
 
 
@@ -125,7 +125,7 @@ class _Contacts:
 
     @classmethod
     def of(cls, race: Raceway, *numbers: Numbers) -> _Contacts:
-        """Contacts with numbers that broadcast with those of their raceways."""
+        """Contacts with numbers that broadcast with the numbers of their raceways."""
         row, unit, points = _points(race)
         shape = np.broadcast_shapes(points, *map(np.shape, numbers))
         point = np.broadcast_to(np.arange(np.size(unit.ratio)).reshape(points), shape).ravel()
@@ -192,8 +192,8 @@ class _Contacts:
 def around_of_balls(race: Raceway, b: Numbers, ends: Ends, films: Numbers, law: DomainLaw) -> Array:
     """Capacitance between balls and raceway outside the domains of films: dry gaps widened by a number.
 
-    The numbers are those of ``around_directly``. Many contacts of bearings of one size have polynomials
-    through them instead, with errors of about 1e-8 of the capacitance of the whole contact.
+    The numbers equal the numbers of ``around_directly``. Many contacts of bearings of one size have
+    polynomials through them instead, with errors of about 1e-8 of the capacitance of the whole contact.
 
     ``race``, raceways of the points; ``b``, semi-axis of the dry contact along entrainment [m]; ``ends``,
     inlet and outlet over b and side over the semi-axis across entrainment, as they follow from ``law``;
@@ -311,7 +311,7 @@ def _states(states: IntArray, valid: Mask) -> Iterator[tuple[tuple[int, ...], In
 
 def _logarithms(state: tuple[int, ...], length: Numbers, middle: Array) -> tuple[Array, Array]:
     """Variables of domains and films: the length from which ends follow and the film over the film of this
-    length, or the film alone where no end follows from a length.
+    length, or only the film where no end follows from a length.
     """
     if 1 not in state:
         return np.log(middle), np.zeros_like(middle)
@@ -415,8 +415,8 @@ def around_of_rollers(
     """Capacitance per length between rollers and raceway outside the domains of films: dry gaps widened by a
     number.
 
-    The numbers are those of ``roller_tails``. Many contacts of bearings of one size have polynomials through
-    them instead, with errors of about 1e-8 of the capacitance of the whole contact.
+    The numbers equal the numbers of ``roller_tails``. Many contacts of bearings of one size have polynomials
+    through them instead, with errors of about 1e-8 of the capacitance of the whole contact.
 
     ``race``, raceways of the points; ``b``, half-width of the dry contact [m]; ``ends``, inlet and outlet
     over b, positive; ``films``, film thickness in the middle [m]; all of them broadcast to the shape (...).

@@ -9,7 +9,7 @@ the outer ring and -1 at the inner ring,
 
     abs(Q - O)^2 = (r + h0)^2 + 4 r_g e sin^2(u/2) + 4 R R_o sin^2(phi/2).
 
-A roller and its raceway are circles. R is the radius of the raceway, r that of the roller, and h0 the
+A roller and its raceway are circles. R is the radius of the raceway, r the radius of the roller, and h0 the
 smallest gap. The roller's centre O is at R_o = R + r + h0 from the bearing axis at the inner ring, and at
 R_o = R - r - h0 at the outer ring. For a point Q on the raceway at the azimuth phi
 
@@ -20,7 +20,7 @@ abs(Q - O) - r. ``formulas.capacitances.charge_density`` gives the charge on the
 along rolling over the part that half of the element faces: to where the normal of the raceway is tangent to
 the element; and across a groove from shoulder to shoulder.
 
-The model neglects the field lines from the lands beside the groove, from the raceway between two elements,
+The model neglects the field lines from the lands next to the groove, from the raceway between two elements,
 around the ends of a roller, and to cage and shields. For a ball over an infinite plane, the neglected part
 would be 30 % of the total at h0/r = 1e-3. It is less in a groove, which partly encloses the ball.
 """
@@ -77,7 +77,7 @@ class Raceway:
         the groove from the radial direction [rad]; ``first_angle``, angle from the bottom at which the groove
         begins [rad], None for the shoulder on the other side; all of shape (...). Raises InputError where a
         groove radius is too small, a shoulder height is out of range, or the groove of a single point ends
-        before the contact. ``holds`` tells the latter for arrays.
+        before the contact. ``holds`` returns the latter for arrays.
 
         Examples
         --------
@@ -265,7 +265,7 @@ class Nodes:
 # parts is below 1e-6 of them.
 FINE, COARSE = Nodes((12, 8), 20, 14, 10), Nodes((9, 6), 14, 10, 7)
 
-# Largest distance of the foci from the middle over the side of a film, for the nodes beside it.
+# Largest distance of the foci from the middle over the side of a film, for the nodes next to it.
 _INSIDE = 0.95
 
 # Angle between the normals of ball and raceway where the half of the ball that faces the raceway ends [rad].
@@ -275,7 +275,7 @@ _HALF = 0.5 * np.pi
 # distances from the contact along and across entrainment [m^2].
 Opening = Callable[[Array, Array], Array]
 
-# Largest relative difference of the ratios of semi-axes that are those of one ratio, up to rounding.
+# Largest relative difference of the ratios of semi-axes that count as one ratio, up to rounding.
 _SAME = 1e-14
 
 
@@ -293,7 +293,8 @@ class LoadedContact:
     offset: Numbers
     # Largest relative difference from the solved film thickness along the edge of the film's domain.
     mismatch: Numbers
-    # Ratio of the semi-axes, where it is known with fewer different values than those of the dry contacts.
+    # Ratio of the semi-axes, where it is known with fewer different values than the ratios of the dry
+    # contacts.
     ratio: Numbers | None = None
 
     def opening(self, x: Array, y: Array) -> Array:
@@ -363,11 +364,12 @@ def outside_capacitance(
 
     Contacts of several loads and points are integrated together.
 
-    The gap is that of rigid bodies with the gap ``contact.offset``, widened by the deflection under the Hertz
-    pressure. This deflection is exact for half-spaces. Film pressure and Hertz pressure carry the same load,
-    so their difference deflects the bodies little around the ellipse; ``match_film`` compensates for it at
-    the edge of the domain. In ``examples/ball_bearing.toml`` the capacitance of the whole contact changes by
-    0.1 % when the domain is cut from 1.75 to 1.4 semi-axes across. This moves 5 pF of 76 pF to the outside.
+    The gap is the gap of rigid bodies with the gap ``contact.offset``, widened by the deflection under the
+    Hertz pressure. This deflection is exact for half-spaces. Film pressure and Hertz pressure carry the same
+    load, so their difference deflects the bodies little around the ellipse; ``match_film`` compensates for it
+    at the edge of the domain. In ``examples/ball_bearing.toml`` the capacitance of the whole contact changes
+    by 0.1 % when the domain is cut from 1.75 to 1.4 semi-axes across. This moves 5 pF of 76 pF to the
+    outside.
 
     ``domain``, inlet, outlet and side of the film's domain, inlet <= x <= outlet and abs(y) <= side [m],
     shape (...); ``relative_permittivity``, relative permittivity of the medium in the gap, dimensionless;
@@ -597,7 +599,7 @@ def _along(
         further += opening(np.multiply(square, radius**2, out=square), y2)
     sine = np.multiply(q, q, out=away)
     sine = np.sqrt(np.maximum(1.0 - sine, _FLAT), out=away)
-    # charge_density, of which the constant part is integrated with the weights alone.
+    # charge_density, of which the constant part is integrated with only the weights.
     curvature = s * cosine / radius + 1.0 / rg
     constant = (2.0 / r / 6.0 + curvature / 3.0)[..., 0]
     total: Array = np.add.reduce(weights, axis=-1) * -constant
@@ -695,7 +697,7 @@ def roller_tails(
 ) -> tuple[Numbers, Numbers]:
     """Capacitance per length outside the domain of a solved line contact, at its inlet and at its outlet.
 
-    The gap is that of touching circles, widened by the deflection under the Hertz pressure. At each end a
+    The gap is the gap of touching circles, widened by the deflection under the Hertz pressure. At each end a
     constant is added, with which the gap continues the film.
 
     ``half_width``, half-width b of the dry contact [m]; ``domain``, inlet and outlet of the film's domain,
@@ -752,7 +754,7 @@ def roller_tail(
 
 
 def _opening(race: RollerRaceway, half_width: Numbers, x: Array) -> Array:
-    """Gap of the dry contact less that of undeflected parabolas, up to a constant [m]."""
+    """Gap of the dry contact less the gap of undeflected parabolas, up to a constant [m]."""
     return line_opening(x, half_width, reduced_radius(race.roller_radius, -1.0 / race.curvature))
 
 

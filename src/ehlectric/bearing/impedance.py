@@ -110,13 +110,13 @@ def mean_admittance(
     of the cage, shape (m,).
 
     At each position it is (1 - s) Y_open + s Y_shorted with the share s of time in which an element touches
-    both rings. A closed contact has 1/R beside its film. Open, each element has the mean admittance of its
-    states in which not both of its contacts are closed. Shorted, the elements have on average what makes the
-    mean of their admittances exact. A coating is in series with each of both: that is approximate where
-    several elements close at once. The mean is that of the currents at a given sinusoidal voltage, so that a
-    state has to last for many of its periods. What happens while a contact closes or opens is neglected:
-    the charge of the film that passes through it, discharges as it opens, and the inductance of the path.
-    Both diagonals of a four-point contact bearing count as elements of their own here.
+    both rings. A closed contact has 1/R in parallel to its film. Open, each element has the mean admittance
+    of its states in which not both of its contacts are closed. Shorted, the elements have on average what
+    makes the mean of their admittances exact. A coating is in series with each of both: that is approximate
+    where several elements close at once. The mean is taken over the currents at a given sinusoidal voltage,
+    so that a state has to last for many of its periods. What happens while a contact closes or opens is
+    neglected: the charge of the film that passes through it, discharges as it opens, and the inductance of
+    the path. Both diagonals of a four-point contact bearing count as elements of their own here.
     """
     path, fill = shaft_path(solution), solution.case.bearing.fill
     omega = 2.0 * np.pi * frequency[:, np.newaxis]
@@ -137,14 +137,15 @@ def _states(
 ) -> tuple[float, Array, Array]:
     """Share of time in which a bearing is shorted, and its mean admittance open and shorted [S].
 
-    ``inner`` and ``outer`` are the admittances of the films, shape (m, n), and ``closed`` that of a contact.
+    ``inner`` and ``outer`` are the admittances of the films, shape (m, n), and ``closed`` the admittance of a
+    contact.
     """
     p, q = (ring.contact_time_share for ring in rings)
     both = p * q
     shares = (1.0 - p) * (1.0 - q), p * (1.0 - q), (1.0 - p) * q
     apart = series(inner, outer), series(inner + closed, outer), series(inner, outer + closed)
     mixed = sum(part * state for part, state in zip(shares, apart, strict=True))
-    # An element that always touches both rings is never open: any admittance does in its place.
+    # An element that always touches both rings is never open: any admittance serves.
     opened = np.where(both < 1.0, mixed / np.maximum(1.0 - both, np.finfo(float).tiny), apart[0])
     through = series(inner + closed, outer + closed)
     share = float(1.0 - np.prod(1.0 - both))
@@ -166,7 +167,7 @@ class Impedance:
     # Impedance from shaft to housing, from the mean admittance of the films over the positions of the cage, a
     # coating in series, and a parallel capacitance [Ohm], shape (n,).
     values: Array
-    corner: float  # corner frequency 1/(2 pi tau) of the oil alone [Hz]
+    corner: float  # corner frequency 1/(2 pi tau) of only the oil [Hz]
     # Reciprocal of the mean admittance over the time in which contacts are open and closed; None without
     # ``bearing.contact_resistance``
     mean: Impedance | None = None
@@ -190,7 +191,7 @@ def oil_relaxation_time(solution: BearingSolution) -> Numbers | None:
 def impedance_of(solution: BearingSolution) -> Impedance | None:
     """Impedance of a solved bearing, with ``fill`` around its films, a coating and a parallel capacitance.
     Returns None without a conductivity, for ceramic elements, and where surfaces touch unless the case has
-    the resistance of a closed contact; ``values`` are those of the smooth films, as if none touched.
+    the resistance of a closed contact; ``values`` are the values of the smooth films, as if none touched.
     """
     tau = known(float, oil_relaxation_time(solution))
     resistance = solution.case.bearing.contact_resistance

@@ -106,15 +106,15 @@ def solved_parts(
     positions: int = POSITIONS,
     detail: Detail = "whole",
 ) -> Iterator[SolvedPart]:
-    """Solutions of a case with arrays and quick contacts of some detail, in parts of ``TOGETHER`` points.
+    """Solutions of a case with arrays and estimated contacts of some detail, in parts of ``TOGETHER`` points.
 
-    Points without a solution are left out. Their errors are put into ``reasons`` by their places, if it is
+    Points without a solution are skipped. Their errors are put into ``reasons`` by their places, if it is
     given; each error takes the time of a single bearing. Raises InputError where no point has a solution
     for a reason that all share, as an oil that needs solved contacts.
     """
     if SPEED not in case.arrays():
         # Loads of elements then have an axis of points as all other numbers, also where temperatures or
-        # voltages alone differ.
+        # voltages are all that differs.
         case = case.with_values({SPEED: np.full(case.shape, case.bearing.inner_speed)})
     for points in np.array_split(np.arange(case.shape[0]), -(-case.shape[0] // TOGETHER)):
         with one_blas_thread():
@@ -178,7 +178,7 @@ def some_points(case: BearingCase, points: IntArray) -> BearingCase:
 
 
 def _solved(case: BearingCase, points: IntArray, positions: int, detail: Detail) -> SolvedPart | None:
-    """Solution of those of some points that have one; None where none has."""
+    """Solution of the points that have one; None where none has."""
     while points.size:
         solution, refused = _attempt(some_points(case, points), positions, detail)
         if solution is not None:

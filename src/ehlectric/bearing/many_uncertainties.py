@@ -33,18 +33,18 @@ Spread = MarginSpread | InputError | None
 
 
 def spreads_of(solution: BearingSolution, samples: int, seed: int) -> list[Spread]:
-    """Distributions of the margins of a solution of m bearings with quick contacts.
+    """Distributions of the margins of a solution of m bearings with estimated contacts.
 
     Every bearing has the same Sobol points of its uncertain inputs, so that differences between bearings are
     no differences between samples. ``samples``, number of points, a power of 2; ``seed`` of the design.
-    Each distribution is that of ``spread_of_result`` for the bearing alone.
+    Each distribution equals ``spread_of_result`` of the single bearing.
     """
     case = solution.case
     spreads: list[Spread] = [None] * case.shape[0]
     apart = margin_apart(solution)
     if apart is None:
         return spreads
-    # Films of the coarse solutions are taken to be as thick as those of the solution.
+    # Films of the coarse solutions are taken to be as thick as the films of the solution.
     parts = [*solved_parts(case, detail="coarse")]
     (ratio,) = gathered(parts, lambda at: (lambda_ratio(at),), (1, len(spreads)))
     scales = lambda_ratio(solution) / ratio
@@ -98,14 +98,14 @@ def _spreads(
 ) -> list[Spread]:
     """Distributions of some points of a solution, whose designs change the same keys.
 
-    ``factors``, margins and lambda ratios of the points over those of bearings that are solved together,
-    shape (2, m).
+    ``factors``, margins and lambda ratios of the points divided by the values of bearings that are solved
+    together, shape (2, m).
     """
     at = sobol_points(designs[0].width, samples, seed)
     try:
         margins = factors[0] * _margins(solution, places, designs, factors[1], at)
     except InputError as error:
-        # It may be that of a single point.
+        # It may be the error of a single point.
         if len(designs) == 1:
             return [error]
         alone = [
@@ -131,7 +131,7 @@ def _margins(
     """
     count, case = len(at), solution.case
     # All points next to each other for each sample: the parts of a case that are solved together then have
-    # points from the whole range, whose interpolation tables serve the next part, too.
+    # points from the whole range, whose interpolation tables also serve the next part.
     columns = {key: np.tile(array[places], (count, 1)) for key, array in case.arrays().items()}
     inputs = [design.arrays(at, scale) for design, scale in zip(designs, scales.tolist(), strict=True)]
     columns |= {key: np.stack([arrays[key] for arrays in inputs], axis=-1) for key in inputs[0]}

@@ -72,20 +72,21 @@ class QuickMargins:
 
     case: BearingCase
     solved: MarginPoint  # margin and lambda ratio of the solution
-    # margin_factor and lambda_factor: margin and lambda ratio of the solution divided by those of bearings
-    # that are solved together, dimensionless. Their films are taken to be ``lambda_factor`` times as thick.
+    # margin_factor and lambda_factor: margin and lambda ratio of the solution divided by the values of
+    # bearings that are solved together, dimensionless. Their films are taken to be ``lambda_factor`` times as
+    # thick.
     margin_factor: float
     lambda_factor: float
-    quick_case: BearingCase = field(repr=False)  # case with quick contacts, whose films are scaled
-    quick: BearingSolution = field(repr=False)  # solution with quick contacts at the inputs of the case
-    quick_scale: float  # lambda ratio of the solution divided by that of ``quick``, dimensionless
-    # Margin of the solution divided by that of ``quick`` with films so much thicker, dimensionless.
+    quick_case: BearingCase = field(repr=False)  # case with estimated contacts, whose films are scaled
+    quick: BearingSolution = field(repr=False)  # solution with estimated contacts at the inputs of the case
+    quick_scale: float  # lambda ratio of the solution divided by the ratio of ``quick``, dimensionless
+    # Margin of the solution divided by the margin of ``quick`` with films so much thicker, dimensionless.
     quick_factor: float
 
     @classmethod
     def of(cls, solution: BearingSolution) -> QuickMargins:
-        """Margins by quick contacts, scaled to those of a solution. Raises InputError where the solution has
-        no margin, or the formulas have none for the same inputs.
+        """Margins from estimated contacts, scaled to the margins of a solution. Raises InputError where the
+        solution has no margin, or the formulas have none for the same inputs.
 
         If the surfaces touch, the margins of much thicker films are compared instead.
         """
@@ -193,13 +194,13 @@ class QuickMargins:
 
 
 def _quick(case: BearingCase) -> BearingCase:
-    """Case with quick contacts, with a constant strength where they need one."""
+    """Case with estimated contacts, with a constant strength where they need one."""
     return required_quick_case(case, constant=True)[0]
 
 
 def margin_and_lambda(solution: BearingSolution) -> tuple[Numbers, Numbers]:
-    """Margin and lambda ratio of a solution with quick contacts, shape (...); a margin of 0 where surfaces
-    touch.
+    """Margin and lambda ratio of a solution with estimated contacts, shape (...); a margin of 0 where
+    surfaces touch.
     """
     films, ratio = insulating(solution), lambda_ratio(solution)
     margin = _margin_of(solution) if np.any(films) else 0.0
@@ -218,7 +219,7 @@ def _known(margin: Numbers | None) -> Numbers:
     return margin
 
 
-# Intervals of speed [rad/s]; None in place of an end of the range of speeds.
+# Intervals of speed [rad/s]; None instead of an end of the range of speeds.
 Intervals = tuple[tuple[float | None, float | None], ...]
 
 
@@ -242,7 +243,7 @@ class SpeedRange:
 
     @property
     def broken(self) -> Intervals:
-        """Intervals of speed with a margin below 1 [rad/s]; None in place of an end of the range.
+        """Intervals of speed with a margin below 1 [rad/s]; None instead of an end of the range.
 
         Examples
         --------
@@ -264,8 +265,8 @@ class SpeedRange:
         return self.crossings[-1] if self.crossings and not self.above else None
 
 
-# Quantities that cross 0 over the speed: logarithm of the margin, and those of the lambda ratio over the
-# values below which surfaces touch at times, and below which they touch.
+# Quantities that cross 0 over the speed: logarithm of the margin, and logarithms of the lambda ratio divided
+# by the values below which surfaces touch at times, and below which they touch.
 _MARGIN, _PARTED, _TOUCHING = range(3)
 
 
@@ -273,8 +274,8 @@ def speed_range(margins: QuickMargins) -> SpeedRange:
     """Speeds at which the margin of a bearing crosses 1, from a tenth of the speed of the case to four times
     it.
 
-    The temperature is that of the case at all speeds. The margin is computed at a series of speeds, and at
-    more near each crossing, until it lies between two speeds that are 0.2 % apart.
+    The temperature is the temperature of the case at all speeds. The margin is computed at a series of
+    speeds, and at more near each crossing, until it lies between two speeds that are 0.2 % apart.
     """
     at_case = margins.case.bearing.inner_speed
     speeds, points, reasons = margins.over_parts()
@@ -338,7 +339,7 @@ def _below(crossings: Sequence[float], *, above: bool) -> Intervals:
 class Effect:
     """Effect of one input on the margin, all others as in the case."""
 
-    key: str  # dotted key of the input; for the load that of the larger component, where both change together
+    key: str  # dotted key of the input; for the load the larger component, where both change together
     label: str
     # low_input and high_input: smaller and larger value of the input, SI units.
     low_input: float
@@ -357,8 +358,9 @@ class Effect:
 def effects_of(margins: QuickMargins, margin: float) -> tuple[tuple[Effect, ...], tuple[str, ...]]:
     """Effects of strength, temperature, clearance, load, motor and all inputs with a range on the margin.
 
-    ``margin`` is that of the bearing, dimensionless. A range of the file replaces the usual change of an
-    input. Returns the effects, the largest first, and texts about inputs whose effect could not be computed.
+    ``margin`` is the margin of the bearing, dimensionless. A range of the file replaces the usual change of
+    an input. Returns the effects, the largest first, and texts about inputs whose effect could not be
+    computed.
     """
     effects, left_out = [], []
     if temperature_is_unused(margins.case):
@@ -395,10 +397,10 @@ def margin_range(
     """Margin with all inputs of ``ranges`` at their unfavourable ends, and at their favourable ends; None
     without.
 
-    The ends are found one input at a time, and then taken together: 2n + 2 bearings with quick contacts for n
-    ranges. The range is wider than an interval of confidence, because all inputs are seldom at their worst at
-    once. The smallest margin is 0 where the surfaces touch. Raises InputError where a range has no effect on
-    quick contacts, or one of both cases cannot be computed.
+    The ends are found one input at a time, and then taken together: 2n + 2 bearings with estimated contacts
+    for n ranges. The range is wider than an interval of confidence, because all inputs are seldom at their
+    worst at once. The smallest margin is 0 where the surfaces touch. Raises InputError where a range has no
+    effect on estimated contacts, or one of both cases cannot be computed.
     """
     by_key = {effect.key: effect for effect in effects}
     ranges = margins.case.ranges or ()
@@ -462,7 +464,8 @@ class MarginAnalysis:
 
 
 def analyse_margin(solution: BearingSolution) -> MarginAnalysis:
-    """Analyse the margin of a solved bearing, by some thirty bearings with quick contacts, in half a second.
+    """Analyse the margin of a solved bearing, by about thirty bearings with estimated contacts, in half a
+    second.
 
     The analysis has no values where the bearing has no margin, or its films must not be used.
     """

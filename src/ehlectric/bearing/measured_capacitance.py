@@ -48,7 +48,7 @@ _TOLERANCE, _STEP = 1e-9, 0.01
 # Step of the search below which the end of the films that can be computed counts as reached.
 _CLOSE = 1e-3
 
-# Places beside the first film factor that are tried where its film cannot be computed, in logarithms.
+# Places next to the first film factor that are tried where its film cannot be computed, in logarithms.
 _SHIFTS = (0.0, 0.5, -0.5, 1.0, -1.0, -2.0, -3.0)
 
 # Usual slope of ln(capacitance) over ln(film factor), with which the search starts.
@@ -64,8 +64,8 @@ def film_factor_of(capacitance: Callable[[float], float], target: float, guess: 
 
     ``capacitance``, film factor -> capacitance [F], falling; ``target``, capacitance that is looked for [F].
     Returns film factor between 0.01 and 3, dimensionless. Raises NoFactorError where the capacitance is above
-    that of a film of a hundredth, or below that of a film three times as thick as the isothermal, fully
-    flooded one; where the films cannot be computed.
+    the capacitance of a film of a hundredth, or below the capacitance of a film three times as thick as the
+    isothermal, fully flooded one; where the films cannot be computed.
 
     Examples
     --------
@@ -149,7 +149,7 @@ class FilmState:
 
     # Capacitance that a meter reads, with rough films and a coating, but without what is in parallel [F].
     capacitance: float
-    lambda_ratio: float  # smallest film thickness over the composite roughness, dimensionless
+    lambda_ratio: float  # smallest film thickness / composite roughness, dimensionless
 
     @classmethod
     def of(cls, solution: BearingSolution) -> FilmState:
@@ -173,7 +173,7 @@ class OperatingPoint:
     Loads and speeds of the elements do not depend on the film factor, so they are computed once.
     """
 
-    case: BearingCase  # case at this speed and temperature, with contacts from the atlas or by formula
+    case: BearingCase  # case at this speed and temperature, with contacts from the atlas or formulas
     prepared: PreparedBearing  # equilibria and contacts, with the film factor of the case
     _known: dict[float, FilmState] = field(default_factory=dict, repr=False)
 
@@ -226,9 +226,9 @@ _SAME = 1e-4
 
 @dataclass(frozen=True, eq=False)
 class Correction:
-    """Ratio of solved numbers to quick ones, from the atlas or by formula, over the quick capacitance."""
+    """Ratio of solved to estimated numbers as a function of the estimated capacitance."""
 
-    # Logarithm of the quick capacitance [F], increasing; empty for quick contacts alone, shape (k,).
+    # Logarithm of the estimated capacitance [F], increasing; empty without solved contacts, shape (k,).
     logs: Array
     ratios: Array  # logarithm of the ratio solved/quick of capacitance and of lambda ratio, shape (k, 2)
     solves: int = 0  # number of contacts that were solved
@@ -268,16 +268,16 @@ def solved_correction(
     progress: Progress,
     workers: int | None = None,
 ) -> Correction:
-    """Solve a bearing at a few measured rows, and compare it with quick contacts.
+    """Solve a bearing at a few measured rows, and compare it with estimated contacts.
 
     ``rows``, changes of the case that make each row, its speed [rad/s] and temperature [K]; ``targets``,
     measured capacitances without background [F]; those that are not positive do not count, shape (n,).
     Returns table of two to six solved bearings. Raises InputError where the bearing cannot be solved, or
-    quick contacts reach none of the capacitances; ConvergenceError where a contact does not converge.
+    estimated contacts reach none of the capacitances; ConvergenceError where a contact does not converge.
 
-    Each bearing is solved at the speed of a row, with the film factor that explains it by quick contacts
-    and the table so far. Between these rows the ratio solved/quick depends on the film, of which the
-    capacitance is the measure, and hardly on the speed.
+    Each bearing is solved at the speed of a row, with the film factor that explains it with estimated
+    contacts and the table so far. Between these rows the ratio solved/estimated depends on the film, of which
+    the capacitance is the measure, and very little on the speed.
     """
     correction, places = Correction.none(), _spread(targets)
     for number, place in enumerate(places, 1):
@@ -315,7 +315,7 @@ def _capacitance(point: OperatingPoint, correction: Correction) -> Callable[[flo
 def _spread(targets: Array) -> list[int]:
     """Places of rows that are spread over the logarithm of their capacitance; a single one counts twice.
 
-    The second time its film factor is that of the corrected table.
+    The second time its film factor is taken from the corrected table.
     """
     values, first = np.unique(np.where(targets > 0.0, targets, np.nan), return_index=True)
     known = np.isfinite(values)
@@ -351,7 +351,7 @@ def shared_effects(
     ``rows``, changes of the case that make each row, its speed [rad/s] and temperature [K]; ``factors`` and
     ``slopes``, film factor of each row, and its d ln(capacitance)/d ln(factor), shape (n,). Returns
     ``effects``, effect of each range on every row, shape (n,); ``left_out``, warnings of ranges that were
-    left out, and why.
+    skipped, and why.
     """
     effects: dict[str, Array] = {}
     left_out: list[ResultWarning] = []
@@ -407,14 +407,14 @@ def _half_width(
     for end in (entry.low, entry.high):
         changes = dict(row)
         if entry.key in row:
-            # A measured temperature keeps its own value; the range is that of its error.
+            # A measured temperature keeps its own value; the range is the range of its error.
             end = float(row[entry.key]) + end - float(value_at(case.to_dict(), entry.key))
         changes[entry.key] = end
         ends.append(math.log(corrected(OperatingPoint.of(case, changes).at(factor)).capacitance))
     return 0.5 * (ends[1] - ends[0])
 
 
-# Largest number of different speeds and temperatures, each of which takes some tenths of a second.
+# Largest number of different speeds and temperatures, each of which takes a few tenths of a second.
 MOST_POINTS = 1000
 
 # Columns that the search fills; the slope is d ln(capacitance)/d ln(film factor).
@@ -454,7 +454,7 @@ def _row(
 ) -> Iterator[tuple[str, float]]:
     """Names and values of the columns of a row; a NoFactorError says why a row has no film factor."""
     capacitance = _capacitance(point, correction)
-    # The film at a film factor of 1 may be too thin or too thick, and that of the row is not.
+    # The film at a film factor of 1 may be too thin or too thick, and the film of the row is not.
     with suppress(InputError):
         yield "computed", capacitance(1.0)
     if not target > 0.0:
@@ -511,8 +511,8 @@ def bearing_factors(
 def _changes(case: BearingCase, measured: Measurement) -> tuple[Mapping[str, Any], ...]:
     """Changes of the case that make each row: speed [rad/s], and temperature [K] where it was measured.
 
-    A measured temperature is that of the oil. Rings and other parts that have their own temperature in the
-    case keep their difference from it.
+    A measured temperature is the temperature of the oil. Rings and other parts that have their own
+    temperature in the case keep their difference from it.
     """
     if measured.has("entrainment_speed") and not measured.has("speed"):
         raise InputError(

@@ -87,7 +87,7 @@ def _expansion(material: str) -> float:
 
 
 def _temperatures(bearing: Bearing, fits: Fits) -> Temperatures:
-    """Temperatures of operation: without their own, shaft and housing have that of their ring."""
+    """Temperatures of operation: without their own, shaft and housing have the temperature of their ring."""
     inner, outer = (bearing.ring_temperature(inner=side) for side in (True, False))
     shaft, housing = fits.shaft_temperature, fits.housing_temperature
     return Temperatures(

@@ -1,4 +1,4 @@
-"""One bearing at many changed inputs or speeds, with quick contacts that are solved together."""
+"""One bearing at many changed inputs or speeds, with estimated contacts that are solved together."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ from ehlectric.quantities.inputs import SPEED
 # Smallest and largest speed that are looked at, divided by the speed of the case.
 LEAST, MOST = 0.1, 4.0
 
-# Speeds at which a bearing is solved, divided by that of the case, which is one of them: close enough for
-# smooth curves between them.
+# Speeds at which a bearing is solved, divided by the speed of the case, which is one of them: close enough
+# for smooth curves between them.
 PARTS: tuple[float, ...] = tuple(
     float(part) for part in (*np.geomspace(LEAST, 1.0, 8), *np.geomspace(1.0, MOST, 5)[1:])
 )
@@ -44,15 +44,17 @@ class Several:
     reasons: dict[int, str]  # why a point has no solution, by its place
 
     def columns(self, numbers: Callable[[BearingSolution], Sequence[Numbers | None]], count: int) -> Array:
-        """Numbers of all solutions, shape (count, n), NaN without one. ``numbers``, those of a solution."""
+        """Numbers of all solutions, shape (count, n), NaN without one. ``numbers``, the numbers of a
+        solution.
+        """
         return gathered(self.parts, numbers, (count, self.size))
 
 
 def solve_several(case: BearingCase, detail: Detail = "coarse") -> Several:
-    """Solutions of a case with arrays and quick contacts, which have few loads.
+    """Solutions of a case with arrays and estimated contacts, which have few loads.
 
-    Their numbers are within 1e-3 of those of whole solutions, and ratios of these within 1e-4. Points without
-    a solution have their reasons.
+    Their numbers are within 1e-3 of the numbers of whole solutions, and ratios of these within 1e-4. Points
+    without a solution have their reasons.
     """
     reasons: dict[int, str] = {}
     size = case.shape[0]
@@ -64,16 +66,16 @@ def solve_several(case: BearingCase, detail: Detail = "coarse") -> Several:
 
 
 def at_speeds(case: BearingCase, speeds: Array, detail: Detail = "coarse") -> Several:
-    """Solutions of a quick case at speeds of its inner ring [rad/s], shape (n,)."""
+    """Solutions of a case with estimated contacts at speeds of its inner ring [rad/s], shape (n,)."""
     return solve_several(_alone(case).with_values({SPEED: np.asarray(speeds, dtype=float)}), detail)
 
 
 def over_parts(case: BearingCase) -> tuple[Array, Several]:
-    """Speeds of ``PARTS`` of a quick case [rad/s], shape (n,), and its solutions, computed once for equal
-    cases.
+    """Speeds of ``PARTS`` of a case with estimated contacts [rad/s], shape (n,), and its solutions, computed
+    once for equal cases.
     """
     several, speeds = _over_parts(key_of(case, without_effect=(*NOT_IN_FILMS, *UNUSED))), _speeds(case)
-    # Inputs on which films do not depend are those of this case.
+    # Inputs on which films do not depend are taken from this case.
     of_case = _alone(case).with_values({SPEED: speeds})
     parts = (
         replace(part, solution=replace(part.solution, case=some_points(of_case, part.points)))
@@ -87,7 +89,7 @@ def _speeds(case: BearingCase) -> Array:
     return case.bearing.inner_speed * np.array(PARTS)
 
 
-# Series of solutions over the speed that are kept: those of some bearings that are compared.
+# Series of solutions over the speed that are kept: for the bearings of a comparison.
 _KEPT = 8
 
 
@@ -105,7 +107,7 @@ def _alone(case: BearingCase) -> BearingCase:
 def alike(cases: Sequence[BearingCase]) -> Iterator[tuple[IntArray, BearingCase]]:
     """Cases of one point joined to cases with arrays, each with the places of its points.
 
-    Cases are joined that differ by quantities only: a number of elements or a law is the same for all points.
+    Cases are joined that differ by quantities only: a number of elements or a law is equal for all points.
     """
     tables = [flattened(_alone(case).to_dict()) for case in cases]
     groups: dict[str, list[int]] = {}
@@ -130,7 +132,7 @@ def _is_varied(key: str, value: object) -> bool:
 
 
 # Number of times that points are added, distance of logarithms of speeds up to which a crossing is bracketed,
-# and part of it by which the points beside an estimate are away from it.
+# and part of it by which the points next to an estimate are away from it.
 _ROUNDS, _CLOSE, _OFFSET = 12, 2e-3, 0.45
 
 # Values at logarithms of speeds, shape (m,) -> (k, m); NaN where there is none.
@@ -144,7 +146,7 @@ class Sampled:
     values_of: Values
     log: Array  # logarithms of speeds in increasing order, shape (n,)
     values: Array  # shape (k, n)
-    last: frozenset[int] = field(default=frozenset())  # quantities whose last rise counts alone
+    last: frozenset[int] = field(default=frozenset())  # quantities of which only the last rise counts
 
     def refine(self) -> None:
         """Add speeds until each crossing lies between two that are 0.2 % apart."""
@@ -161,7 +163,7 @@ class Sampled:
             self.add(np.unique(speeds))
 
     def add(self, log: Array) -> None:
-        """Compute the quantities at further logarithms of speeds; those without any are left out."""
+        """Compute the quantities at further logarithms of speeds; quantities without any are skipped."""
         values = self.values_of(log)
         known = np.isfinite(values).any(axis=0)
         both = np.concatenate([self.log, log[known]])

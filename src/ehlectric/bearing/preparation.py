@@ -202,8 +202,8 @@ def check_film(contact: Contact) -> None:
 # Least load over the largest of those that are not the loads of light elements.
 _LEAST = 0.02
 
-# Number of loads down to it whose contacts come from the atlas or by formula, and number of light loads below
-# the others. They are fewer in a coarse bearing, whose ratios of margins are within 1e-4.
+# Number of loads down to it whose contacts come from the atlas or from formulas, and number of light loads
+# below the others. They are fewer in a coarse bearing, whose ratios of margins are within 1e-4.
 _QUICK_LOADS, _COARSE_LOADS = 16, 6
 _QUICK_LIGHT, _COARSE_LIGHT = 10, 5
 
@@ -257,7 +257,7 @@ class PreparedBearing:
 def resolve_bearing(case: BearingCase) -> BearingConditions[Any]:
     """Conditions of a bearing file: geometry and materials, oil and strength at its temperatures. Raises
     InputError where the elements do not fit, or the oil or its strength has no value at the temperature; of
-    many points, those at which it has none are ``BearingConditions.refused``.
+    many points, points at which it has none are ``BearingConditions.refused``.
     """
     bearing, kind = case.bearing, KINDS[case.bearing.kind]
     element, ring = Solid.of(bearing.element_material), Solid.of(bearing.ring_material)
@@ -292,7 +292,7 @@ def _ring_temperatures(bearing: Bearing) -> tuple[Numbers, Numbers]:
 
 
 def _oil(case: BearingCase, temperature: Numbers, key: str) -> Oil:
-    """Oil at a temperature [K]; the ambient pressure acts on the bodies from all sides, and is left out."""
+    """Oil at a temperature [K]; the ambient pressure acts on the bodies from all sides, and is omitted."""
     oil = replace(case.lubricant.at(temperature, key), ambient_pressure=0.0)
     law = getattr(oil.permittivity, "law", None)
     if not case.shape or not isinstance(law, BoundLaw) or is_many(*law.parameters.values()):
@@ -306,7 +306,7 @@ def _ring_conditions(
     case: BearingCase, geometry: Geometry, outside: tuple[Oil, Discharge], *, inner: bool
 ) -> RingConditions:
     """Conditions of the contacts with a ring, at its temperature. ``outside``, oil outside of the films and
-    its discharge, which a ring of the same temperature has, too.
+    its discharge, which a ring of equal temperature also has.
     """
     bearing = case.bearing
     temperature, key = bearing.ring_temperature(inner=inner), bearing.temperature_key(inner=inner)
@@ -357,10 +357,10 @@ def equilibria_of(conditions: BearingConditions[Any], positions: int) -> tuple[E
 def prepare_bearing(case: BearingCase, positions: int) -> PreparedBearing:
     """Conditions of a bearing, its equilibria at positions of the cage, and the contacts with both rings.
 
-    Returns bearing whose contacts can be solved, or those of many points, some of which may be ``refused``.
-    Raises, for a single bearing, InputError where the bearing cannot carry its load,
-    or is beyond the limits of the model; ConvergenceError where the film that ``film_factor`` "solved" needs
-    does not converge.
+    Returns bearing whose contacts can be solved, or the bearings of many points, some of which may be
+    ``refused``. Raises, for a single bearing, InputError where the bearing cannot carry its load, or is
+    beyond the limits of the model; ConvergenceError where the film that ``film_factor`` "solved" needs does
+    not converge.
     """
     conditions = resolve_bearing(case)
     if is_quick(case):
@@ -374,7 +374,7 @@ def prepare_bearing(case: BearingCase, positions: int) -> PreparedBearing:
     prepared = PreparedBearing(conditions, equilibria, (inner, outer))
     if case.bearing.film_factor == "solved":
         factors = [solved_contact(case, ring, float(largest_load(prepared, ring))) for ring in prepared.rings]
-        # The friction of a bearing is that of both rings, or it is not known.
+        # The friction of a bearing is the friction of both rings, or it is not known.
         known = all(friction is not None for _, friction in factors)
         rings = zip(conditions.rings, factors, strict=True)
         return _with_rings(
@@ -388,9 +388,9 @@ def prepare_bearing(case: BearingCase, positions: int) -> PreparedBearing:
 def with_film_factor(prepared: PreparedBearing, factor: float) -> PreparedBearing:
     """Bearing whose films are thinner or thicker by a factor; loads and speeds do not depend on it.
 
-    ``factor``, film thickness over that of isothermal, fully flooded oil, dimensionless, > 0, which contains
-    heat and supply. Returns bearing with the same equilibria. Raises InputError where the films leave no room
-    between the bodies.
+    ``factor``, film thickness divided by the isothermal, fully flooded film thickness, dimensionless, > 0,
+    which contains heat and supply. Returns bearing with the same equilibria. Raises InputError where the
+    films leave no room between the bodies.
     """
     rings = prepared.conditions.rings
     return _with_rings(
@@ -479,9 +479,9 @@ def loads_to_solve(
 ) -> tuple[Array, Mask]:
     """Loads of a ring's contacts to solve [N], by increasing load, and which of them are in use.
 
-    The loads of the kind, or more for quick contacts unless they are ``coarse``, are evenly spaced in their
-    logarithm. Lighter loads come before them if any element carries less than 2 % of the largest load, or
-    none. The evenly spaced loads of balls have no film that is too thick for the room between the bodies.
+    The loads of the kind, or more for estimated contacts unless they are ``coarse``, are evenly spaced in
+    their logarithm. Lighter loads come before them if any element carries less than 2 % of the largest load,
+    or none. The evenly spaced loads of balls have no film that is too thick for the room between the bodies.
     All loads are continuous functions of the loads of the elements.
 
     Returns loads and mask, shape (..., m), or (m,) for one bearing, whose loads are all in use. Points with

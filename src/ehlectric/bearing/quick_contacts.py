@@ -85,7 +85,7 @@ def check_quick(contacts: str, discharge: Discharge, oil: Oil) -> None:
 
 
 def heat_by_formula(case: BearingCase) -> BearingCase:
-    """Case whose heat in the films is that of "inlet-shear" where it would be solved, which takes seconds."""
+    """Case whose heat in the films is "inlet-shear" where it would be solved, which takes seconds."""
     solved = case.bearing.film_factor == "solved"
     return case.replace({"bearing.film_factor": "inlet-shear"}) if solved else case
 
@@ -93,7 +93,7 @@ def heat_by_formula(case: BearingCase) -> BearingCase:
 def quick_case(case: BearingCase, *, constant: bool = False) -> tuple[BearingCase | None, InputError | None]:
     """Case of a bearing with contacts that are not solved, and what cannot be computed without that.
 
-    Returns ``case``, case with contacts from the atlas or by formula, and with the heat of its films by
+    Returns ``case``, case with contacts from the atlas or from formulas, and with the heat of its films by
     formula where it is solved; without a dielectric strength where it needs the field, unless ``constant``;
     None for an oil that neither describes; ``refused``, key that cannot be used, and why.
     """
@@ -119,7 +119,7 @@ def quick_case(case: BearingCase, *, constant: bool = False) -> tuple[BearingCas
 def required_quick_case(
     case: BearingCase, *, constant: bool = False
 ) -> tuple[BearingCase, InputError | None]:
-    """Case of ``quick_case``, and what it leaves out; raises this InputError where there is no case."""
+    """Case of ``quick_case``, and what it neglects; raises this InputError where there is no case."""
     quick, refused = quick_case(case, constant=constant)
     if quick is None:
         assert refused is not None
@@ -128,7 +128,7 @@ def required_quick_case(
 
 
 # Domain along entrainment, in semi-axes of a ball's contact or half-widths of a roller's: the default domain
-# of solved contacts, and that of the atlas.
+# of solved contacts, and the domain of the atlas.
 LINE, POINT = DEFAULT_ENDS[False], DEFAULT_ENDS[True]
 
 # Nodes on the edge of the domain of a ball's contact, along and across entrainment.
@@ -222,7 +222,7 @@ _FOLLOWS = {
 def quick_curve(
     quick: QuickContact, used: Mask | None = None, around: tuple[Array, Array] | None = None
 ) -> ContactCurve:
-    """Curve of quick contacts over their loads; the largest field is the voltage over the minimum film.
+    """Curve of estimated contacts over their loads; the largest field is the voltage over the minimum film.
 
     ``used``, loads in use of each point, shape (..., m), all by default; ``around``, capacitances in vacuum
     around the domains [F], and how far their gaps are off at the edge, relative, shape (m, ...), where they
@@ -307,7 +307,7 @@ def _around_all(quick: QuickContact) -> tuple[Array, Array]:
 
 
 def _domain(contact: Contact, *, wide: bool) -> tuple[Numbers, Numbers, Numbers]:
-    """Ends along entrainment and side of the domain in semi-axes: that of the contact, or the default one."""
+    """Ends along entrainment and side of the domain in semi-axes: of the contact, or the default domain."""
     if wide:
         inlet, outlet, side = contact.domain
         return -inlet, outlet, side
@@ -340,9 +340,9 @@ def by_formula(
     contact: Contact, films: tuple[Array, Array] | None = None, *, wide: bool = False
 ) -> QuickContact:
     """Films, capacitances and voltages of contacts of a ring by film formulas. ``films``, minimum and central
-    film thickness [m] in place of those of the formula. Returns numbers without an error estimate: the
-    formulas may be 30 % off for balls and 40 % for rollers, and more for light loads. Raises InputError as
-    ``check_contact`` does for the contacts of a single bearing.
+    film thickness [m] instead of the thicknesses from the formula. Returns numbers without an error estimate:
+    the formulas may be 30 % off for balls and 40 % for rollers, and more for light loads. Raises InputError
+    as ``check_contact`` does for the contacts of a single bearing.
 
     Film thickness of balls by Chittenden, Dowson, Dunn and Taylor (1985), doi:10.1098/rspa.1985.0014, and of
     rollers by Pan and Hamrock (1989), doi:10.1115/1.3261900. Light contacts have the films of rigid bodies by
@@ -381,7 +381,7 @@ def _down_to_rigid(film: Array, rigid: Array) -> Array:
 
 
 def _refused(contact: Contact) -> Mask:
-    """Contacts beyond the model, shape (m, ...); those of a single bearing are refused with an InputError."""
+    """Contacts beyond the model, shape (m, ...); a single bearing is refused with an InputError."""
     refused, loads = beyond_model(contact), np.asarray(contact.load)
     if contact.ring.shape:
         pressure = np.where(refused, 0.0, contact.conditions.max_pressure)
@@ -396,7 +396,7 @@ def _around_hertz(contact: Contact, central: Array) -> tuple[Array, Array]:
     """Integral of dA/h [m] before and behind the middle of a contact, inside the default domain and outside
     the Hertz area, shape (m, ...).
     """
-    # The gap over b^2/Rx depends on the ratio of the radii alone, and dA/h of a ball has the unit Rx.
+    # The gap over b^2/Rx depends only on the ratio of the radii, and dA/h of a ball has the unit Rx.
     radius, b = contact.ring.radii.radius_x, contact.axes[0]
     middle = central * radius / b**2
     if isinstance(contact, BallContact):
@@ -409,7 +409,7 @@ def _around_hertz(contact: Contact, central: Array) -> tuple[Array, Array]:
 
 
 # Nodes and weights on 0 to 1 with which the gap outside the Hertz area is integrated. The integrals are
-# within 1e-4 of those with three times as many nodes.
+# within 1e-4 of the integrals with three times as many nodes.
 _ATLAS_NODES, _WEIGHTS = (0.5 * values for values in np.polynomial.legendre.leggauss(32))
 _ATLAS_NODES = _ATLAS_NODES + 0.5
 
@@ -425,11 +425,11 @@ def by_atlas(contact: Contact) -> QuickContact:
     The film of a contact outside the atlas continues the film at its edge by a formula, with an error that
     grows with the distance.
 
-    Over the Hertz area the capacitance is that of the film of the atlas with the permittivity under the Hertz
-    pressure, which is lowered to the central pressure of the atlas in light contacts. Around it, inside the
-    domain of the atlas, it is that of the dry gap plus the central film, times the ratio that the atlas has
-    for inlet or outlet, with the permittivity at ambient pressure. The largest field strength is the voltage
-    over the minimum film thickness.
+    Over the Hertz area the capacitance follows from the film of the atlas with the permittivity under the
+    Hertz pressure, which is lowered to the central pressure of the atlas in light contacts. Around it, inside
+    the domain of the atlas, it follows from the dry gap plus the central film, times the ratio that the atlas
+    has for inlet or outlet, with the permittivity at ambient pressure. The largest field strength is the
+    voltage over the minimum film thickness.
     """
     refused, oil = _refused(contact), contact.ring.oil
     ellipse = contact.ring.ellipse if isinstance(contact, BallContact) else None
@@ -440,8 +440,8 @@ def by_atlas(contact: Contact) -> QuickContact:
     outside = oil.relative_permittivity * (numbers.inlet * inlet + numbers.outlet * outlet)
     # The atlas has the mean of 1/(rho h) over that in the middle, where the mass is most alike for all oils.
     mass = central * numbers.mass / numbers.central
-    # In a light contact the pressure reaches far ahead of the zone, and is lower in it. Where a spike passes
-    # the middle, its pressure is not that of the zone.
+    # In a light contact the pressure reaches far ahead of the zone, and is lower in it. If a spike passes
+    # the middle, its pressure is not the pressure of the zone.
     share = np.minimum(1.0, numbers.central_pressure)
     hertz = (
         numbers.zone * hertz_mean(contact, partial(_permittivity_of_mass, oil), share) * contact.area / mass

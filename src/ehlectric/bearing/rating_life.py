@@ -1,6 +1,6 @@
-"""Rating lives of a bearing by fatigue, beside its discharges: basic, reference and modified, SI units.
+"""Rating lives of a bearing by fatigue, without its discharges: basic, reference and modified, SI units.
 
-The lives are those of ISO 281 and ISO/TS 16281 that 90 of 100 bearings reach, or a larger share with the
+The lives follow ISO 281 and ISO/TS 16281; 90 of 100 bearings reach them, or a larger share with the
 factor a_1. They depend on oil, dirt and load, and on discharges only through a rougher surface; there is no
 law of erosion.
 """
@@ -87,7 +87,7 @@ Sized: TypeAlias = Bearing | PrintedRatings
 
 @dataclass(frozen=True)
 class _Rules:
-    """Rules of the standards that differ between kinds of bearings; ratings are those of one track."""
+    """Rules of the standards that differ between kinds of bearings; ratings hold for one track."""
 
     factor: str  # name of the life modification factor
     dynamic: Callable[[Sized], Numbers]  # basic dynamic rating [N]
@@ -121,7 +121,7 @@ def _angle(bearing: Sized) -> Numbers:
 
 
 def _ratio(bearing: Bearing) -> Numbers:
-    """Diameter of the elements, along the contact angle, over that of the pitch circle."""
+    """Diameter of the elements, along the contact angle, divided by the pitch diameter."""
     return bearing.element_diameter * np.cos(_angle(bearing)) / bearing.pitch_diameter
 
 
@@ -243,7 +243,7 @@ class RatingLife(RatedLoads):
     film_viscosity_ratio: Numbers  # viscosity ratio that corresponds to the lambda ratio
     reliability_factor: Numbers  # a_1 of the reliability of the file
     # Factors and lives [s]. Names with "film" use the viscosity ratio of the film, which is no standard's.
-    # All lives except the basic ones, of 90 % reliability, are those of the reliability of the file.
+    # All lives except the basic ones, of 90 % reliability, have the reliability of the file.
     life_factor: Numbers
     film_life_factor: Numbers
     basic_life: Numbers

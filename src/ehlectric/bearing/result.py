@@ -112,7 +112,7 @@ class BearingResult(Shown):
         Returns
         -------
         float
-            Capacitance [F]; of ceramic elements that of the elements, or an upper bound.
+            Capacitance [F]; of ceramic elements the capacitance of the elements, or an upper bound.
 
         Raises
         ------
@@ -137,7 +137,7 @@ class BearingResult(Shown):
         """Margin: shaft voltage of the first breakdown over the shaft voltage, dimensionless.
 
         Below 1 breakdown is expected. None without a shaft voltage or without a breakdown voltage, as
-        without ``[motor]`` or a dielectric strength. Its range and its critical speed are those of
+        without ``[motor]`` or a dielectric strength. Its range and its critical speed are given by
         ``margin_analysis``.
         """
         margin: float | None = self.breaks()["margin"]
@@ -145,7 +145,7 @@ class BearingResult(Shown):
 
     @property
     def warnings(self) -> tuple[ResultWarning, ...]:
-        """Warnings that tell where the result is unreliable, each once."""
+        """Warnings about where the result is unreliable, each once."""
         return tuple(bearing_warnings(self.solution))
 
     def contacts(self) -> list[dict[str, Any]]:
@@ -161,17 +161,17 @@ class BearingResult(Shown):
     def margin_analysis(self) -> MarginAnalysis:
         """Critical speed, effects of the inputs on the margin, and its range from ``ranges``.
 
-        It solves some thirty bearings with contacts from the atlas when it is first asked for: half a
-        second, beside a minute for a bearing with solved contacts.
+        It solves about thirty bearings with contacts from the atlas when it is first asked for: half a
+        second, compared with a minute for a bearing with solved contacts.
         """
         return analyse_margin(self.solution)
 
     @property
     def uncertainty(self) -> Uncertainty | None:
-        """Distribution of the margin over what is uncertain of the inputs and the films, with its probability
-        of breakdown; None where there is no margin, or none at any other inputs, as ``summary`` then tells.
+        """Distribution of the margin over the uncertainty of the inputs and the films, with its probability
+        of breakdown; None where there is no margin, or none at any other inputs, as ``summary`` then reports.
 
-        It evaluates 2048 bearings with contacts from the atlas when it is first asked for: some two seconds.
+        It evaluates 2048 bearings with contacts from the atlas when it is first asked for: about two seconds.
         """
         return self._uncertainty_or_reason[0]
 
@@ -195,9 +195,9 @@ class BearingResult(Shown):
 
     @read_only_property
     def margin_band(self) -> MarginBand | None:
-        """Margin over the speed within what is uncertain; None where it is known at no speed.
+        """Margin over the speed within the uncertain inputs; None where it is known at no speed.
 
-        It evaluates 1536 bearings with contacts from the atlas when it is first asked for: some two seconds.
+        It evaluates 1536 bearings with contacts from the atlas when it is first asked for: about two seconds.
         """
         if self.uncertainty is None or self.margin is None:
             return None
@@ -232,7 +232,7 @@ class BearingResult(Shown):
         return run_duty(self.case) if self.stored_duty is None else self.stored_duty
 
     def summary(self, *, probable: bool = True) -> dict[str, Any]:
-        """Results nested as in summary.json, SI units; None in place of NaN.
+        """Results nested as in summary.json, SI units; None instead of NaN.
 
         Without ``probable`` the table ``uncertainty`` is None and the verdict does not follow the
         probability of breakdown, which saves a second or two.
@@ -311,7 +311,7 @@ class BearingResult(Shown):
     def _headline(self) -> str:
         """Title, speed, capacitance, first breakdown voltage and shaft voltage on one line, with bounds.
 
-        The verdict is left out: it takes seconds, and a line must not depend on what was asked before.
+        The verdict is omitted: it takes seconds, and a line must not depend on what was asked before.
         """
         return headline(self.case.title, *self.key_numbers())
 
@@ -329,7 +329,7 @@ def solve_bearing(
 ) -> BearingResult:
     """Solve a whole rolling bearing: loads, films, fields and the electrical circuit.
 
-    Contacts with each ring are solved at five loads, those of rollers at ten, and at the loads of light
+    Contacts with each ring are solved at five loads, contacts of rollers at ten, and at the loads of light
     elements; the contacts of all elements are interpolated between them.
 
     Parameters

@@ -56,7 +56,7 @@ from ehlectric.runtime.display import Values, read_only_property
 REFINE = 0.02
 
 # Domains of balls: the default domain of solved contacts is the shortest one. The domain costs below 1 % of
-# the film, or 15 % where a ball hardly presses.
+# the film, or 15 % where the load of a ball is very light.
 BALL_DOMAINS = DomainLaw(
     inlet=-DEFAULT_ENDS[True][0],
     outlet=DEFAULT_ENDS[True][1],
@@ -69,13 +69,13 @@ BALL_DOMAINS = DomainLaw(
     ),
 )
 
-# The same for contacts of which only ratios of results are used: errors of polynomials are about 1e-5, and
-# those of integrals below 1e-6.
+# Domains for contacts of which only ratios of results are used: errors of polynomials are about 1e-5, and
+# errors of integrals below 1e-6.
 _COARSE_DOMAINS = replace(BALL_DOMAINS, coarseness=1e3, nodes=COARSE)
 
 # Domains of rollers cost 0.3 to 1.2 % of the film. Beyond a hundred half-widths the inlet has eight lengths,
 # and three hundred half-widths at the most, which costs 2.5 % of the film and 1.3 % of the capacitance: with
-# longer inlets the films of hardly loaded rollers often did not converge.
+# longer inlets the films of very lightly loaded rollers often did not converge.
 _ROLLER_DOMAINS = DomainRule(
     upstream=10.0,
     downstream=2.0,
@@ -106,7 +106,7 @@ _LEAST_SPEED = 1e-9
 class RingContacts(Generic[G_co]):
     """Contacts of all elements with one ring, without their loads.
 
-    Quantities of one bearing are numbers, those of many points of operation have the shape (...).
+    Quantities of one bearing are numbers, quantities of many points of operation have the shape (...).
     """
 
     conditions: BearingConditions[G_co]
@@ -135,7 +135,7 @@ class RingContacts(Generic[G_co]):
 
     @property
     def film_factor(self) -> Numbers:
-        """Film thickness over that of isothermal, fully flooded oil, dimensionless, at most 1."""
+        """Film thickness divided by the isothermal, fully flooded thickness, dimensionless, at most 1."""
         return self._conditions.film_factor
 
     @property
@@ -275,7 +275,7 @@ class BallContact:
     def film(self) -> Numbers:
         """Central film thickness [m] by the formula of Nijenbanning, Venner and Moes.
 
-        The formula holds for light contacts too.
+        The formula also holds for light contacts.
         """
         return nijenbanning_venner_moes(self.conditions.contact).central_thickness
 
@@ -340,7 +340,7 @@ class BallContact:
 class RollerContact:
     """Contact of a roller with a ring under a load, or of many rollers.
 
-    Many loads have the shape (m, ...), as those of balls.
+    Many loads have the shape (m, ...), as the loads of balls.
     """
 
     ring: RingContacts[RollerBearing]
@@ -390,7 +390,7 @@ class RollerContact:
 
     @read_only_property
     def film(self) -> Numbers:
-        """Central film thickness [m] by the formula of Moes, which holds for light contacts too."""
+        """Central film thickness [m] by the formula of Moes, which also holds for light contacts."""
         return moes(self.conditions.contact).central_thickness
 
     @property
@@ -450,7 +450,7 @@ class RollerContact:
         """Capacitance in vacuum [F] between roller and raceway outside the domain of the film.
 
         ``nodes``, nodes of the film along entrainment [m], shape (nx,); ``thickness`` [m], shape (nx,). The
-        second number is that of a ball's contact: 0, as the gap outside continues the film.
+        second number belongs to a ball's contact: 0, as the gap outside continues the film.
         """
         (x,) = nodes
         ends = (float(x[0]), float(x[-1])), (float(thickness[0]), float(thickness[-1]))
@@ -462,7 +462,7 @@ Contact: TypeAlias = BallContact | RollerContact
 
 
 def _smallest(*radii: Numbers) -> Numbers:
-    """Smallest of several radii [m], of which negative ones are those of concave bodies."""
+    """Smallest of several radii [m], of which negative radii belong to concave bodies."""
     first, *others = radii
     for radius in others:
         first = np.minimum(first, np.abs(radius))
@@ -475,7 +475,8 @@ def _film_speed(contact: Contact) -> Numbers:
 
 
 def beyond_model(contact: Contact) -> Mask:
-    """Whether contacts are too slow for a film, too wide for their bodies, or hardly pressed, shape (m, ...).
+    """Whether contacts are too slow for a film, too wide for their bodies, or too lightly loaded, shape (m,
+    ...).
 
     ``check_contact`` refuses such a contact, and says why.
     """
@@ -534,7 +535,8 @@ def roller_raceway_of(ring: RingContacts[RollerBearing]) -> RollerRaceway:
     return RollerRaceway(radii.element_x, as_float(race), outer=not ring.inner)
 
 
-# Radius over that of the roller at which a raceway is flat: its curvature changes the gap by 1e-6.
+# Radius divided by the radius of the roller at which a raceway is flat: its curvature changes the gap by
+# 1e-6.
 _FLAT = 1e6
 
 
@@ -601,7 +603,7 @@ class ContactSolution(Values):
 
 
 def solve(contact: Contact, solver: Solver) -> ContactSolution:
-    """Solve the film and the field of a contact; errors are those of ``check_contact``."""
+    """Solve the film and the field of a contact; raises the errors of ``check_contact``."""
     grid, ring = contact.grid, contact.ring
     check_contact(contact, grid)
     conditions = contact.conditions_on(grid)
@@ -666,10 +668,10 @@ def solution_of(
 def without_regime(warnings: Iterable[ResultWarning]) -> tuple[ResultWarning, ...]:
     """Warnings without those that are not about a contact of a bearing.
 
-    The domain of a contact suits its regime, and the voltage of a single contact is not that of the bearing.
-    The films of light contacts are too thin by what their domain cuts off, which makes no margin too large:
-    by 0.3 to 2.4 % under rollers, by more under balls that hardly press. Inputs of the bearing have checks
-    of their own, and light contacts of every bearing have unusual pressures.
+    The domain of a contact suits its regime, and the voltage of a single contact is not the voltage of the
+    bearing. The films of light contacts are too thin by what their domain cuts off, which makes no margin too
+    large: by 0.3 to 2.4 % under rollers, by more under very lightly loaded balls. Inputs of the bearing have
+    checks of their own, and light contacts of every bearing have unusual pressures.
     """
     of_domain = {"inlet-too-short", "domain-too-small", "domain-far-too-small"}
     left_out = {"regime", "breakdown-expected", "value-unusual", *of_domain}
@@ -677,7 +679,7 @@ def without_regime(warnings: Iterable[ResultWarning]) -> tuple[ResultWarning, ..
 
 
 # Part of the largest load of a ring below which a contact is light: its film is thick, so that it never
-# breaks down first and hardly changes the circuit of the bearing. A load of this part is solved, to rounding.
+# breaks down first and barely changes the circuit of the bearing. A load of this part is solved, to rounding.
 _LIGHT, _ROUNDED = 0.02, 1.0 - 1e-9
 
 
@@ -685,7 +687,7 @@ _LIGHT, _ROUNDED = 0.02, 1.0 - 1e-9
 class ContactCurve(Values):
     """Quantities of contacts over their load, interpolated between m loads, of one bearing or many points.
 
-    Arrays of many points of operation have the shape (..., m), those of one bearing (m,). Points with fewer
+    Arrays of many points of operation have the shape (..., m), arrays of one bearing (m,). Points with fewer
     loads than others have ``used`` False at the first ones.
     """
 
@@ -727,7 +729,7 @@ class ContactCurve(Values):
         )
 
     def __eq__(self, other: object) -> bool:
-        """Whether two curves are equal, those of single bearings with their warnings."""
+        """Whether two curves are equal, curves of single bearings with their warnings."""
         if not isinstance(other, ContactCurve):
             return NotImplemented
         if not super().__eq__(other):
@@ -799,8 +801,8 @@ class ContactCurve(Values):
     def at(self, load: Array) -> ContactValues[Array]:
         """Quantities at loads [N], shape (..., k), interpolated in the logarithms of load and quantity.
 
-        The interpolation is monotone. Beyond the ends the values are those at the ends. A quantity with any
-        infinite value is infinite.
+        The interpolation is monotone. Beyond the ends the values equal the values at the ends. A quantity
+        with any infinite value is infinite.
         """
         names, finite, between = self._law
         load = np.clip(load, np.asarray(self.least_load)[..., np.newaxis], self.loads[..., -1:])
@@ -839,7 +841,7 @@ class ContactCurve(Values):
 
     @read_only_property
     def interpolation_error(self) -> Numbers:
-        """Largest relative error of capacitance and breakdown voltage when one load is left out, shape (...).
+        """Largest relative error of capacitance and breakdown voltage when one load is omitted, shape (...).
 
         Without that load the distance of the loads is twice as large. The interpolation error with all loads
         is therefore expected to be smaller. The breakdown voltage of contacts with less than 2 % of the
@@ -849,7 +851,7 @@ class ContactCurve(Values):
             return as_float(np.zeros(self.loads.shape[:-1]))
         values = np.stack([self.values.inside, self.values.breakdown_voltage])
         finite = np.isfinite(values) | ~self.used
-        # A quantity that is infinite at another load is, too, where this one is left out.
+        # A quantity that is infinite at another load is also infinite where this load is omitted.
         others = np.all(finite, axis=-1, keepdims=True)
         logs = np.log(np.where(others & self.used, values, 1.0))
         missed = np.abs(np.exp(left_out(np.log(self.loads), logs, self.first) - logs[..., 1:-1]) - 1.0)
@@ -860,7 +862,7 @@ class ContactCurve(Values):
 
 
 def left_out(x: Array, y: Array, first: IntArray) -> Array:
-    """Values at the inner nodes of monotone curves that each leave this node out, shape (c, ..., m - 2).
+    """Values at the inner nodes of monotone curves that each omit this node, shape (c, ..., m - 2).
 
     ``x``, increasing abscissae, shape (..., m); ``y``, values, shape (c, ..., m); ``first``, place of the
     first node in use, shape (...), at least one before the inner nodes whose result is used.
@@ -894,7 +896,7 @@ def left_out(x: Array, y: Array, first: IntArray) -> Array:
 
 
 def _power(ratio: Array, exponent: float) -> Numbers:
-    """Power of a ratio; those of dry contacts, and of quantities that are proportional, take little time."""
+    """Power of a ratio; powers of dry contacts and of proportional quantities take little time."""
     if exponent == 1.0:
         return ratio
     if exponent == -1.0:

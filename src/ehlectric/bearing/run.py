@@ -73,8 +73,9 @@ def save(
 
     The file impedance.csv is written only if the bearing has an impedance, and duty.csv only if it has a duty
     cycle. Further files are written together
-    with these, and those of the names ``replaced`` are removed. Raises an InputError where the folder cannot
-    be used. The files are complete if an UnreadableError is raised, as ``load`` would refuse bearing.nc.
+    with these, and files with the names ``replaced`` are removed. Raises an InputError where the folder
+    cannot be used. The files are complete if an UnreadableError is raised, as ``load`` would refuse
+    bearing.nc.
     """
     summary, impedance = result.summary(), impedance_of(result.solution)
     rows = summary["contacts"]

@@ -190,7 +190,8 @@ def _values(
         np.where(load > 0.0, lighter**exponent, 0.0) for exponent in kind_of(ring).dry_exponents
     )
     vacuum, at_least = _rigid(ring, curve, np.where((free > 0.0) | (lighter < 1.0), apart, np.nan))
-    # Capacitances of contacts that are lighter than the least solved one change as those of rigid bodies.
+    # Capacitances of contacts that are lighter than the least solved one change as capacitances of rigid
+    # bodies.
     wider = held * np.where(lighter < 1.0, vacuum / at_least, 1.0)
     vacuum = _part(free, vacuum)
     permittivity = np.asarray(conditions.oil.relative_permittivity)[..., np.newaxis]
@@ -236,8 +237,8 @@ class Position(Values):
     inner: RingState
     outer: RingState
     shape: Numbers | None = None  # shape parameter of a Weibull strength; None for a strength without scatter
-    # Contacts of an element with one ring: two of a four-point contact bearing, whose states have those of
-    # one diagonal after those of the other.
+    # Contacts of an element with one ring: two of a four-point contact bearing, whose states contain the
+    # states of one diagonal after the states of the other.
     tracks: int = 1
 
     @property
@@ -280,7 +281,8 @@ class Position(Values):
 
     def _weakest(self, voltages: Array) -> Array:
         """Breakdown voltage of the contacts of each element with a ring together, which have the same
-        voltage, shape (..., elements) [V]: that of the weaker one, or less where their strength scatters.
+        voltage, shape (..., elements) [V]: the voltage of the weaker contact, or less where their strength
+        scatters.
         """
         if self.tracks == 1:
             return voltages
@@ -413,7 +415,7 @@ def shown_lambda(solution: BearingSolution) -> float:
 def lubrication(solution: BearingSolution, *, film_scale: Numbers = 1.0) -> Any:
     """State of lubrication: "conducting", "touching", "partial film" or "full film".
 
-    ``film_scale`` is a factor on all films, for those of quick contacts that are scaled to solved ones.
+    ``film_scale`` is a factor on all films, for films of estimated contacts that are scaled to solved films.
 
     Up to the lambda ratio of ``touches`` contacts close and open at times, and below 1 nearly always: the
     bearing is called "conducting", as no voltage is computed for it. With ceramic elements, which insulate,
@@ -428,10 +430,10 @@ def lubrication(solution: BearingSolution, *, film_scale: Numbers = 1.0) -> Any:
 def regime(ratio: Numbers, summit_height: Numbers = 0.0, *, loaded: Any = True) -> Any:
     """Regime of one contact by its lambda ratio: "full film", "partial film", "touching", or "gap".
 
-    A contact without load is a "gap". From a lambda ratio of 3 on, or that of the highest summits if this is
-    larger, surfaces are separated. Below it, asperities touch at times ("partial film"), and below 1 most of
-    the time ("touching"). Contacts that open and close discharge at a low voltage, for which there is no law
-    here.
+    A contact without load is a "gap". From a lambda ratio of 3 on, or the ratio of the highest summits if
+    this is larger, surfaces are separated. Below it, asperities touch at times ("partial film"), and below 1
+    most of the time ("touching"). Contacts that open and close discharge at a low voltage, for which there is
+    no law here.
 
     Examples
     --------
@@ -494,7 +496,7 @@ def film_error(solution: BearingSolution) -> Numbers:
 
     For solved contacts it is the largest estimated error of the films, and of their interpolation over loads
     from 2 % of the largest load on: lighter contacts never break down first. Contacts from the atlas have the
-    errors that the atlas states at these loads; contacts by formula have the error of the formula.
+    errors that the atlas states at these loads; contacts from formulas have the error of the formula.
     """
     if solution.case.contacts == "formula":
         return formula_factor(solution.case.bearing.kind) - 1.0
@@ -528,7 +530,7 @@ def percent(error: float) -> str:
 
 def with_light(curves: Iterable[ContactCurve]) -> list[tuple[ContactSolution, ...]]:
     """Contacts of each ring with equal warnings on all rings about those that the atlas does not have; a
-    light contact has a note in place of its warning.
+    light contact has a note instead of its warning.
     """
     rings = [(curve.solutions, {contact.load for contact in curve.counted.solutions}) for curve in curves]
     errors: dict[bool, list[float]] = {True: [0.0], False: [0.0]}

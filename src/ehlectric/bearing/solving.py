@@ -25,8 +25,8 @@ from ehlectric.runtime.progress import Progress, silent
 from ehlectric.runtime.tasks import run_all
 from ehlectric.runtime.worker_processes import cores
 
-# Detail of quick contacts: whole, or with fewer loads where only ratios of results are used ("coarse"), or
-# with these and without the capacitance around the films ("films").
+# Detail of estimated contacts: whole, or with fewer loads where only ratios of results are used ("coarse"),
+# or with these and without the capacitance around the films ("films").
 Detail = Literal["whole", "coarse", "films"]
 
 # Number of positions of the cage over one pitch of the elements.
@@ -63,8 +63,8 @@ def solution_of_prepared(
 ) -> BearingSolution:
     """Solve the contacts of a prepared bearing, and join them to its circuit.
 
-    ``detail`` is the detail of quick contacts. Raises the errors of ``solution_of``, and for a single bearing
-    the errors of ``check_bounds``.
+    ``detail`` is the detail of estimated contacts. Raises the errors of ``solution_of``, and for a single
+    bearing the errors of ``check_bounds``.
     """
     started = time.perf_counter()
     if is_quick(case):
@@ -89,7 +89,7 @@ def solution_of_prepared(
 def _quick_curves(
     case: BearingCase, prepared: PreparedBearing, progress: Progress, detail: Detail
 ) -> tuple[ContactCurve, ContactCurve]:
-    """Curves of the contacts with both rings, from the atlas or by formula."""
+    """Curves of the contacts with both rings, from the atlas or from formulas."""
     progress(0, len(prepared.rings), "contacts")
 
     def curve(number: int, ring: RingContacts[Any]) -> ContactCurve:
@@ -100,7 +100,7 @@ def _quick_curves(
         unknown = np.full(quick.inside.shape, np.nan)
         return quick_curve(quick, used, (unknown, unknown) if detail == "films" else None)
 
-    # The outer ring comes first, so that its contacts are refused before those of the inner ring.
+    # The outer ring comes first, so that its contacts are refused before the contacts of the inner ring.
     outer = curve(1, prepared.rings[1])
     return curve(2, prepared.rings[0]), outer
 
@@ -198,7 +198,7 @@ NOT_IN_FILMS = (
 # Tables and keys that no solution uses.
 UNUSED = ("title", "ranges")
 
-# Solutions that are kept: those of the analyses of some bearings. Each takes some 0.1 MB.
+# Solutions that are kept, for the analyses of some bearings. Each takes about 0.1 MB.
 _KEPT = 30
 
 
@@ -218,8 +218,8 @@ def key_of(case: BearingCase, *, without_effect: tuple[str, ...]) -> CaseKey:
 
 
 def quick_solution(case: BearingCase) -> BearingSolution:
-    """Solution of a bearing with quick contacts, which have few loads, computed once for cases with equal
-    films. Errors are those of ``solution_of``.
+    """Solution of a bearing with estimated contacts, which have few loads, computed once for cases with equal
+    films. Raises the errors of ``solution_of``.
     """
     return replace(_once(key_of(case, without_effect=(*NOT_IN_FILMS, *UNUSED))), case=case)
 

@@ -151,7 +151,7 @@ def _columns(summaries: Sequence[Mapping[str, Any] | None]) -> Array:
 Speed = tuple[float, dict[str, Any]]
 Speeds = Sequence[Speed]
 
-# Keys that are drawn in place of others, where a summary has them: voltages on the shaft, with a coating.
+# Keys that are drawn instead of others, where a summary has them: voltages on the shaft, with a coating.
 ON_SHAFT = {"first_break": "shaft_first_break", "through_breakdown": "shaft_through_breakdown"}
 
 # Number of nodes of a whole curve, at least, between which straight lines are drawn.
@@ -210,7 +210,7 @@ class Curves:
 def curves_of(points: Speeds, at_case: Speed | None = None) -> Curves:
     """Curves through the values at several speeds, scaled to the values of the bearing itself.
 
-    Films that are not solved may be some per cent off. Their change with speed is more accurate, so each
+    Films that are not solved may be several per cent off. Their change with speed is more accurate, so each
     curve is multiplied by the ratio of the value of the bearing itself to the curve at its speed.
 
     ``points``, speeds of the inner ring [rad/s] with their summaries. Returns curves of capacitances and
@@ -266,7 +266,7 @@ def _factor(curves: Curves, key: str, at_case: Speed) -> float:
 def critical_speed_of(curves: Curves) -> float | None:
     """Speed below which the shaft voltage is above the first breakdown [rad/s].
 
-    It is that of the summary of the bearing itself or, where this has none, the highest speed at which the
+    It is taken from the summary of the bearing itself or, where this has none, the highest speed at which the
     curves cross, by interpolation of their logarithms over the logarithm of the speed.
 
     Returns None where the first breakdown is on one side of the shaft voltage at all speeds.
@@ -299,7 +299,7 @@ def _last_rise(speed: Array, value: Array) -> float | None:
 def opening_speed_of(curves: Curves) -> float | None:
     """Speed below which contacts open and close, as the highest summits touch [rad/s], or None.
 
-    It is that of the summary of the bearing itself or, where this has none, that of the curves.
+    It is taken from the summary of the bearing itself or, where this has none, from the curves.
 
     Examples
     --------
@@ -326,8 +326,8 @@ def breaks_anywhere(points: Speeds) -> bool:
     return any(summary["bearing"]["first_break"] is not None for _, summary in points)
 
 
-# Farthest speeds at which a bearing may become capacitive, over that of its case, and number of speeds beyond
-# those of ``PARTS`` that are looked at before.
+# Farthest speeds at which a bearing may become capacitive, divided by the speed of its case, and number of
+# speeds beyond ``PARTS`` that are looked at before.
 _FARTHEST, _BEYOND = 27.0, 3
 
 # Least share of time whose logarithm is taken.
@@ -341,12 +341,11 @@ def capacitive_speed(solution: BearingSolution) -> float | None:
     time, or its surfaces part and voltages are computed, if that speed is higher; of a bearing that is
     capacitive it is the next lower one, of another the next higher one. None where there is none from a 27th
     to 27 times the speed of the case; for ceramic elements and coatings, which insulate at any speed; for an
-    oil that no quick contact describes; and where a film of the solution is not converged.
+    oil that no estimated contact describes; and where a film of the solution is not converged.
 
-    Films at other speeds are from the atlas, or by formula where the contacts of the case are, and are
-    scaled to the least lambda ratio of the solution at its own speed, and their central films to those that
-    were solved with heat and supply. The temperature is that of the case at
-    all speeds.
+    Films at other speeds are from the atlas, or from formulas where the contacts of the case are, and are
+    scaled to the least lambda ratio of the solution at its own speed, and their central films to the films
+    that were solved with heat and supply. The temperature is the temperature of the case at all speeds.
     """
     case = solution.case
     if solution.conditions.ceramic or case.bearing.coating is not None or not solution.converged:

@@ -72,7 +72,7 @@ _CURVES, _CURVE_VALUES = (
 _EQUILIBRIA: Mapping[str, type[Equilibrium]] = {
     kind.__name__: kind for kind in (BallEquilibrium, RollerEquilibrium)
 }
-# Quantities of rollers that results of bearings with cylindrical rollers alone did not have: they are zero.
+# Quantities of rollers that results of bearings with only cylindrical rollers did not have: they are zero.
 _ANGLES, _ALONG = ("inner_angle", "outer_angle"), "axial_displacement"
 
 # Dimensions of quantities of an equilibrium, after the positions of the cage.

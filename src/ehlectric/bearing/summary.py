@@ -56,9 +56,9 @@ _VOLTAGES = tuple(field.name for field in dataclasses.fields(Breakdown))
 
 
 def summary_of(solution: BearingSolution) -> dict[str, Any]:
-    """Results of a bearing nested as in summary.json, SI units; None in place of NaN.
+    """Results of a bearing nested as in summary.json, SI units; None instead of NaN.
 
-    The verdict and the analysis of the margin are left out, which solve further bearings.
+    The verdict and the analysis of the margin are omitted, because they solve further bearings.
     """
     case, duty = solution.case, duty_of(solution)
     summary: dict[str, Any] = plain(
@@ -79,7 +79,7 @@ def summary_of(solution: BearingSolution) -> dict[str, Any]:
 
 def tables_of(solution: BearingSolution, duty: BearingDuty | None = None) -> dict[str, dict[str, Any]]:
     """Tables ``lubricant``, ``bearing``, ``mechanics`` and ``life`` of summary.json, numbers and texts of
-    shape (...); None for what no point has. ``duty`` is that of the solution, where it is known.
+    shape (...); None for what no point has. ``duty`` is the duty cycle of the solution, where it is known.
     """
     case, conditions, oil = solution.case, solution.conditions, solution.case.lubricant.temperature
     return {
@@ -201,8 +201,8 @@ def breaks(solution: BearingSolution) -> dict[str, Any]:
 def _breakdown_probability(solution: BearingSolution, ratio: Numbers | None) -> Numbers | None:
     """Probability that a contact has broken down at the shaft voltage, from the margin and a Weibull law.
 
-    It is 1 - exp(-(V/V_1)^m) with the shape m, the shaft voltage V and that of the first breakdown at 63.2 %,
-    V_1. None where there is no margin, or the strength does not scatter.
+    It is 1 - exp(-(V/V_1)^m) with the shape m, the shaft voltage V and the voltage of the first breakdown at
+    63.2 %, V_1. None where there is no margin, or the strength does not scatter.
     """
     shape = solution.positions[0].shape
     if shape is None or ratio is None:
@@ -215,7 +215,7 @@ def _breakdown_probability(solution: BearingSolution, ratio: Numbers | None) -> 
 def contact_rows(solution: BearingSolution, duty: BearingDuty | None = None) -> list[dict[str, Any]]:
     """Table of contacts, a row per element and ring, with the cage at its first position, SI units.
 
-    ``duty`` is that of the solution, where it is already known.
+    ``duty`` is the duty cycle of the solution, where it is already known.
     """
     position, circuit, across = solution.positions[0], solution.circuits()[0], film_voltage(solution)
     at, insulates, ceramic = position.equilibrium, insulating(solution), solution.conditions.ceramic

@@ -1,4 +1,4 @@
-"""Ranges of the inputs of a bearing: those of its file, and the usual ones of the others."""
+"""Ranges of the inputs of a bearing: ranges of its file, and the usual ranges of the others."""
 
 from __future__ import annotations
 
@@ -126,7 +126,8 @@ def usual_changes(case: BearingCase, table: Mapping[str, Any]) -> Iterator[Chang
         at_40 = oil.at_40()
         yield Change(_AT_40, label, float(at_40), _part(float(at_40), GRADE_WIDTH), _OF_GRADE)
     yield from _clearance(bearing)
-    # Cones of tapered rollers are ground to their angle; that of balls also follows from their clearance.
+    # Cones of tapered rollers are ground to their angle; the angle of balls also follows from their
+    # clearance.
     if bearing.contact_angle is not None and not has_rollers(bearing.kind):
         key, angle = "bearing.contact_angle", bearing.contact_angle
         yield Change(key, _label(key), angle, _around(angle, ANGLE), _OF_ANGLE)

@@ -1,4 +1,4 @@
-"""Probability that a bearing breaks down: its margin over what is uncertain of its inputs and its films."""
+"""Probability that a bearing breaks down: its margin over the uncertainty of its inputs and its films."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ _BEND, _CLOSEST, _DRAWN = 0.05, 0.05, 0.05
 # Reason for which a bearing has no distribution of its margin.
 NO_MARGINS = "the margin has no value within the ranges of the inputs"
 
-# Names of what is uncertain beside the inputs of a file.
+# Names of uncertainties in addition to the inputs of a file.
 FILMS, SCATTER = "films", "scatter"
 
 
@@ -55,7 +55,7 @@ FILMS, SCATTER = "films", "scatter"
 class UncertainInput:
     """Input within its range, and what it contributes to the spread of the margin."""
 
-    key: str  # dotted key; "films" for their error, "scatter" for that of a Weibull law
+    key: str  # dotted key; "films" for their error, "scatter" for a Weibull law
     label: str
     # low and high: ends of the range, SI units; factors on all films for "films"; None for "scatter".
     low: float | None
@@ -70,7 +70,7 @@ class UncertainInput:
 
 @dataclass(frozen=True)
 class MarginBand:
-    """Margin over the speed of the inner ring, within what is uncertain."""
+    """Margin over the speed of the inner ring, within the uncertain inputs."""
 
     speed: Array  # [rad/s], shape (n,)
     # low, median and high: margin at 5 %, 50 % and 95 %, see ``Chance``, dimensionless, shape (n,).
@@ -82,7 +82,7 @@ class MarginBand:
 
 @dataclass(frozen=True)
 class MarginSpread:
-    """Distribution of the margin of a bearing over what is uncertain of its inputs and its films.
+    """Distribution of the margin of a bearing over the uncertainty of its inputs and its films.
 
     Inputs are independent and evenly distributed over their ranges. What follows from an input, such as the
     viscosity from the temperature, changes with it. A point whose surfaces touch counts as breakdown.
@@ -119,7 +119,7 @@ class MarginSpread:
 
     @property
     def probability_error(self) -> float:
-        """Sampling error of the probability at a confidence of 95 %: that of as many random points.
+        """Sampling error of the probability at a confidence of 95 %: the error of as many random points.
 
         Half of Wilson's interval; the points of a Sobol design have a smaller one.
         """
@@ -301,11 +301,12 @@ def uncertainty_of(
     samples: int = SAMPLES,
     seed: int = SEED,
 ) -> Uncertainty:
-    """Distribution of the margin of a solved bearing over what is uncertain.
+    """Distribution of the margin of a solved bearing over its uncertain inputs.
 
-    Ranges are those of the file, and the usual ones of ``changes_of`` for all other inputs. Films at other
-    inputs are from the atlas or by formula, and scaled to those of the solution. ``margins``, margins of the
-    solution at changed inputs; ``samples``, number of points, a power of 2; ``seed`` of the design.
+    Ranges are the ranges of the file, and the usual ranges of ``changes_of`` for all other inputs. Films at
+    other inputs are from the atlas or from formulas, and scaled to the films of the solution. ``margins``,
+    margins of the solution at changed inputs; ``samples``, number of points, a power of 2; ``seed`` of the
+    design.
 
     Raises InputError where no point has a result.
     """
@@ -361,7 +362,7 @@ def spread_of_result(solution: BearingSolution, samples: int, seed: int = SEED) 
 
 
 def spread_at(design: Design, computed: Array, at: Array, seed: int) -> MarginSpread:
-    """Distribution of the margin from those at points from 0 to 1, shape (n, width).
+    """Distribution of the margin from margins at points from 0 to 1, shape (n, width).
 
     ``computed``, margins without the factors, 0 where surfaces touch, NaN without a result, shape (n,).
     Raises InputError where no point has a result.
@@ -387,8 +388,8 @@ def without_spread(reason: object) -> str:
 
 
 def quick_chance(solution: BearingSolution, *, samples: int = QUICK_SAMPLES) -> Chance | None:
-    """Chance of a solved bearing at once, with its own films at all points: what changes them is left out, as
-    temperature, load and clearance. None where ``has_chance`` is not.
+    """Chance of a solved bearing at once, with its own films at all points: what changes them is neglected,
+    as temperature, load and clearance. None where ``has_chance`` is not.
     """
     if not has_chance(solution):
         return None
@@ -405,7 +406,7 @@ def quick_chance(solution: BearingSolution, *, samples: int = QUICK_SAMPLES) -> 
 def _computed(design: Design, margins: QuickMargins, at: Array, speed: Array | None = None) -> Array:
     """Margins without the factors, 0 where the surfaces touch, NaN without a result, shape (n,).
 
-    ``speed`` of the inner ring at the points [rad/s], by default that of the case.
+    ``speed`` of the inner ring at the points [rad/s], by default the speed of the case.
     """
     arrays = design.arrays(at, margins.lambda_factor)
     if speed is not None:

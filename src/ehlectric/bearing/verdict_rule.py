@@ -71,9 +71,9 @@ def bearing_verdict(
 
     The level follows the probability of breakdown, ``chance``, where it is known. Otherwise the margin may
     lie anywhere between its values at the ends of the stated ranges. Estimated errors of films
-    widen this interval, and ``formula_factor`` for contacts by formula. With a Weibull law its lower end is
-    that at a probability of 5 %. Without a stated range of the strength, a margin that a change of the
-    strength by 20 % takes across 1 is yellow, too. ``unknown``, reason for which the probability has no
+    widen this interval, and ``formula_factor`` for contacts from formulas. With a Weibull law its lower end
+    is the margin at a probability of 5 %. Without a stated range of the strength, a margin that a change of
+    the strength by 20 % takes across 1 is also yellow. ``unknown``, reason for which the probability has no
     value, though the bearing has a margin: no such verdict is green. ``follows``, whether the range of the
     margin is still to be computed. The levels and codes follow ``breakdown_rule``.
     """
@@ -341,7 +341,7 @@ def _speeds(speeds: SpeedRange | None) -> Iterator[Statement]:
 
 
 def _intervals(ranges: Intervals) -> tuple[Statement, ...]:
-    """Clauses with intervals of speed [rad/s], whose open ends are those of all speeds computed."""
+    """Clauses with intervals of speed [rad/s], whose open ends are the ends of all computed speeds."""
     return tuple(_interval(low, high) for low, high in ranges)
 
 

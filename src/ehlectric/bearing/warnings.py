@@ -87,7 +87,7 @@ _COLD = 0.0
 
 
 def bearing_warnings(solution: BearingSolution) -> list[ResultWarning]:
-    """Warnings that tell where the result of a bearing is unreliable, each once."""
+    """Warnings about where the result of a bearing is unreliable, each once."""
     warnings = [
         *active(warning_conditions(solution)),
         *contact_warnings(dict(zip(("inner", "outer"), with_light(solution.curves), strict=True))),
@@ -96,7 +96,9 @@ def bearing_warnings(solution: BearingSolution) -> list[ResultWarning]:
 
 
 def warning_conditions(solution: BearingSolution) -> Iterator[WarningCondition]:
-    """Conditions of the warnings of a whole bearing, at one or many points; without those of its contacts."""
+    """Conditions of the warnings of a whole bearing, at one or many points; without the warnings of its
+    contacts.
+    """
     oil = solution.conditions.oil
     yield from input_warning_conditions(solution.case, oil.viscosity)
     yield from (
@@ -112,14 +114,16 @@ def warning_conditions(solution: BearingSolution) -> Iterator[WarningCondition]:
 
 
 def codes_of(solution: BearingSolution) -> Iterator[tuple[str, Mask]]:
-    """Codes of the warnings of many points with quick contacts, and which points have them, shape (...)."""
+    """Codes of the warnings of many points with estimated contacts, and the points that have them, shape
+    (...).
+    """
     yield from ((condition.code, condition.where) for condition in warning_conditions(solution))
     yield from _contact_codes(solution)
 
 
 def _contact_codes(solution: BearingSolution) -> Iterator[tuple[str, Mask]]:
-    """Codes of warnings of quick contacts of many points, and which points have them, shape (...): contacts
-    outside the atlas, pressures that deform steel, and laws of the oil beyond their range.
+    """Codes of warnings of estimated contacts of many points, and which points have them, shape (...):
+    contacts outside the atlas, pressures that deform steel, and laws of the oil beyond their range.
 
     The texts of a single bearing name the contacts; see ``contact_warnings``.
     """
@@ -187,7 +191,7 @@ def library_viscosity(oil: Lubricant) -> Numbers | None:
 
 
 def input_warning_conditions(case: BearingCase, viscosity: Numbers) -> Iterator[WarningCondition]:
-    """Warnings of inputs that a machine hardly has, and of inputs that stand for a range of values.
+    """Warnings of inputs that are unusual for a machine, and of inputs that stand for a range of values.
     ``viscosity``, dynamic viscosity of the oil at the temperature of the bearing [Pa s], shape (...).
     """
     bearing = case.bearing
@@ -340,7 +344,7 @@ def _coating_warning_conditions(
 ) -> Iterator[WarningCondition]:
     """Warnings of a coating: assumed values, and a shaft voltage [V] that breaks it down.
 
-    The coating breaks down alone after the films have broken down.
+    The coating breaks down by itself after the films have broken down.
     """
     coating = solution.case.bearing.coating
     if coating is not None:

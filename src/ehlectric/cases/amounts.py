@@ -43,7 +43,7 @@ def scalar(entry: object) -> object:
 
 
 def _with_context(parse: Callable[..., Any]) -> Callable[[Any, ValidationInfo], Any]:
-    """Validator that tells ``parse`` whether a person wrote the entry, from the context of the validation."""
+    """Validator that passes to ``parse`` whether a person wrote the entry, from the validation's context."""
 
     def validate(entry: Any, info: ValidationInfo) -> Any:
         return parse(entry, written=bool(info.context and info.context.get(WRITTEN)))

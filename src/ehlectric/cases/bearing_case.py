@@ -187,7 +187,7 @@ def _parsed(quantity: Amount, value: object) -> float | None:
 
 @contextmanager
 def _at_index(key: str, index: int) -> Iterator[None]:
-    """Context in which an error tells the place of its value in the arrays of many points."""
+    """Context in which an error names the place of its value in the arrays of many points."""
     try:
         yield
     except InputError as error:
@@ -281,7 +281,7 @@ class BearingCase(CaseFile, book="bearing_file"):
 
     @classmethod
     def missing_table_hint(cls, key: str, given: Mapping[str, Any]) -> str:
-        """Text that tells by which key a file without the table of its bearing is that of a bearing."""
+        """Text with the key by which a file without the table of its bearing is a bearing file."""
         sign = bearing_key(given) if key == "bearing" else None
         return "" if sign is None else f", [bearing], as the file looks like that of a bearing: it has {sign}"
 
@@ -396,14 +396,14 @@ class BearingCase(CaseFile, book="bearing_file"):
         ------
         InputError
             If a key is unknown or is not a quantity, an array has another length than the first one, or a
-            number is outside the bounds of its key; the message tells its place.
+            number is outside the bounds of its key; the message names its place.
 
         Notes
         -----
         A new key replaces its alternative, as in ``replace``. The bounds of each key are checked at all
         points. Rules between keys, such as that a bore is less than the inner raceway, are checked at the
-        first point and at those with the least and the largest number of each key, and that there is a load
-        at all points. Rules that fail at other points only are not found here; where they matter to a
+        first point and at the points with the smallest and the largest number of each key, and that there is
+        a load at all points. Rules that fail at other points only are not found here; where they matter to a
         result, such as two viscosities that do not fall with temperature, this point has NaN.
 
         Examples
@@ -565,7 +565,9 @@ def _flat_changes(tables: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _with_class(changes: dict[str, Any]) -> dict[str, Any]:
-    """Changes with a clearance class that is given as ``radial_clearance`` in its own key, beside fits."""
+    """Changes with a clearance class that is given as ``radial_clearance`` in its own key, together with
+    fits.
+    """
     key = "bearing.radial_clearance"
     named = with_class({"radial_clearance": changes.get(key)}).get("clearance_class")
     if named is None:

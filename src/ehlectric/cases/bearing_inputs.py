@@ -57,7 +57,7 @@ _Solid = Annotated[str, library_choice(library.solid_names)]
 class Fits(Table, book="bearing.fits"):
     """Clearance before mounting, fits on shaft and in housing, and their temperatures.
 
-    The clearance in operation follows from them. All dimensions are those at ``reference_temperature``.
+    The clearance in operation follows from them. All dimensions hold at ``reference_temperature``.
     """
 
     unmounted_clearance: float | None = None
@@ -324,7 +324,7 @@ def _base_table(table: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def base_of(table: Mapping[str, Any]) -> tuple[Mapping[str, Any], dict[str, Any]]:
-    """Table ``bearing`` with the name of its bearing in place of a designation, and the values of the bearing
+    """Table ``bearing`` with the name of its bearing instead of a designation, and the values of the bearing
     that ``base`` names. Raises InputError for an unknown one.
 
     Examples
@@ -421,7 +421,7 @@ class Bearing(Table, book="bearing", named_by="base"):
     @model_validator(mode="before")
     @classmethod
     def _from_base(cls, table: Any) -> Any:
-        """Values of the bearing that ``base`` names in the library, replaced by those of the file."""
+        """Values of the bearing that ``base`` names in the library, replaced by the values of the file."""
         table = with_rq(cls.of_name(table), "bearing", "composite_rq", "composite_ra")
         if not isinstance(table, Mapping):
             return table
@@ -466,7 +466,9 @@ class Bearing(Table, book="bearing", named_by="base"):
         return next(iter(self.temperatures().values()))
 
     def ring_temperature(self, *, inner: bool) -> float:
-        """Temperature of a ring and of the oil in its contacts [K]: the given one, or that of the oil."""
+        """Temperature of a ring and of the oil in its contacts [K]: the given one, or the temperature of the
+        oil.
+        """
         return self.temperatures().get(_RING_TEMPERATURE[inner], self.oil_temperature)
 
     def temperature_key(self, *, inner: bool | None = None) -> str:
@@ -476,12 +478,12 @@ class Bearing(Table, book="bearing", named_by="base"):
         return f"bearing.{key_of_ring if key_of_ring in given else given[0]}"
 
     def temperatures(self) -> dict[str, float]:
-        """Temperatures of oil and rings that are given [K], by key; that of the oil comes first."""
+        """Given temperatures of oil and rings [K], by key; the temperature of the oil comes first."""
         keys = ("temperature", "inner_ring_temperature", "outer_ring_temperature")
         return {key: value for key in keys if (value := getattr(self, key)) is not None}
 
     def all_temperatures(self) -> dict[str, float]:
-        """Temperatures that are given [K], also those of elements, shaft and housing, by key."""
+        """Temperatures that are given [K], also of elements, shaft and housing, by key."""
         parts = {f"fits.{part}_temperature": part for part in ("element", "shaft", "housing")}
         of_fits = {key: getattr(self.fits, f"{part}_temperature", None) for key, part in parts.items()}
         return self.temperatures() | {key: value for key, value in of_fits.items() if value is not None}
@@ -505,7 +507,7 @@ class Bearing(Table, book="bearing", named_by="base"):
 
     @property
     def bounding(self) -> bool:
-        """Whether the breakdown voltages are upper bounds: those of isothermal or of smooth films."""
+        """Whether the breakdown voltages are upper bounds: with isothermal or smooth films."""
         return self.isothermal or (is_number(self.summit_height) and self.summit_height == 0.0)
 
     @property
@@ -597,14 +599,14 @@ class Bearing(Table, book="bearing", named_by="base"):
             )
 
     def _check_temperatures(self) -> None:
-        """A temperature is given, and that of the oil where both rings have their own."""
+        """A temperature is given; the oil needs one if both rings have their own."""
         given = len(self.temperatures())
         if self.temperature is None and given != 1:
             other = "; those of both rings do not tell it" if given else ""
             raise InputError.missing("temperature", f"the temperature of the oil{other}")
 
     def _check_fits(self, fits: Fits) -> None:
-        """The clearance before mounting is told once, and shaft and housing fit the bearing."""
+        """The clearance before mounting is given once, and shaft and housing fit the bearing."""
         if self.radial_clearance is not None:
             raise InputError(
                 "radial_clearance",
@@ -636,7 +638,7 @@ class Bearing(Table, book="bearing", named_by="base"):
         inner = self.pitch_diameter - self.element_diameter
         outer = self.pitch_diameter + self.element_diameter
         thrust = not KINDS_OF_BEARINGS[self.kind].radial
-        # Without an inner ring the shaft is the raceway, and the washers of a thrust bearing lie beside it.
+        # Without an inner ring the shaft is the raceway, and the washers of a thrust bearing lie next to it.
         inner += _ROUNDING * inner if thrust or self.inner_ring is False else 0.0
         if self.bore is not None and self.bore >= inner:
             raise InputError(

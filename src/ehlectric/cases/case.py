@@ -378,7 +378,7 @@ def _of_keys(kind: type[C], geometry: str, keys: Mapping[str, Any]) -> C:
     """Case of a kind from the keys of its contact and its other tables; its doubtful values are warned of."""
     tables, contact = split(keys, _Tables)
     case = kind.from_dict({"contact": {"geometry": geometry, **contact}, **tables})
-    # Two calls more are those of the constructor and of its decorator.
+    # Two further calls are the constructor and its decorator.
     warn_of(case.contact, level=4)
     return case
 

@@ -60,7 +60,7 @@ def of_table(temperature: str) -> Iterator[None]:
 
 
 def oil_at(oil: Properties, temperature: Numbers | None, key: str) -> Oil:
-    """Oil at a temperature [K], or at that of its contact if none is given; see ``Lubricant.at``."""
+    """Oil at a temperature [K], or at the temperature of its contact; see ``Lubricant.at``."""
     many = is_many(temperature, *oil.arrays().values())
     with of_table(key):
         given, temperature = temperature, _checked(oil, temperature)
@@ -72,7 +72,7 @@ def oil_at(oil: Properties, temperature: Numbers | None, key: str) -> Oil:
         names = law_names(oil)
         laws = {name: bound(oil, name, temperature, viscosity, known) for name in names}
         conductivity = conductivity_at(oil, temperature, laws.get("conductivity_law"))
-        # A law that has no value at the temperature says so here, with the key of the temperature.
+        # A law without a value at the temperature is refused here, with the key of the temperature.
         first = [laws[name](np.zeros(()))[1] for name in ("viscosity_law", "density_law")]
         ranges = (range_check(oil, key, temperature, viscosity) for key in names)
         checks: tuple[Estimate | RangeCheck | None, ...] = (estimated_alpha(oil, temperature), *ranges)
@@ -106,8 +106,8 @@ def law_names(oil: Properties) -> dict[str, str]:
 
 
 def _checked(oil: Properties, temperature: Numbers | None) -> Numbers | None:
-    """Temperature [K] at which an oil has values; of many points, those at which it has none have NaN. Raises
-    InputError if the temperature of all points is outside the range of the oil.
+    """Temperature [K] at which an oil has values; of many points, points at which it has none have NaN.
+    Raises InputError if the temperature of all points is outside the range of the oil.
     """
     if temperature is None:
         return None
@@ -261,7 +261,7 @@ def temperature_coefficient(oil: Properties, temperature: Numbers) -> Numbers | 
 def density_at(oil: Properties, temperature: Numbers | None) -> Numbers | None:
     """Density of an oil at zero pressure and a temperature [K], in kg/m^3; None if it is not known.
 
-    A density without a reference temperature or without an expansion is that at the temperature.
+    A density without a reference temperature or without an expansion holds at the temperature.
     """
     if oil.temperature is not None and temperature is not None:
         return density(oil.temperature.density_15, oil.temperature.expansion, temperature)
@@ -270,7 +270,7 @@ def density_at(oil: Properties, temperature: Numbers | None) -> Numbers | None:
 
 
 def density_over_reference(oil: Properties, temperature: Numbers | None) -> Numbers | None:
-    """Density at zero pressure over that at the reference temperature; None if it is not known."""
+    """Density at zero pressure / density at the reference temperature; None if it is not known."""
     if temperature is None or oil.reference_temperature is None:
         return None
     difference = temperature - oil.reference_temperature
@@ -368,7 +368,7 @@ class Lubricant(Properties):
     def at(self, temperature: Numbers | None, key: str = "contact.temperature") -> Oil:
         """Numbers and laws of the oil at a temperature [K], or at the temperatures of many points, shape
         (n,). Raises InputError if the oil needs a temperature and none is given, or if a law has no value at
-        this temperature. Of many points, those at which the oil has no value are ``Oil.refused``.
+        this temperature. Of many points, points at which the oil has no value are ``Oil.refused``.
 
         Examples
         --------
@@ -380,7 +380,7 @@ class Lubricant(Properties):
         """
         latest = _latest[-1] if _latest else None
         if latest is None or latest[0] is not self or not same(latest[1], temperature):
-            # Tables are frozen, so that the oil of the same table at the same temperature is the same.
+            # Tables are frozen, so that one table at one temperature always has one oil.
             latest = (self, temperature, oil_at(self, temperature, key))
             _latest[:] = [latest]
         return latest[2]
@@ -577,7 +577,7 @@ class _OilValues:
                 self.table, choice, self.temperature, math.nan if viscosity is None else viscosity, values
             )
             if choice not in ("permittivity_law", "conductivity_law"):
-                # A law that has no value at the temperature says so here.
+                # A law without a value at the temperature raises its error here.
                 law(np.zeros(1))
             yield choice, law
 
@@ -622,7 +622,7 @@ class NamedOil:
         if key in values_of(self.given):
             return None
         known = {} if self.base is None else self.base.values()
-        # A value of the data sheet of the base may stand beside another way to give the viscosity.
+        # A value of the data sheet of the base may be used together with another way to give the viscosity.
         for name in (key, f"temperature.{key}"):
             if self.base is not None and name in known:
                 return self.base.source(name)
@@ -662,7 +662,7 @@ def _of_file(path: Path) -> NamedOil:
     ]
     conductivity = _parsed(with_bounds(Amount, CONDUCTIVITY), tables, "discharge", "conductivity")
     if conductivity is not None:
-        # It holds in place of that of the oil, as in a solution.
+        # It replaces the conductivity of the oil, as in a solution.
         others = {key: value for key, value in table.items() if key not in _CONDUCTION}
         table = others | {"conductivity": conductivity}
     title = tables.get("title")
@@ -708,8 +708,8 @@ def oil(source: str | Path | Mapping[str, Any], temperature: str | float | None 
         Name of an oil of the library; path of a case or bearing file, as a ``Path`` or as a string that ends
         in ``.toml``; or table ``[lubricant]`` of a case, as a dictionary.
     temperature : str or float, optional
-        Temperature with its unit, or in kelvin; by default that of the contact or the bearing in the file,
-        if it has one alone. An oil whose viscosity does not depend on temperature needs none.
+        Temperature with its unit, or in kelvin; by default the temperature of the contact or the bearing in
+        the file, if it has only one. An oil whose viscosity does not depend on temperature needs none.
 
     Returns
     -------

@@ -18,7 +18,7 @@ from ehlectric.errors import InputError, shown
 
 
 def _named(name: str) -> str:
-    """Name of a coating of the library that stands in place of its table."""
+    """Name of a coating of the library that replaces its table."""
     names = library.coating_names()
     if name not in names:
         raise InputError(
@@ -45,9 +45,9 @@ class Coating(Table, book="bearing.coating", named_by="base"):
     @model_validator(mode="before")
     @classmethod
     def _from_base(cls, table: Any) -> Any:
-        """Values of the coating that ``base`` names in the library, replaced by those of the file.
+        """Values of the coating that ``base`` names in the library, replaced by the values of the file.
 
-        A text in place of the table is such a name.
+        A text instead of the table is such a name.
         """
         table = cls.of_name(table if not isinstance(table, str) else _named(table))
         if not isinstance(table, Mapping) or table.get("base") is None:
@@ -88,7 +88,7 @@ class Coating(Table, book="bearing.coating", named_by="base"):
 
     @property
     def voltage(self) -> float | None:
-        """Breakdown voltage of the coating alone [V]; None where the case does not give it."""
+        """Breakdown voltage of only the coating [V]; None where the case does not give it."""
         if self.strength is not None:
             return self.strength * self.thickness
         return self.breakdown_voltage
@@ -114,8 +114,8 @@ class Coating(Table, book="bearing.coating", named_by="base"):
         """Capacitance of the coating [F], by ``area_on`` its ring.
 
         A layer that is moulded over an outer ring with the diameter D and the width B is the cylinder
-        capacitor 2 pi eps0 eps_r B/ln((D + 2 d)/D); its sides are left out. The arguments and errors are
-        those of ``area_on``.
+        capacitor 2 pi eps0 eps_r B/ln((D + 2 d)/D); its sides are neglected. The arguments and errors are
+        the arguments and errors of ``area_on``.
 
         Examples
         --------
@@ -133,7 +133,7 @@ class Coating(Table, book="bearing.coating", named_by="base"):
         return as_float(plate * part / np.log1p(part))
 
     def area_on(self, diameters: Mapping[str, Numbers | None], width: Numbers | None) -> Numbers:
-        """Area of the coating on its seat [m^2]: ``area``, or that of the cylinder of the ring.
+        """Area of the coating on its seat [m^2]: ``area``, or the area of the cylinder of the ring.
         ``diameters``, bore of the bearing under "inner", and its outside diameter under "outer" [m];
         ``width`` [m]. Raises InputError where neither the area nor diameter and width are known.
         """

@@ -35,7 +35,7 @@ def radius_doubt(key: str, radius: float) -> Iterator[ResultWarning]:
 
 
 def modulus_doubt(modulus: float) -> Iterator[ResultWarning]:
-    """Warning about a reduced modulus [Pa] of rubber, above that of diamond, or without the factor 2.
+    """Warning about a reduced modulus [Pa] of rubber, above the modulus of diamond, or without the factor 2.
 
     Examples
     --------

@@ -25,7 +25,7 @@ OF_CONTACTS = {
     "formula": "contacts by formula",
 }
 
-# Values of ``film_factor`` that are words; all but the first compute the heat.
+# Values of ``film_factor`` that are words; all except the first compute the heat.
 FILM_FACTORS = ("none", "inlet-shear", "solved")
 
 # The best estimate, which is the default where the viscosity of the oil follows its temperature, and the
@@ -33,8 +33,8 @@ FILM_FACTORS = ("none", "inlet-shear", "solved")
 DEFAULT_FILM = "inlet-shear"
 ISOTHERMAL = ("none", 1.0)
 
-# Height of the highest summits over the composite Rq: contact of rolling surfaces was measured to begin at a
-# lambda ratio of 2 (electrical contact resistance of discs, Clarke et al.).
+# Height of the highest summits divided by the composite Rq: contact of rolling surfaces was measured to begin
+# at a lambda ratio of 2 (electrical contact resistance of discs, Clarke et al.).
 DEFAULT_SUMMITS = 2.0
 
 

@@ -150,7 +150,7 @@ class BearingDischarge(Discharge):
     def at(self, temperature: Numbers, key: str = "bearing.temperature") -> Discharge:
         """Inputs of the discharge at a temperature [K], at which a strength table over temperature is read;
         of many points, shape (n,). Raises InputError if the temperature is outside this table; of many
-        points, those outside have NaN for their temperature and their strength.
+        points, points outside have NaN for their temperature and their strength.
 
         Examples
         --------

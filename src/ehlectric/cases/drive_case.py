@@ -38,7 +38,7 @@ class Operation(Table, book="drive"):
 
 
 class Remedy(Table, book="remedies"):
-    """Changed copy of the drive that is computed beside it."""
+    """Changed copy of the drive that is computed for comparison."""
 
     title: Title
     changes: dict[str, Any]
@@ -71,7 +71,7 @@ class DriveCase(CaseFile, book="drive_file"):
     title : str, optional
         Title of tables and figures.
     remedies : sequence of mapping, optional
-        Changes that are computed beside the drive, each with its title.
+        Changes that are computed in addition to the drive, each with its title.
     duty : mapping, optional
         Duty cycle over which discharges are expected.
     """
@@ -86,7 +86,7 @@ class DriveCase(CaseFile, book="drive_file"):
     circuit: Circuit
     breakdown: Breakdown
     drive_end: BearingCase
-    # The bearing of the drive end is that of both, where only one is given.
+    # If only one bearing is given, it is used at both ends.
     non_drive_end: BearingCase = Field(default_factory=lambda given: given["drive_end"])
     remedies: tuple[Remedy, ...] = ()
     duty: Duty | None = None
@@ -95,7 +95,7 @@ class DriveCase(CaseFile, book="drive_file"):
     def bearings(self) -> tuple[BearingCase, BearingCase]:
         """Bearings at the drive end and the non-drive end, at the speed and temperature of the drive.
 
-        Without a table ``motor`` of their own, whose voltage is that of another estimate.
+        Without a table ``motor`` of their own, whose voltage belongs to another estimate.
         """
         first, second = (
             _in_drive(bearing, self.replaced) for bearing in (self.drive_end, self.non_drive_end)
@@ -114,7 +114,7 @@ class DriveCase(CaseFile, book="drive_file"):
 
     @property
     def running_speed(self) -> float:
-        """Speed of the rotor [rad/s]: that of the drive, else that of the bearing at the drive end."""
+        """Speed of the rotor [rad/s]: of the drive, else of the bearing at the drive end."""
         speed = self.drive.speed
         return self.drive_end.bearing.inner_speed if speed is None else speed
 
@@ -169,7 +169,7 @@ class DriveCase(CaseFile, book="drive_file"):
         ----------
         changes : mapping, optional
             New values by dotted key, as in ``{"drive.speed": "1500 rpm"}``. Keys that begin with
-            ``drive_end`` or ``non_drive_end`` are those of a bearing file; ``bearings`` stands for both ends.
+            ``drive_end`` or ``non_drive_end`` are keys of a bearing file; ``bearings`` stands for both ends.
         **tables
             New values by table, as in ``drive={"seed": 2}``.
         """
@@ -234,7 +234,7 @@ def _of_end(flat: Mapping[str, Any], end: str) -> dict[str, Any]:
 
 
 def _bearing_of(table: Mapping[str, Any], folder: Path, end: str) -> BearingCase:
-    """Bearing of the file that a table names, with the other keys of the table in place of its own."""
+    """Bearing of the file that a table names, with the other keys of the table instead of its own."""
     name = table["file"]
     if not isinstance(name, str):
         raise InputError(f"{end}.file", got=str(name), takes="the path of a bearing file")

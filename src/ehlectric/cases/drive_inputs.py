@@ -200,7 +200,7 @@ class RingTable(Table, book="circuit.grounding_ring_table"):
         return self.check_over("speed", "resistance")
 
     def covers(self, speed: float) -> bool:
-        """Whether the size of a speed [rad/s] is within the table, but for its rounding."""
+        """Whether the size of a speed [rad/s] is within the table, except for its rounding."""
         first, last = self.speed[0], self.speed[-1]
         return first <= (1.0 + _ROUNDING) * abs(speed) and (1.0 - _ROUNDING) * abs(speed) <= last
 

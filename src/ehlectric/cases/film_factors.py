@@ -142,7 +142,7 @@ def slope_of(x: Array, factors: Array, stated: Array | None = None) -> tuple[flo
 # Number of rows and of columns that a warning names.
 _NAMED = 3
 
-# Ratio of the scatter to the stated uncertainty above which a warning tells it.
+# Ratio of the scatter to the stated uncertainty above which a warning reports it.
 _LARGE = 1.5
 
 # Slope over the speed, and its ratio to its uncertainty, above which a film factor counts as no constant.
@@ -218,8 +218,8 @@ class FilmFactors(Shown):
     solves : int
         Number of contacts that were solved.
     formula_error : float or None
-        Relative error that films by formula or from the atlas may have, which no interval contains; None for
-        solved films.
+        Relative error that films from formulas or from the atlas may have, which no interval contains; None
+        for solved films.
     background : float or None
         Capacitance [F] that was taken off every row; None for films.
     columns : mapping of str to ndarray, shape (n,)
@@ -266,7 +266,7 @@ class FilmFactors(Shown):
         return {name: unit if name in _OF_QUANTITY else COLUMNS[name].unit for name in self.columns}
 
     def summary(self) -> dict[str, Any]:
-        """Values as in measured.json, SI units; None in place of NaN."""
+        """Values as in measured.json, SI units; None instead of NaN."""
         slope, uncertainty = self.slope or (None, None)
         return {
             "schema": SCHEMA,
@@ -341,7 +341,7 @@ def fitted_columns(values: Array, factors: Array, slopes: Array, mean: MeanFacto
     """Computed values of the rows at the mean film factor, and at both ends of its interval.
 
     ``values``, ``factors`` and ``slopes``, measured value of each row, the film factor at which the computed
-    value is the same, and the slope d ln(value)/d ln(factor) there, shape (n,). Returns columns ``fitted``,
+    value equals it, and the slope d ln(value)/d ln(factor) there, shape (n,). Returns columns ``fitted``,
     ``fitted_low`` and ``fitted_high``; only the first without an interval, shape (n,).
     """
     if mean is None:

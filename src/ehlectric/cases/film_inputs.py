@@ -167,9 +167,9 @@ def _missing(oil: Lubricant, temperature: float) -> Iterator[tuple[str, str]]:
 
 
 def thermal_properties(body: Body | None, name: str) -> dict[str, float]:
-    """Thermal properties of a body: its own, or those of its material. Returns ``thermal_conductivity``
-    [W/(m K)], ``heat_capacity`` [J/(kg K)] and ``density`` [kg/m^3]. Raises InputError if one of them is
-    missing.
+    """Thermal properties of a body: its own, or the properties of its material. Returns
+    ``thermal_conductivity`` [W/(m K)], ``heat_capacity`` [J/(kg K)] and ``density`` [kg/m^3]. Raises
+    InputError if one of them is missing.
 
     Examples
     --------

@@ -145,8 +145,8 @@ class Grid(Table, book="grid"):
     def first(self, *, rough: bool = False) -> Grid:
         """Grid with which a refinement begins: this one if it has nodes, else a coarse one.
 
-        With ``nodes_y`` alone it has the number of nodes along entrainment of a grid that is not refined. So
-        has that of a rough contact, since roughness needs a spacing that a coarse grid does not have.
+        With only ``nodes_y`` it has the number of nodes along entrainment of a grid that is not refined. This
+        also holds for a rough contact, since roughness needs a spacing that a coarse grid does not have.
         """
         if self.nodes is not None:
             return self

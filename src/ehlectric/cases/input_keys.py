@@ -41,7 +41,7 @@ from ehlectric.quantities.units import printed
 # Tables and keys that only a bearing file has.
 _OF_BEARINGS = ("bearing", "motor", "contacts")
 
-# Tables that only a drive file has, beside those of its bearings.
+# Tables that only a drive file has, in addition to the tables of its bearings.
 _OF_DRIVES = ("drive", "source", "circuit", "breakdown")
 
 
@@ -53,8 +53,8 @@ def _tables_in(model: type[Table]) -> Iterator[type[Table]]:
             yield from _tables_in(inner)
 
 
-# Tables of case, bearing and drive files by their names in the book of inputs. That of sweep files is in the
-# package sweep.
+# Tables of case, bearing and drive files by their names in the book of inputs. The table of sweep files is in
+# the package sweep.
 TABLES: Mapping[str, type[Table]] = {
     table.BOOK: table for file in (DriveCase, BearingCase, Case) for table in _tables_in(file)
 }
@@ -75,7 +75,7 @@ def input_of(key: str) -> Quantity | None:
 
 
 def _entry(table: str, name: str) -> Quantity | None:
-    """Entry of a key of a table: that of the book, or that of the law whose parameter it is."""
+    """Entry of a key of a table: from the book, or from the law whose parameter it is."""
     parameter = law_parameters().get(name) if table == "lubricant" else None
     return inputs().get(table, {}).get(name) or (None if parameter is None else parameter.quantity)
 

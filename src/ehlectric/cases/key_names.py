@@ -20,7 +20,7 @@ ADVICE: Mapping[tuple[str, str], str] = MappingProxyType(
 # Largest number of tables and lists in each other. A case has four, and a sweep of cases five.
 MOST_DEEP = 16
 
-# Largest number of bits of an integer. Python writes no text for one of some 14 000 bits, 4300 digits.
+# Largest number of bits of an integer. Python writes no text for one of about 14 000 bits, 4300 digits.
 MOST_BITS = 10_000
 
 # Longest key, dotted or not [characters]. The longest key of a case has 45.
@@ -104,7 +104,7 @@ def _is_table(key: str, item: Any) -> bool:
 
 
 def _items(table: Any) -> Iterable[tuple[str, Any]]:
-    """Items of a table with their keys, which are checked, or those of a list, which have no keys."""
+    """Items of a table with their keys, which are checked, or items of a list, which have no keys."""
     if not isinstance(table, Mapping):
         return (("", item) for item in table)
     for key in table:

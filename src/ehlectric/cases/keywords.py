@@ -1,7 +1,7 @@
 """Constructors of cases that take keywords: their signatures and tables, and types for type checkers.
 
 A value is a float in SI units, a text with a unit, or a quantity of pint. Every other value is refused when
-the case is made, by the same checks as those of a case file.
+the case is made, by the checks of a case file.
 """
 
 from __future__ import annotations
@@ -161,7 +161,7 @@ def keys_of(keys: type) -> Sequence[str]:
 def split(keywords: Mapping[str, Any], names: type) -> tuple[dict[str, Any], dict[str, Any]]:
     """Keywords that a ``TypedDict`` names, and all others.
 
-    Keywords of the ``TypedDict`` that are None are left out.
+    Keywords of the ``TypedDict`` that are None are omitted.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Measurements and duty cycles beside a case: columns with units, and rows of a text file or a table of
+"""Measurements and duty cycles for a case: columns with units, and rows of a text file or a table of
 pandas, in SI units.
 """
 
@@ -100,11 +100,12 @@ _LONGEST = 200
 class Column:
     """Column of a measurement, by its head."""
 
-    # Name of the quantity in its book; of an uncertainty that of the quantity, or "" for the measured one.
+    # Name of the quantity in its book; of an uncertainty the name of the quantity, or ""  for the measured
+    # one.
     name: str
     head: str
     unit: str  # unit in the head; "%" of a relative uncertainty
-    uncertainty: bool = False  # whether the column has standard uncertainties
+    uncertainty: bool = False  # whether the column contains standard uncertainties
     book: ColumnBook = field(default=MEASURED, repr=False)
 
     def factor(self) -> float:
@@ -204,7 +205,7 @@ _OF_IMPEDANCE = ("impedance", "phase", "frequency")
 class MeasuredCapacitance:
     """Parallel capacitance of measured rows, with the background in it."""
 
-    value: Array  # capacitance [F]; NaN where the phase is not that of a capacitor, shape (n,)
+    value: Array  # capacitance [F]; NaN where the phase does not belong to a capacitor, shape (n,)
     uncertainty: Array | None  # standard uncertainty [F]; None where the measurement states none, shape (n,)
     # Parallel resistance [Ohm], infinite at a phase of -90 deg; None where a capacitance was measured,
     # shape (n,).
@@ -232,7 +233,7 @@ def parallel_circuit(magnitude: Array, phase: Array, frequency: Array) -> tuple[
 
 def capacitance_of(measured: Measurement, uncertainty: float | None = None) -> MeasuredCapacitance:
     """Parallel capacitance of all rows of a measurement, with its uncertainty. Columns of the measurement
-    are used in place of ``uncertainty``. Raises InputError if the measurement has neither, or has both.
+    are used instead of ``uncertainty``. Raises InputError if the measurement has neither, or has both.
     """
     if measured.has("capacitance") and measured.has("impedance"):
         raise InputError(measured.source, "has a capacitance and an impedance", takes="one of the two")
@@ -255,7 +256,9 @@ def capacitance_of(measured: Measurement, uncertainty: float | None = None) -> M
 
 
 def _of_impedance(measured: Measurement) -> Array | None:
-    """Uncertainty of the capacitance [F] from those of magnitude, phase and frequency, in quadrature."""
+    """Uncertainty of the capacitance [F] from the uncertainties of magnitude, phase and frequency, in
+    quadrature.
+    """
     magnitude, phase, frequency = (measured.values[name] for name in _OF_IMPEDANCE)
     given = measured.uncertainties
     if not any(name in given for name in _OF_IMPEDANCE):
@@ -284,7 +287,7 @@ _MOST_BYTES, _MOST_ABOVE, _MOST_COLUMNS = 8_000_000, 500, 200
 
 @dataclass(frozen=True, eq=False)
 class Measurement:
-    """Measured rows beside a case, SI units."""
+    """Measured rows for a case, SI units."""
 
     source: str  # path of the file, or "table" for a table of pandas
     lines: tuple[int, ...]  # line of each row in the file, from 1; of a table its rows, from 1
@@ -457,7 +460,8 @@ def _values(source: str, rows: _Rows, place: int, column: Column) -> Array:
         cell = row[place]
         try:
             number = rows.dialect.value(cell)
-            # A relative uncertainty has no quantity of its own; others are converted with that of the value.
+            # A relative uncertainty has no quantity of its own; others are converted with the quantity of the
+            # value.
             later = column.uncertainty and column.unit != "%"
             values[k] = number if later else column.value(number)
         except ValueError as error:

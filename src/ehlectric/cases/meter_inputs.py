@@ -51,7 +51,7 @@ class Coating(Table, book="meter.coating"):
 
 
 class Meter(StatedRa, book="meter"):
-    """Surroundings of the film that a capacitance meter at the two bodies sees too."""
+    """Surroundings of the film that a capacitance meter at the two bodies also sees."""
 
     fill: (
         Annotated[

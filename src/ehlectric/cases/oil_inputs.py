@@ -54,7 +54,7 @@ LAWS: dict[str, Mapping[str, Law]] = {
     "heat_capacity_law": HEAT_CAPACITY_LAWS,
 }
 
-# Laws that an oil may lack. Where it gives no name but the parameters of the law "constant", it has that law.
+# Laws that an oil may lack. If it gives no name but the parameters of the law "constant", it has that law.
 OPTIONAL_LAWS = ("conductivity_law", "thermal_conductivity_law", "heat_capacity_law")
 
 
@@ -334,7 +334,7 @@ def base_oil_values(oil: Properties, viscosity: Numbers, temperature: Numbers | 
     return {name: values[name] for name in names if name in values}
 
 
-# Keys of a base that are left out where the case gives one of the keys before them.
+# Keys of a base that are dropped where the case gives one of the keys before them.
 _REPLACED: tuple[tuple[tuple[str, ...], tuple[str, ...]], ...] = (
     (("relative_permittivity", "permittivity_table"), ("relative_permittivity", "permittivity_table")),
     (("conductivity", "conductivity_table"), ("conductivity", "conductivity_law", "conductivity_table")),
@@ -344,13 +344,13 @@ _REPLACED: tuple[tuple[tuple[str, ...], tuple[str, ...]], ...] = (
 def with_base(table: Any) -> Any:
     """Add to a table the values of the lubricant that ``base`` names in the library.
 
-    Values of the table replace those of the library. Where the table says in another way how viscous the oil
-    is, the library's way is left out: a viscosity, a law over temperature, or a data sheet. With a data sheet
-    or a law over temperature that has no viscosity as its parameter, the parameters that follow from the
-    viscosity are left out, too. The density of a data sheet takes the place of the library's.
+    Values of the table replace the values of the library. If the table states in another way how viscous the
+    oil is, the library's way is dropped: a viscosity, a law over temperature, or a data sheet. With a data
+    sheet or a law over temperature that has no viscosity as its parameter, the parameters that follow from
+    the viscosity are also dropped. The density of a data sheet takes the place of the library's.
 
     Values of the library's data sheet stay unless the table replaces them: those whose keys a data sheet of
-    the table does not give, and the thermal conductivity beside every way to give the viscosity.
+    the table does not give, and the thermal conductivity, whichever way gives the viscosity.
 
     Raises InputError if the library has no lubricant of this name.
     """
@@ -376,7 +376,7 @@ def _with_sheet(sheet: Mapping[str, Any], given_temperature: Mapping[Any, Any]) 
 
 
 def displace_oil(table: dict[str, Any], changes: Mapping[str, Any]) -> None:
-    """Remove from the table of an oil the keys that changed keys replace, as ``with_base`` leaves them out.
+    """Remove from the table of an oil the keys that changed keys replace, as ``with_base`` drops them.
 
     Examples
     --------
@@ -411,7 +411,7 @@ def _other_viscosity(table: Mapping[Any, Any]) -> set[str]:
     derived = {name for name, parameter in law_parameters().items() if parameter.derivation}
     if sheet is not None:
         if isinstance(sheet, Mapping) and sheet.get("base_oil") is not None:
-            # The type of base oil gives the coefficient in place of the exponent of another oil.
+            # The type of base oil gives the coefficient instead of the exponent of another oil.
             derived.add("roelands_z")
         return {"viscosity", "atmospheric_law", "density", *derived}
     name = table.get("atmospheric_law")
@@ -535,7 +535,7 @@ class Properties(Table, book="lubricant", named_by="base"):
     @field_validator("temperature", mode="before")
     @classmethod
     def _is_sheet(cls, value: Any) -> Any:
-        """Refuse a temperature in place of the data sheet."""
+        """Refuse a temperature instead of the data sheet."""
         if isinstance(value, str | int | float):
             raise InputError(
                 got=shown(value),

@@ -109,7 +109,7 @@ def _viscosity_law(table: Properties) -> str:
 
 
 def of_law(table: Properties, choice: str) -> Iterator[str]:
-    """Keys of a law: its name, and those of its parameters that the table gives."""
+    """Keys of a law: its name, and the parameters that the table gives."""
     name = table.law(choice)
     if name is None:
         return
@@ -126,7 +126,7 @@ def _of_sheet(table: Properties, keys: Iterable[str]) -> Iterator[str]:
 
 
 def _of_reference(table: Properties) -> tuple[str, ...]:
-    """Keys of the density over that at the reference temperature; empty where it is not known."""
+    """Keys of the density ratio to the reference temperature; empty where it is not known."""
     if table.reference_temperature is None:
         return ()
     by_law = DENSITY_LAWS[table.density_law].thermal_expansion
@@ -258,7 +258,7 @@ class SurveyLine:
     # Kind of the weakest source behind the values, or "given" for values of a user's own table; empty where
     # nothing is known.
     kind: str
-    sources: tuple[Source, ...]  # sources behind the values, without those of a user's own table
+    sources: tuple[Source, ...]  # sources behind the values, without sources of a user's own table
 
     @property
     def missing(self) -> bool:
@@ -268,7 +268,8 @@ class SurveyLine:
 
 def survey(named: NamedOil, oils: Sequence[KnownOil], pressures: Sequence[float]) -> Iterator[SurveyLine]:
     """Lines of a survey of an oil: every property at ambient pressure and at further pressures.
-    ``pressures``, pressures beside ambient pressure [Pa], for the properties that change with pressure.
+    ``pressures``, pressures in addition to ambient pressure [Pa], for the properties that change with
+    pressure.
     """
     for quantity in PROPERTIES.values():
         at = [0.0, *pressures] if quantity.over_pressure else [0.0]
@@ -303,9 +304,9 @@ def depends_on_temperature(table: Properties) -> bool:
 def usual_temperatures(named: NamedOil) -> tuple[float | None, ...]:
     """Temperatures for a survey of an oil for which nobody names one [K].
 
-    Those of the contact or bearing in the file of the oil; otherwise 40, 60, 80 and 100 degC if they lie
-    in the range of the oil, or the ends of a range without them. An oil whose viscosity does not depend on
-    temperature has None: its values hold at one temperature, which nobody may know.
+    Temperatures of the contact or bearing in the file of the oil; otherwise 40, 60, 80 and 100 degC if they
+    lie in the range of the oil, or the ends of a range without them. An oil whose viscosity does not depend
+    on temperature has None: its values hold at one temperature, which nobody may know.
     """
     if named.temperatures:
         return named.temperatures
@@ -382,7 +383,7 @@ def _of_law(
     choice: str,
     keys: Callable[[Properties, float], Iterable[str]] | None = None,
 ) -> OilProperty:
-    """Property that is the value of a law over pressure; its keys are those of the law if none are given."""
+    """Property that is the value of a law over pressure; its keys are the keys of the law by default."""
     value = partial(_at, choice=choice)
     return OilProperty(name, title, unit, value, keys or partial(_law_keys, choice), (choice,))
 
@@ -426,7 +427,7 @@ class OilReport:
 
     named: NamedOil
     oils: tuple[KnownOil, ...]
-    pressures: tuple[float, ...]  # pressures beside ambient pressure [Pa]
+    pressures: tuple[float, ...]  # pressures in addition to ambient pressure [Pa]
     lines: tuple[SurveyLine, ...]  # every property at every pressure, with the values at all temperatures
     # Warnings about laws and estimates, with the temperature at which they hold.
     warnings: tuple[ResultWarning | str, ...]
@@ -507,7 +508,7 @@ def oil_report(
 
 
 def _usual(named: NamedOil) -> Iterator[KnownOil]:
-    """Oil at those of its usual temperatures at which all its laws have a value."""
+    """Oil at the usual temperatures at which all its laws have a value."""
     refused: list[InputError] = []
     kelvins = usual_temperatures(named)
     for kelvin in kelvins:

@@ -25,7 +25,7 @@ def with_stated_ranges(
     """Tables in which inputs with an uncertainty have their middle, and ``ranges`` both ends, in SI units.
 
     ``quantity_of`` gives the quantity of a dotted key, None for a key that is none. Raises InputError where
-    an uncertainty is no number above 0, or ``ranges`` has the same key too.
+    an uncertainty is no number above 0, or ``ranges`` also has this key.
 
     Examples
     --------

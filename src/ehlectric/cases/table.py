@@ -37,7 +37,7 @@ from ehlectric.runtime.reading import read_text
 if TYPE_CHECKING:
     from ehlectric.arrays import Array
 
-# Names that completion need not list: those of pydantic, many of them deprecated, and internal ones.
+# Names that completion need not list: names of pydantic, many of them deprecated, and internal ones.
 _HIDDEN = frozenset(name for name in dir(BaseModel) if not name.startswith("__")) | {
     "BOOK",
     "all_inputs",
@@ -77,7 +77,7 @@ _NUMBERS = ("float", "int", "tuple[float, ...]")
 
 
 def _with_bounds(annotation: str, table: str, key: str) -> Any:
-    """Annotation of a field; that of a number gets the unit and the bounds of the book."""
+    """Annotation of a field; the annotation of a number gets the unit and the bounds of the book."""
     plain = annotation.removesuffix(" | None")
     if plain not in _NUMBERS:
         if "float" in annotation and not annotation.startswith("Annotated["):
@@ -180,7 +180,7 @@ class Table(BaseModel, metaclass=_Listed):
 
     @classmethod
     def __get_pydantic_json_schema__(cls, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        """Schema for editors: of the docstring only the first sentence, and no key required beside a base."""
+        """Schema for editors: the first sentence of the docstring, and no required key next to a base."""
         schema = dict(handler.resolve_ref_schema(handler(core)))
         schema["description"] = (cls.__doc__ or "").partition("\n\n")[0]
         if "base" in cls.model_fields:
@@ -274,7 +274,7 @@ class Table(BaseModel, metaclass=_Listed):
 
     @classmethod
     def missing_table_hint(cls, key: str, given: Mapping[str, Any]) -> str:  # noqa: ARG003
-        """Text that tells why a missing key is expected beside the given keys; empty by default."""
+        """Text about why a missing key is expected next to the given keys; empty by default."""
         return ""
 
     @classmethod
@@ -359,7 +359,7 @@ class CaseFile(Tabled, Table):
 
 
 def by_table(values: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, dict[str, Any]]]:
-    """Values of dotted keys: those of a table itself, and those of each table within it by its name.
+    """Values of dotted keys: of a table itself, and of each table within it by its name.
 
     Examples
     --------
@@ -441,7 +441,7 @@ def first_error(error: ValidationError, model: type[Table], given: Mapping[str, 
 
     An unknown key comes before a missing key, because it is often the missing key with a wrong name.
     """
-    # A default that is made from other keys says nothing beside the errors of these keys.
+    # A default that is made from other keys says nothing in addition to the errors of these keys.
     details = [detail for detail in error.errors() if detail["type"] != "default_factory_not_called"]
     details.sort(key=lambda detail: detail["type"] != "extra_forbidden")
     return InputError.together([_error(detail, model, given) for detail in details])
@@ -458,7 +458,7 @@ def details_of(error: ValidationError) -> list[InitErrorDetails]:
 
 
 def _error(detail: ErrorDetails, model: type[Table], given: Mapping[str, Any]) -> InputError:
-    # The number of an item in a list is left out, because it does not help the user.
+    # The number of an item in a list is omitted, because it does not help the user.
     key = ".".join(_shown_key(part) for part in detail["loc"] if isinstance(part, str))
     value = shown(detail["input"])
     match detail["type"]:
@@ -555,7 +555,7 @@ def any_of(keys: Sequence[str]) -> str:
 def meant(key: str, model: type[Table], given: Mapping[str, Any] = MappingProxyType({})) -> list[str]:
     """Known keys that an unknown key may mean, and that a file with the given tables can use.
 
-    Those of ``aliases`` come first, then a key with the same name in another table, then the most similar
+    Keys of ``aliases`` come first, then a key with the same name in another table, then the most similar
     key in the same table. The list is empty if no key is similar, because a wrong hint is worse than none.
     """
     unused = model.unused_keys(given) if given else ()

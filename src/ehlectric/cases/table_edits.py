@@ -84,7 +84,7 @@ def displace(
 
 
 def nested(changes: Mapping[str, Any], table: str) -> dict[str, Any]:
-    """Changed values of one table, with those of its own tables nested once.
+    """Changed values of one table, with the values of its own tables nested once.
 
     Examples
     --------

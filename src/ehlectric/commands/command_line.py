@@ -91,9 +91,9 @@ def exit_status() -> int:
 
 
 def _failed(error: Exception) -> int:
-    """Exit status of an error that no command tells, with its line; another error is raised again."""
+    """Exit status of an error that no command reports, with its line; another error is raised again."""
     if is_out_of_memory(error):
-        # What ran out before anything was solved is told by the commands.
+        # Commands report what ran out before anything was solved.
         say(f"error: {out_of_memory(error)}", err=True)
         return NOT_CONVERGED
     if isinstance(error, OSError):
@@ -172,5 +172,5 @@ def process() -> Iterator[None]:
     yield
     MACHINE.removeHandler(handler)
     for number in not_ignored():
-        # From here on Python would answer a signal, such as that of an impatient user, by a traceback.
+        # From here on Python would answer a signal, such as the signal of an impatient user, by a traceback.
         signal.signal(number, signal.SIG_DFL)

@@ -38,7 +38,7 @@ def film(
     """Print the films of a smooth contact at once, interpolated between solved ones, each with its error.
 
     The contact is given by --m, --l and --k, or by --oil, --radius, --modulus, --load and --speed. Films are
-    isothermal and fully flooded. Outside the range of the atlas nothing is printed but the range.
+    isothermal and fully flooded. Outside the range of the atlas only the range is printed.
     """
     given = {
         "m": m, "l": l, "k": k, "oil": oil, "temperature": temperature, "load": load, "speed": speed,

@@ -1,4 +1,4 @@
-"""The command that writes a bearing, or those of a drive, as a netlist for circuit simulators."""
+"""The command that writes a bearing, or the bearings of a drive, as a netlist for circuit simulators."""
 
 from __future__ import annotations
 

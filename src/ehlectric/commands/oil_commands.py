@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 def oils(as_json: bool = False) -> None:
     """List the oils of the library, with viscosity, coefficient, density and permittivity.
 
-    Each name is a value of lubricant.base. A letter behind a number tells how the value came about. The last
+    Each name is a value of lubricant.base. A letter after a number marks the origin of the value. The last
     table names the keys that a case must give, because no source of them was found.
     """
     with user_errors():
@@ -71,7 +71,7 @@ def oil(
     """Show every property of an oil at temperature and pressure, with its law, its kind and its sources.
 
     What no source has is shown as missing, and nothing takes its place. A star marks a value beyond the range
-    of its law. Without --output the tables are printed alone.
+    of its law. Without --output the tables are only printed.
     """
     with user_errors():
         look = figure_options(formats, style)

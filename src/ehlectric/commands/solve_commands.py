@@ -112,7 +112,7 @@ def run(
     A case with [motion] writes summary.json, motion.nc and figures. If it is interrupted, run the same
     command to resume it.
 
-    The folder then holds this result alone: files of an earlier result are removed, other files stay. A
+    The folder then holds only this result: files of an earlier result are removed, other files stay. A
     folder with a sweep, or with moving roughness of another case, is refused.
 
     Exit status 0: solved. 2: the input is wrong. 3: not converged, all files are still written; or memory
@@ -211,8 +211,8 @@ _SERIES = (
 def bearings(as_json: bool = False) -> None:
     """List the bearings of the library, which a bearing file uses as base = "NAME".
 
-    Designations of the usual series, such as "6314-C3", "NU 210 ECP", "32208" or "HK 2020", are understood,
-    too; the elements of a bearing that is not in the list are estimated from its load ratings.
+    Designations of the usual series, such as "6314-C3", "NU 210 ECP", "32208" or "HK 2020", are also
+    understood; the elements of a bearing that is not in the list are estimated from its load ratings.
 
     The elements are their number, diameter and length. They are "published", or follow "by rule" from both
     load ratings, or are "assumed". C and C0 are the load ratings that a maker prints.
@@ -254,7 +254,7 @@ def bearing(
     measured.csv and a figure. With the table [duty] in the file, duty.csv and a figure have the bearing over
     the time of a duty cycle.
 
-    The folder then holds this result alone: files of an earlier result are removed, other files stay. A
+    The folder then holds only this result: files of an earlier result are removed, other files stay. A
     folder with a sweep or with moving roughness is refused.
 
     Exit status 0: solved. 2: the input is wrong. 3: a contact is not converged, all files are still
@@ -304,11 +304,11 @@ def drive(
 
     The files are summary.json, events.csv with the discharges, spectrum.csv with the amplitudes of the shaft
     voltage over the frequency, drive.nc for ehlectric plot, and figures of the bearing voltage, its spectrum,
-    the discharges of each bearing with their voltage, charge, energy and current, and the same for each
+    the discharges of each bearing with their voltage, charge, energy and current, and these figures for each
     remedy of the file. With the table [duty] in the file, duty.csv and a figure have the expected discharges
     over the time of a duty cycle.
 
-    The folder then holds this result alone: files of an earlier result are removed, other files stay. A
+    The folder then holds only this result: files of an earlier result are removed, other files stay. A
     folder with a sweep or with moving roughness is refused.
 
     Exit status 0: solved. 2: the input is wrong. 3: a contact is not converged, all files are still

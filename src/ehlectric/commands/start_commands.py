@@ -47,8 +47,8 @@ def init(
 ) -> None:
     """Write a commented file of any kind to start from.
 
-    The file can be solved as it is. Its comments explain every key, and mark what is an assumption. Beside it
-    lies the JSON Schema of its kind, by which editors such as VS Code complete and explain its keys.
+    The file can be solved as it is. Its comments explain every key, and mark what is an assumption. The
+    JSON Schema of its kind is written next to it: editors such as VS Code then complete and explain its keys.
     """
     with user_errors():
         if geometry and geometry not in _GEOMETRIES:
@@ -189,7 +189,7 @@ def _needed(file: str) -> Iterator[str]:
 
 
 def _write_with_schema(source: Path, path: Path) -> Path:
-    """Write a template whose first line names the schema of its kind, and the schema beside it."""
+    """Write a template whose first line names the schema of its kind, and the schema in its folder."""
     from ehlectric.commands.write_commands import schema_text
     from ehlectric.runs.file_kinds import kind_of_tables
     from ehlectric.runtime.files import refuse_special, write

@@ -85,7 +85,7 @@ def surface(
 
 def _files(output: Path, name: str, formats: Sequence[str] | None) -> list[Path]:
     """Files of a figure, one of each format: ``output``, or without an ending, files in this folder. Raises
-    InputError if the ending is that of no format, or of another one than those asked for.
+    InputError if the ending belongs to no format, or to a format that was not requested.
     """
     from ehlectric.figures.figure_names import FORMATS
 

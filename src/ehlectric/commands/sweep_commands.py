@@ -62,7 +62,7 @@ def sweep(
 ) -> None:
     """Solve a case over varied inputs; write sweep.sqlite, sweep.csv and sweep.nc.
 
-    With pyarrow installed, sweep.parquet is written too. Each point is saved as it finishes: if the sweep is
+    With pyarrow installed, sweep.parquet is also written. Each point is saved as it finishes: if the sweep is
     interrupted, run the same command to resume it. Figures come from ehlectric map and ehlectric
     sensitivity, or from --plots.
 
@@ -139,7 +139,7 @@ class _Begun:
 
 @contextmanager
 def _tell_where_it_stops(output: Path) -> Iterator[_Begun]:
-    """Context of a sweep; if it is interrupted or loses its workers, one line tells how much is saved."""
+    """Context of a sweep; if it is interrupted or loses its workers, one line states how much is saved."""
     begun = _Begun()
 
     def tell(why: str) -> None:
@@ -253,7 +253,7 @@ def draw_maps(
     """Draw a value of a sweep as a map and as lines over one or two varied keys.
 
     The applied voltage is marked. For a bearing that is swept over its speed only, the capacitance and the
-    breakdown voltage over the speed are drawn too.
+    breakdown voltage over the speed are also drawn.
     """
     with user_errors():
         held, look = _held(at or []), figure_options(formats, style)

@@ -91,7 +91,7 @@ def user_errors() -> Iterator[None]:
 
 @contextmanager
 def solving() -> Iterator[None]:
-    """Context in which something is solved: where memory runs out, a LostError says so. Raises LostError
+    """Context in which something is solved: where memory runs out, a LostError reports it. Raises LostError
     where memory runs out; a grid that is known not to fit is an InputError as ever.
     """
     try:

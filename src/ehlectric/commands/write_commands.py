@@ -72,10 +72,10 @@ def report(
 ) -> None:
     """Write the report of a result: report.html, which needs no other file, and report.pdf.
 
-    Its first page has the machine, the verdict, the numbers and the figure that decide, the inputs that
-    decide a margin or the remedies of a drive, and what to measure first. Behind it stand all numbers and
-    figures, warnings, every input with its source, what the model leaves out, versions, and the input file.
-    The result of a contact, of moving roughness, of a bearing, of a drive or of a sweep.
+    Its first page shows the machine, the verdict, the numbers and the figure that decide, the inputs that
+    decide a margin or the remedies of a drive, and what to measure first. The following pages contain all
+    numbers and figures, warnings, every input with its source, what the model neglects, versions, and the
+    input file. The result of a contact, of moving roughness, of a bearing, of a drive or of a sweep.
     """
     with user_errors():
         endings = _report_formats(output, formats)

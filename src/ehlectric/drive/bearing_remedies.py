@@ -35,7 +35,7 @@ def grounded_voltage(solution: BearingSolution, resistance: float, rise_time: fl
     An edge of the height dV that rises over the time t_r drives the current C_wr dV/t_r through the
     winding-rotor capacitance into the ring R and the other capacitances of the shaft. With their sum C and
     T = R C it leaves V = R C_wr dV/t_r (1 - exp(-t_r/T)), which decays with T before the next edge. The
-    inductance of the ring is left out.
+    inductance of the ring is neglected.
 
     ``resistance``, of the ring R from shaft to frame [ohm]; ``rise_time``, of an edge t_r [s].
     """

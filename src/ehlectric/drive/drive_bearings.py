@@ -29,7 +29,7 @@ _IN_SERIES = 2.0
 # Voltage of a discharge over the lowest one at which its arc burns: just above it.
 _BURNS = 1.001
 
-# Share of time with metallic contact below which it is left out: a second in a week.
+# Share of time with metallic contact below which it is ignored: a second in a week.
 _NEVER = 1e-6
 
 
@@ -43,7 +43,7 @@ class BearingElement:
     # Conductance of the oil of the films, mean over the positions [S].
     conductance: float = field(metadata=stored("", "S", "not negative"))
     # Voltage across the films at which one element breaks down from ring to ring [V]; infinite for ceramic
-    # elements, shape (p,). Under summits it is at least that of an arc.
+    # elements, shape (p,). Under summits it is at least the voltage of an arc.
     breakdown: Array = field(
         metadata=stored(
             "position", "V", "positive or infinite", name="position_breakdown", count="position_count"
@@ -52,7 +52,7 @@ class BearingElement:
     # Shape of Weibull's law of that voltage; infinite for a voltage without scatter.
     shape: float = field(metadata=stored("", "", "positive or infinite"))
     step: float = field(metadata=stored("", "s", "positive"))  # time from one position to the next [s]
-    path: Path  # coating, and capacitance beside the films
+    path: Path  # coating, and capacitance parallel to the films
     # Share of time in which asperities close the films.
     touching: float = field(metadata=stored("", "", "not negative"))
     # Resistance of the elements that touch both rings, mean number of them while any does [Ohm]; infinite
@@ -118,7 +118,7 @@ def _breakdown(solution: BearingSolution, lowest: float) -> Array:
     """Voltage from ring to ring at which an element breaks down at each position of the cage, shape (p,) [V].
 
     Films under high summits break down below the ``lowest`` voltage [V] at which an arc burns, and to no
-    effect: they discharge as soon as an arc burns. That holds for summits that touch, too.
+    effect: they discharge as soon as an arc burns. That also holds for summits that touch.
     """
     least = _BURNS * lowest
     smooth_circuits = [position.circuit(solution.case.bearing.fill) for position in solution.positions]

@@ -1,7 +1,7 @@
 """Duty cycle of a drive: expected discharges and their energy over time, from simulated points of operation.
 
 Some rows of the cycle are simulated, and the rates of discharges of all rows are interpolated between them.
-Each simulated row is also compared with the interpolation between those of other groups: the mean difference
+Each simulated row is also compared with the interpolation between rows of other groups: the mean difference
 corrects the sums over the cycle, and its scatter is their error.
 """
 
@@ -54,7 +54,7 @@ from ehlectric.runtime.display import Values
 from ehlectric.runtime.files import Content
 from ehlectric.runtime.progress import Progress, silent
 
-# Rows that are simulated, and groups of them that are left out in turn.
+# Rows that are simulated, and groups of them that are omitted in turn.
 SIMULATED, _GROUPS = 48, 8
 
 # Least and longest time that a row is simulated [s]: whole periods of the fundamental in between.
@@ -135,7 +135,7 @@ class DriveDuty(Values):
     discharges, energy : tuple of Expected
         Expected number of discharges, and their energy [J], of each bearing.
     stretches : tuple of DriveStretch
-        The worst stretches, at most ten, that with the most discharges first.
+        The worst stretches, at most ten, the stretch with the most discharges first.
     source : str
         File of the duty cycle.
     points : int
@@ -211,7 +211,7 @@ class DriveDuty(Values):
 
 @dataclass(frozen=True, eq=False)
 class _Ready:
-    """Drive with quick contacts, its cycle, and both films at all rows."""
+    """Drive with estimated contacts, its cycle, and both films at all rows."""
 
     case: DriveCase
     cycle: Cycle
@@ -248,7 +248,7 @@ def run_drive_cycle(
 ) -> DriveDuty | None:
     """Result of the duty cycle of a drive file; None without one.
 
-    Contacts are from the atlas, or by formula. Each row is a stationary point of operation. A row at a
+    Contacts are from the atlas or from formulas. Each row is a stationary point of operation. A row at a
     standstill, or without a voltage, has no discharges. ``peak`` is the largest voltage of the source [V],
     and ``solve`` simulates a drive. Raises InputError where the file of the cycle cannot be used, a bearing
     needs solved contacts, or no row can be simulated.
@@ -273,7 +273,7 @@ def run_drive_cycle(
 
 
 def _ready(case: DriveCase, cycle: Cycle, peak: float) -> _Ready:
-    """Drive with quick contacts at the rows of a cycle."""
+    """Drive with estimated contacts at the rows of a cycle."""
     _check(case, cycle)
     quick, refused = quick_drive(case.model_copy(update={"remedies": (), "duty": None}))
     if quick is None:
@@ -298,7 +298,7 @@ def _check(case: DriveCase, cycle: Cycle) -> None:
 
 
 def _of_bearing(cycle: Cycle) -> Cycle:
-    """Cycle of a bearing, without the voltage, which is that of the source of the drive."""
+    """Cycle of a bearing, without the voltage, which belongs to the source of the drive."""
     return replace(cycle, values={key: values for key, values in cycle.values.items() if key != _VOLTAGE})
 
 
@@ -431,7 +431,7 @@ def _sums(means: Array, off: Array, time: float, simulation: _Simulation) -> lis
     """Sums over a time [s] from means of interpolated values, and differences of simulated values from
     interpolated ones, shape (m, 4): discharges of both bearings, and their energies.
 
-    Where none was seen, that of a Poisson process bounds their number, and nothing their energy.
+    If none was seen, the bound of a Poisson process limits their number, and nothing their energy.
     """
     count = len(off)
     mean = means + np.mean(off, axis=0)

@@ -50,7 +50,7 @@ from ehlectric.version import __version__
 # the bench simulates.
 _PERIODS, _SAMPLES = 4.0, 4000
 
-# Rise time in place of a jump [s], and steps in an edge and in the whole time.
+# Rise time instead of a jump [s], and steps in an edge and in the whole time.
 _JUMP, _IN_EDGE, _IN_ALL = 1e-9, 20.0, 80_000.0
 
 # Points of the source on a line.
@@ -124,7 +124,7 @@ def write_drive_netlist(
     Parameters
     ----------
     case : DriveCase
-        Drive. The arc of the bearings is that of its table ``breakdown``.
+        Drive. The arc of the bearings follows its table ``breakdown``.
     path : str or Path
         File of the subcircuits, such as bearings.lib. An existing file is replaced if ehlectric wrote it.
     bench : str or Path, optional

@@ -38,7 +38,7 @@ class Record:
     """Record of a simulated time."""
 
     duration: float = field(metadata=stored("", "s", "positive"))  # time that was measured [s]
-    # The first events of both films, a row for each with the columns above; times from the begin of the
+    # The first events of both films, a row for each with the columns above; times from the start of the
     # measured time, shape (m, 8).
     events: Array
     # Number of events of each film in equal blocks of time, shape (2, blocks).
@@ -69,7 +69,7 @@ class Record:
     # Time [s], voltage of the source without its ringing, and voltage across both films [V], in a short
     # stretch; straight between the rows, shape (m, 4).
     trace: Array
-    # Number of events of each film whose voltage is that of a positive shaft, shape (2,).
+    # Number of events of each film at a positive voltage of the shaft, shape (2,).
     positive: Array = field(
         default_factory=lambda: np.full(2, math.nan),
         metadata=stored("bearing", None, "not negative or NaN", name="positive_events", needed=False),
@@ -104,9 +104,9 @@ def event_rate(counts: Array, duration: float) -> Rate:
     """Rate of events with bounds of 95 % probability, from their numbers in equal blocks of time. ``counts``,
     numbers of events in the blocks, shape (blocks,); ``duration``, length of all blocks together [s].
 
-    The bounds are the wider ones of two: those of a Poisson process with this number of events (F. Garwood,
-    Biometrika 28 (1936) 437, doi:10.1093/biomet/28.3-4.437), which hold for no event too, and those of
-    Student's distribution of the blocks, which hold for events that follow from each other.
+    The bounds are the wider ones of two: the bounds of a Poisson process with this number of events (F.
+    Garwood, Biometrika 28 (1936) 437, doi:10.1093/biomet/28.3-4.437), which also hold without events, and the
+    bounds of Student's distribution of the blocks, which hold for events that follow from each other.
 
     Examples
     --------

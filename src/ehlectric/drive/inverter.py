@@ -77,8 +77,8 @@ def steps_of(source: Source, duration: float, first: float = 0.0) -> tuple[float
     to rounding to whole periods of the carrier. Returns value at time 0 [V], and an iterator of the steps.
     Raises InputError if the source is a measured one.
 
-    The voltage of the middle of the DC link to earth, a few times the mains frequency, is left out. So is the
-    dead time of the switches, which shifts edges by a microsecond.
+    The voltage of the middle of the DC link to earth, a few times the mains frequency, is neglected, and so
+    is the dead time of the switches, which shifts edges by a microsecond.
     """
     if source.dc_link is None or source.fundamental_frequency is None:
         raise InputError.worded("source", "is measured, and has no modulation")
@@ -146,7 +146,7 @@ def _carrier_steps(source: Source, duration: float, first: float) -> Iterator[St
 
 
 def _merged(time: Array, step: Array) -> tuple[Array, Array]:
-    """Steps in the order of time; those at the same time are one, and steps of no height are left out."""
+    """Steps in the order of time; steps at one time are one, and steps of no height are dropped."""
     times, where = np.unique(time, return_inverse=True)
     heights = np.bincount(where, weights=step, minlength=times.size)
     some = np.abs(heights) > 1e-9 * np.max(np.abs(step), initial=0.0)

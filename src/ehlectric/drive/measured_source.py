@@ -24,21 +24,21 @@ _TABLE = 2048
 # Largest number of products that are held at once: it bounds the memory [numbers].
 _AT_ONCE = 4_000_000
 
-# Relative difference below which two steps are the same, and distances are whole numbers of steps.
+# Relative difference below which two steps are equal, and distances are whole numbers of steps.
 _SAME_STEP = 1e-9
 
 
 def resample(waveform: Waveform, step: float) -> Waveform:
     """Waveform at a larger sampling interval, after a low-pass filter without delay.
 
-    ``step``, new sampling interval [s], at least that of the waveform. Returns samples at ``start``,
+    ``step``, new sampling interval [s], at least the interval of the waveform. Returns samples at ``start``,
     ``start + step`` and so on up to the last time of the waveform. Raises InputError if the new interval is
     smaller, or leaves fewer than two samples.
 
     The filter is a sinc function with a Kaiser window, evaluated at the distances between new and old samples
     (J. F. Kaiser, Proc. IEEE ISCAS 1974, 20-23). Up to 0.4 of the new sampling rate, amplitudes change by
     less than 0.1 %; from half of it on, they are 1/1000 or less. It is symmetric and shifts no phase. Its
-    weights are divided by their sum, so that a constant stays the same. Beyond both ends the waveform is
+    weights are divided by their sum, so that a constant does not change. Beyond both ends the waveform is
     mirrored at its first and last sample, which keeps the mean; the ends within 27 new steps are less
     accurate. A voltage that jumps overshoots by about 9 % of the jump, at most 11 % (Gibbs).
 
@@ -76,7 +76,7 @@ def _filtered(values: Array, places: Array, ratio: float, reach: int) -> Array:
     at = _mirrored(np.arange(centres[0] - reach, centres[-1] + reach + 1), values.size)
     nearby = values[at]
     windows = np.lib.stride_tricks.sliding_window_view(nearby, offsets.size)[centres - centres[0]]
-    # The filters of new samples at the same place between old ones are the same.
+    # New samples at equal positions between old ones have equal filters.
     shares, which = np.unique(np.round(places - centres, 7), return_inverse=True)
     weights = _filter(np.abs(offsets - shares[:, np.newaxis]) / ratio)
     weights /= np.sum(weights, axis=1, keepdims=True)
@@ -119,8 +119,8 @@ def measured_source(
     source: Source, duration: float | None
 ) -> tuple[Waveform | None, tuple[ResultWarning, ...]]:
     """Measured waveform and the warnings about its file; None for a described source. ``duration``, time that
-    is simulated [s]; None for that of the record. Raises InputError if the file cannot be read or resampled;
-    its key begins with ``source``.
+    is simulated [s]; None for the time of the record. Raises InputError if the file cannot be read or
+    resampled; its key begins with ``source``.
     """
     if source.file is None:
         return None, ()

@@ -23,7 +23,7 @@ from ehlectric.quantities.inputs import ENDS
 def capacitive_divider(circuit: Circuit, bearings: Sequence[BearingElement]) -> tuple[float, float]:
     """Voltage across the films of each bearing per volt of the source, right after an edge.
 
-    Inductances are left out: they have the whole edge at first, and the capacitances share it later. The
+    Inductances are neglected: they have the whole edge at first, and the capacitances share it later. The
     rolling elements are at their first position.
 
     Returns share of each bearing, dimensionless, from 0 to 1.
@@ -130,7 +130,7 @@ def state_space(elements: Sequence[Element], source: tuple[str, str]) -> StateSp
 
 
 def _free_into_all(nodes: Sequence[str], free: Sequence[str], positive: str, negative: str) -> Array:
-    """Matrix T from the potentials of the free nodes to those of all nodes but the frame."""
+    """Matrix T from the potentials of the free nodes to the potentials of all nodes except the frame."""
     into = np.zeros((len(nodes), len(free)))
     for column, node in enumerate(free):
         into[nodes.index(node), column] = 1.0
@@ -140,7 +140,7 @@ def _free_into_all(nodes: Sequence[str], free: Sequence[str], positive: str, neg
 
 
 def _matrices(elements: Sequence[Element], nodes: Sequence[str]) -> tuple[Array, Array, Array]:
-    """Capacitances and conductances of all nodes but the frame, and the nodes of the inductors."""
+    """Capacitances and conductances of all nodes except the frame, and the nodes of the inductors."""
     count = len(nodes)
     inductors = [element for element in elements if element.kind == "inductor"]
     matrices = {"capacitor": np.zeros((count, count)), "conductor": np.zeros((count, count))}
@@ -242,7 +242,7 @@ def _system(
 def bearing_elements(
     bearing: BearingElement, nodes: tuple[str, str], place: int, conductance: float
 ) -> Iterator[Element]:
-    """Elements of a bearing with its elements at a place, and a conductance of its films beside that of oil.
+    """Elements of a bearing with its elements at a place, and a conductance of its films parallel to the oil.
     ``conductance``, conductance of an arc or of touching asperities [S].
     """
     yield Element("capacitor", *nodes, float(bearing.capacitance[place]))

@@ -81,7 +81,7 @@ def comment(text: str) -> Iterator[str]:
 
 
 def filled(text: str, **parts: object) -> str:
-    r"""Text of the table of texts with its parts in place of their names; a part of several lines is a list.
+    r"""Text of the table of texts with its parts instead of their names; a part of several lines is a list.
 
     Examples
     --------
@@ -138,7 +138,7 @@ class Parameter:
         return f"{self.name}={number(self.value)} ; {self.unit}, {ascii_of(self.meaning)}"
 
 
-# Resistance in place of an insulator [Ohm]. It has no effect on a drive: with the capacitance of a bearing it
+# Resistance instead of an insulator [Ohm]. It has no effect on a drive: with the capacitance of a bearing it
 # has a time constant of minutes. Without it, a node between capacitors has no voltage before the first step.
 OPEN = 1e12
 
@@ -164,8 +164,8 @@ def equivalent_of(solution: BearingSolution) -> Equivalent:
     """Equivalent circuit of what lies between the rings of a solved bearing.
 
     Where the surfaces touch, an element conducts while both of its contacts are closed, by two contact
-    resistances in series. The conductance is the mean over time of that of all elements. Raises InputError
-    where the surfaces touch, and the case has no ``bearing.contact_resistance``.
+    resistances in series. The conductance is the mean over time of the conductance of all elements. Raises
+    InputError where the surfaces touch, and the case has no ``bearing.contact_resistance``.
     """
     speed, of_films = solution.case.bearing.inner_speed, float(capacitance(solution))
     if solution.conditions.ceramic:
@@ -239,7 +239,7 @@ def solve_at_speeds(
 ) -> list[BearingResult]:
     """Solve a bearing at its speed and at others [rad/s], all at the same temperature.
 
-    The first result is at the speed of the case. Errors are those of ``solve_bearing``.
+    The first result is at the speed of the case. Raises the errors of ``solve_bearing``.
     """
     speed_of_case = case.bearing.inner_speed
     others = [
@@ -319,7 +319,7 @@ def interpolated(name: str, letter: str, count: int) -> Iterator[str]:
         yield f"+ {line}" + "}" * (at == len(lines))
 
 
-# Resistance of an open switch over that of the leak beside it.
+# Resistance of an open switch divided by the resistance of the leak parallel to it.
 _OPEN_SWITCH = 1e6
 
 
@@ -339,7 +339,7 @@ class Subcircuit:
     results: tuple[BearingResult, ...]
     circuits: tuple[Equivalent, ...]  # equivalent circuits of the results, by increasing speed
     arc: Arc | None  # arc across the films; None for a subcircuit without a switch
-    notes: tuple[str, ...]  # what the circuit leaves out, or stands for
+    notes: tuple[str, ...]  # what the circuit neglects, or stands for
     suffix: str = ""  # end of the name, of one of several bearings in a file
 
     @property
@@ -354,7 +354,7 @@ class Subcircuit:
 
     @property
     def path(self) -> Path:
-        """Circuit beside the films."""
+        """Circuit parallel to the films."""
         return shaft_path(self.results[0].solution)
 
     @property
@@ -419,7 +419,7 @@ class Subcircuit:
         yield f".ends {self.name}"
 
     def bench(self, library: str) -> Iterator[str]:
-        """Lines of a test bench that simulates periods of the inverter; errors are those of ``drive_of``."""
+        """Lines of a test bench that simulates periods of the inverter; raises the errors of ``drive_of``."""
         motor, bench = drive_of(self.case), TEXTS["bearing_bench"]
         bearing = f"{self.name} speed={{n_shaft}}" if self.tabulated else self.name
         text = filled(
@@ -457,7 +457,7 @@ class Subcircuit:
         yield from (f"{warning.severity}: {warning}" for warning in self.warnings())
 
     def warnings(self) -> Iterator[ResultWarning]:
-        """Warnings at the speed that is the default, and those of further codes with their speed."""
+        """Warnings at the speed that is the default, and warnings of further codes with their speed."""
         codes: set[str] = set()
         for result in self.results:
             new = [warning for warning in result.warnings if warning.code not in codes]
@@ -510,7 +510,7 @@ def subcircuit_of(results: Sequence[BearingResult], arc: Arc | None) -> Subcircu
     ``arc``, arc across the films; None for a subcircuit without a switch. Returns subcircuit with its notes;
     it has no arc where there is no film that breaks down. Raises InputError if the results are no table over
     the speed, the surfaces touch without ``bearing.contact_resistance``, or the arc has no breakdown voltage
-    above that of its extinction.
+    above the voltage of its extinction.
     """
     check_table(results)
     circuits = sorted(
@@ -548,7 +548,7 @@ def _check_arc(circuits: Sequence[Equivalent], arc: Arc) -> None:
 
 
 def _notes(result: BearingResult, circuits: Sequence[Equivalent], arc: Arc | None) -> Iterator[str]:
-    """Notes about the limits of the circuit: effects that it leaves out, and values that are bounds."""
+    """Notes about the limits of the circuit: effects that it neglects, and values that are bounds."""
     circuit, path, notes = circuits[0], shaft_path(result.solution), TEXTS["notes"]
     if circuit.state == "ceramic":
         bound = capacitance_is_bound(result.solution)
@@ -620,7 +620,7 @@ def _other_end(subcircuit: Subcircuit, motor: Motor, bearing: str) -> Iterator[s
     yield "C_second shaft 0 {C_second}"
     resistance = subcircuit.default.resistance
     if subcircuit.default.state == "films" and resistance is not None:
-        # The same oil: the same relaxation time as that of the first bearing.
+        # The oil of the first bearing, and therefore its relaxation time.
         yield "* the other bearing has the same oil, and leaks with the same time constant"
         leak = resistance * subcircuit.default.capacitance / motor.second_bearing_capacitance
         yield f".param {Parameter('R_second', leak, 'Ohm', 'leak through the oil of the other bearing').line}"

@@ -146,8 +146,8 @@ class Netlist(Protocol):
 
 
 def write_files(netlist: Netlist, path: Path, bench: Path | None) -> list[Path]:
-    """Write the file of the subcircuits, and that of the test bench if there is one. Raises InputError if the
-    test bench lacks an input, or a file cannot be written.
+    """Write the file of the subcircuits, and the file of the test bench if there is one. Raises InputError if
+    the test bench lacks an input, or a file cannot be written.
     """
     contents = {path: file_text(netlist.lines())}
     if bench is not None:

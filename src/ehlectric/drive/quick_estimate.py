@@ -20,7 +20,7 @@ _UNSIMULATED = "none-without-simulation"
 
 
 def quick_drive(case: DriveCase) -> tuple[DriveCase | None, str]:
-    """Drive with quick contacts, and an empty text; or None and the key that needs solved contacts."""
+    """Drive with estimated contacts, and an empty text; or None and the key that needs solved contacts."""
     films = {}
     for end, bearing in zip(ENDS, case.bearings, strict=True):
         judged, refused = quick_case(bearing)
@@ -36,7 +36,7 @@ def expected(case: DriveCase, summary: Mapping[str, Any]) -> Verdict:
     """Verdict on a drive that is not simulated: the capacitive divider against the breakdown voltages.
 
     It is about the bearing that breaks down first; its margin is breakdown voltage over bearing voltage at
-    the peak of the source. It is grey with a grounding ring or an inductance, which the divider leaves out.
+    the peak of the source. It is grey with a grounding ring or an inductance, which the divider neglects.
     """
     margins = {
         end: summary[end]["breakdown_voltage"] / max(summary[end]["voltage_at_peak"], 1e-30)
@@ -76,7 +76,7 @@ def expected(case: DriveCase, summary: Mapping[str, Any]) -> Verdict:
 
 
 def _level(about: Mapping[str, Any], case: DriveCase) -> Level:
-    """Level of a bearing from its voltage at the peak, within what is uncertain of its breakdown voltage."""
+    """Level of a bearing from its voltage at the peak, within the uncertainty of its breakdown voltage."""
     part = weakest_part(case, formula=about["films"] == "formula")
     voltage, at = about["voltage_at_peak"], about["breakdown_voltage"]
     if voltage >= (1.0 + STRENGTH_UNKNOWN) * at:

@@ -77,7 +77,7 @@ class DriveResult(Shown):
 
     @cached_property
     def warnings(self) -> tuple[ResultWarning, ...]:
-        """Warnings that tell where the result is unreliable, each once."""
+        """Warnings about where the result is unreliable, each once."""
         of_cycle = () if self.duty is None else self.duty.warnings
         return (*drive_warnings(self.solution), *of_cycle)
 
@@ -88,7 +88,7 @@ class DriveResult(Shown):
         return drive_verdict(self.case, summary, self.warnings)
 
     def summary(self) -> dict[str, Any]:
-        """Results nested as in summary.json, SI units; None in place of NaN."""
+        """Results nested as in summary.json, SI units; None instead of NaN."""
         remedies = [(variant.title, variant.changes, variant.tables) for variant in self.variants]
         summary = whole_summary(self.solution, remedies, self.warnings, self.seconds, self.version)
         return summary if self.duty is None else with_cycle(summary, self.duty)
@@ -126,8 +126,8 @@ class DriveResult(Shown):
     def spectrum(self) -> pd.DataFrame:
         """One-sided amplitude spectrum of the shaft voltage over the measured time, as in spectrum.csv.
 
-        The shaft voltage is that of the rotor against the frame, which is the voltage across the films of a
-        bearing without a coating.
+        The shaft voltage is the voltage of the rotor against the frame, which is the voltage across the films
+        of a bearing without a coating.
 
         Returns
         -------
@@ -146,12 +146,12 @@ class DriveResult(Shown):
 
         The Fourier coefficients are integrals over the exact voltage between two switchings, with eight
         triangular means for each line, whose frequency response is divided out. A component above the highest
-        frequency F is folded onto a line f as by sampling with 8 F; that at 8 F - f has a weight of
+        frequency F is folded onto a line f as by sampling with 8 F; the component at 8 F - f has a weight of
         (f/(8 F - f))^2, at most 1/49.
 
         There is no window. Lines are sharp where the measured time is a whole number of periods of the
         source, such as the 50 periods of the fundamental without ``drive.duration``. Otherwise lines leak
-        into their neighbours, as those of most measured sources do.
+        into their neighbours, as with most measured sources.
         """
         import pandas as pd
 
@@ -236,7 +236,7 @@ def solve_drive(
     from ehlectric.drive.solver import solve
 
     start, report = time.perf_counter(), progress or silent
-    # A mistake in a remedy is told before the drive itself takes its time.
+    # A mistake in a remedy is reported before the drive itself takes its time.
     variants = case.variants()
     parts = _parts(report, (1 + len(variants)) * (1 if case.duty is None else 2))
     solution = solve(case, next(parts), workers=workers)

@@ -95,7 +95,7 @@ def prepare(case: DriveCase, *, workers: int | None = None) -> PreparedDrive:
 
 
 def solve(case: DriveCase, progress: Progress = silent, *, workers: int | None = None) -> DriveSolution:
-    """Solve the bearings of a drive, and simulate it over time; errors are those of ``prepare``."""
+    """Solve the bearings of a drive, and simulate it over time; raises the errors of ``prepare``."""
     ready = prepare(case, workers=workers)
     whole = ready.settling + ready.duration
     reach = _highest(ready)

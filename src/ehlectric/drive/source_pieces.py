@@ -16,7 +16,7 @@ from ehlectric.drive.waveform_file import Waveform
 # Samples of a measured waveform that are one chunk.
 _SAMPLES = 100_000
 
-# Slope below which, relative to that of an edge, a piece is level: what sums of slopes are rounded by.
+# Slope below which, relative to the slope of an edge, a piece is level: what sums of slopes are rounded by.
 _LEVEL = 1e-9
 
 

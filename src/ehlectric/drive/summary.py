@@ -218,7 +218,7 @@ _OF_CYCLE = ("discharges", "energy", "left_out_share")
 
 
 def _remedy_tables(of_remedy: Mapping[str, Any]) -> dict[str, Any]:
-    """Tables of a remedy, from those of its drive: both bearings, and their sums."""
+    """Tables of a remedy, from the tables of its drive: both bearings, and their sums."""
     tables = {end: of_remedy[end] for end in ENDS} | {
         "drive": {key: of_remedy["drive"][key] for key in _OF_BOTH}
     }
@@ -234,7 +234,7 @@ def whole_summary(
     seconds: float,
     version: str,
 ) -> dict[str, Any]:
-    """Whole summary of a drive: head, tables and those of its remedies. ``seconds`` is the computing time
+    """Whole summary of a drive: head, tables and tables of its remedies. ``seconds`` is the computing time
     [s].
     """
     tables = drive_summary(solution)

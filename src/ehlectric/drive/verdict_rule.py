@@ -78,7 +78,9 @@ def drive_verdict(case: DriveCase, summary: Mapping[str, Any], warnings: Iterabl
 
 
 def weakest_part(case: DriveCase, *, formula: bool) -> float:
-    """Lowest strength of the films of a drive that is possible, over that of its case, dimensionless."""
+    """Lowest strength of the films of a drive that is possible, divided by the strength of its case,
+    dimensionless.
+    """
     part = 1.0 - STRENGTH_UNKNOWN
     if not formula:
         # Films of the atlas and solved ones are far more exact than the strength is known.
@@ -102,9 +104,9 @@ def _level(end: Mapping[str, Any], source: float, part: float) -> Level:
 def most_by_law(end: Mapping[str, Any], part: float = 1.0) -> float:
     """Discharges in a second if the largest voltage lasted, by the law of the threshold [1/s].
 
-    ``part``, strength over that of the case, dimensionless. Returns upper bound of the rate for films that
-    are renewed: the probability that a new film breaks down at the largest voltage, over the time between new
-    films; 0 or infinite for a threshold without scatter.
+    ``part``, strength divided by the strength of the case, dimensionless. Returns upper bound of the rate for
+    films that are renewed: the probability that a new film breaks down at the largest voltage, over the time
+    between new films; 0 or infinite for a threshold without scatter.
 
     Examples
     --------

@@ -22,7 +22,7 @@ from ehlectric.quantities.result_warnings import ResultWarning, active
 # Share of time from which films are said to conduct on.
 MOSTLY = 0.2
 
-# Quality factor from which an oscillation of the circuit is said to be hardly damped: it rings for more than
+# Quality factor from which an oscillation of the circuit is called almost undamped: it rings for more than
 # a hundred periods.
 _UNDAMPED = 300.0
 
@@ -36,7 +36,7 @@ _DRAINED, _TOGETHER = 5.0, 0.1
 
 
 def drive_warnings(solution: DriveSolution) -> Iterator[ResultWarning]:
-    """Warnings of both bearings, each with its end, and those of the simulation."""
+    """Warnings of both bearings, each with its end, and warnings of the simulation."""
     yield from solution.prior_warnings
     yield from machine_warnings(solution.case, solution.elements)
     yield from _of_threshold(solution)
@@ -47,7 +47,7 @@ def drive_warnings(solution: DriveSolution) -> Iterator[ResultWarning]:
 
 
 def bearing_warnings(bearings: tuple[BearingResult, BearingResult]) -> Iterator[ResultWarning]:
-    """Warnings of both bearings, each with its end; those of two equal bearings are told once."""
+    """Warnings of both bearings, each with its end; warnings of two equal bearings are given once."""
     first, second = bearings
     if second is first:
         yield from _of_bearing(first)
@@ -58,7 +58,7 @@ def bearing_warnings(bearings: tuple[BearingResult, BearingResult]) -> Iterator[
 
 
 def _of_bearing(result: BearingResult) -> Iterator[ResultWarning]:
-    """Warnings of a bearing, of which that of surfaces that touch tells what a drive makes of them."""
+    """Warnings of a bearing, where the warning of touching surfaces states what a drive makes of them."""
     for warning in result.warnings:
         if warning.code == "touching" and lubrication(result.solution) == "conducting":
             yield ResultWarning.of("touching", "drive", ratio=lambda_text(result.solution))
@@ -134,7 +134,7 @@ def _of_oscillations(case: DriveCase, bearings: Sequence[BearingElement]) -> Ite
 
 
 def _of_threshold(solution: DriveSolution) -> Iterator[ResultWarning]:
-    """Warning of thresholds without scatter, which hold for one film for ever."""
+    """Warning of thresholds without scatter, which hold for one film permanently."""
     for end, bearing in zip(ENDS, solution.elements, strict=True):
         if math.isinf(bearing.shape) and math.isfinite(float(np.min(bearing.breakdown))):
             yield ResultWarning.of("threshold-constant", end=end)

@@ -55,7 +55,7 @@ _LEVELS, _LONG = 32, 256
 # next to it. Of a smooth top, which is a parabola, the last level has 2.4 times as many as the one before.
 _RUN, _RUNS, _FLAT, _BAND = 6, 4, 6.0, 0.005
 
-# Least share of samples between the extremes by which flat extremes can be told from a computed square wave.
+# Least share of samples between the extremes by which flat extremes differ from a computed square wave.
 _QUALITY_BETWEEN = 0.05
 
 # An edge moves by at least this share of the range between two samples; it is resolved by this many samples.
@@ -64,8 +64,8 @@ _EDGE, _RESOLVED = 0.2, 3
 # Samples to each side of an edge within which it comes and goes, and most edges that are looked at.
 _AROUND, _MOST_REPEATED = 4, 100_000
 
-# Least jump from the end of a repeated record to its start that is told, as a part of its range, and least
-# time beyond the record, as a part of it, for which it is told at all.
+# Least jump from the end of a repeated record to its start that is reported, as a part of its range, and
+# least time beyond the record, as a part of it, for which it is reported at all.
 _SEAM, _BEYOND = 0.05, 1e-3
 
 
@@ -101,7 +101,7 @@ def edge_warnings(source: str, waveform: Waveform) -> Iterator[ResultWarning]:
 def repeat_warnings(source: str, waveform: Waveform, duration: float | None) -> Iterator[ResultWarning]:
     """Warning "record-repeated" about a record that is repeated, and does not end where it begins.
 
-    The ``duration`` is the time that is simulated [s]; None stands for that of the record.
+    The ``duration`` is the time that is simulated [s]; None stands for the time of the record.
     """
     if duration is None or duration <= (1.0 + _BEYOND) * waveform.duration:
         return
@@ -213,7 +213,7 @@ def _largest_of_groups(places: IntArray, steps: Array) -> IntArray:
 # Smallest number of samples of a waveform.
 LEAST_SAMPLES = 16
 
-# Largest size of a file [bytes]: some 100 million samples of time and voltage.
+# Largest size of a file [bytes]: about 100 million samples of time and voltage.
 MOST_BYTES = 2_000_000_000
 
 # Characters of the beginning, which shows the columns.
@@ -225,7 +225,7 @@ _MEMORY = 40.0
 # Largest credible voltage [V], and largest sampling interval where no unit of time is stated [s].
 _MOST, _SLOW = 1e9, 1e-3
 
-# Largest relative difference of a given interval from that of the times.
+# Largest relative difference of a given interval from the interval of the times.
 _SAME = 0.01
 
 # Largest deviation of times from equal spacing, beyond the rounding of printed times [steps]. Rounded to the
@@ -256,7 +256,7 @@ _BETWEEN = re.compile("[:;,=\t]")
 # First letters of keys of units above the numbers that belong to the other axis: "Vertical Units", "xunit".
 _OTHERS = {"s": "vy", "V": "hxt"}
 
-# Keys of the number of samples above the numbers, and words of those of the sampling interval.
+# Keys of the number of samples above the numbers, and words of keys of the sampling interval.
 _LENGTHS = ("record length", "memory length", "waveform length", "data length", "points")
 _INTERVALS = ("interval", "increment", "xinc", "rate", "period", "frequency", "delta")
 
@@ -326,7 +326,7 @@ def _stated(lines: Sequence[str]) -> dict[str, list[str]]:
 
 @dataclass(frozen=True)
 class _Head:
-    """Head of a column at a place from 0; name and unit are empty where the file has none."""
+    """Head of a column at a place from 0; name and unit are empty where they are missing."""
 
     place: int
     name: str = ""
@@ -469,7 +469,7 @@ class _Choice:
 
     @property
     def places(self) -> tuple[int, ...]:
-        """Places of the voltages, and of the times where the file has them."""
+        """Places of the voltages, and of the times where the file contains them."""
         return (self.value.place, *(() if self.time is None else (self.time.place,)))
 
 

@@ -288,7 +288,7 @@ def _map(
 # slow down animations with more than 50 frames per second.
 _SLOWEST, _FASTEST = 0.1, 50.0
 
-# Number of colours of a GIF's palette that are reserved for lines and letters beside maps.
+# Number of colours of a GIF's palette that are reserved for lines and letters next to maps.
 _GREYS = 24
 
 # Functions that draw the frames of a run, by its kind of contact.
@@ -304,7 +304,7 @@ def save_animation(
     progress: Progress = silent,
 ) -> None:
     """Draw the recorded instants of a transient run as an animation. ``fps``, frames per second, from 0.1 to
-    50; each frame shows one recorded instant. Raises InputError if the file has another suffix, ffmpeg is
+    50; each frame shows one recorded instant. Raises InputError if the suffix of the file differs, ffmpeg is
     missing or fails, the dataset is not a transient run, or ``fps`` is out of range.
     """
     path = Path(path)

@@ -337,7 +337,7 @@ SPEED_FIGURES: Mapping[str, SpeedDrawing] = {
 def bearing_figures_of(result: BearingResult) -> dict[str, tuple[Draw, ...]]:
     """Panels of the figures of a bearing, by the names of their files.
 
-    Figures with nothing to show are left out. There is no circuit of ceramic elements, no breakdown without a
+    Figures with nothing to show are omitted. There is no circuit of ceramic elements, no breakdown without a
     dielectric strength or where surfaces touch, and no impedance without a conductivity or where surfaces
     touch, and no duty cycle without the table ``duty``. What varies by less than a per cent over a pitch of
     the cage is not drawn over it.
@@ -352,7 +352,7 @@ def default_name(result: BearingResult) -> str:
 
 
 def names_over_speed(result: BearingResult) -> list[str]:
-    """Names of the figures of a bearing over speed, as far as its quick contacts have them."""
+    """Names of the figures of a bearing over speed, as far as its estimated contacts give them."""
     case, _ = quick_case(result.case)
     if case is None:
         return []
@@ -441,9 +441,9 @@ def save_speed_figures(
 def save_over_speed(
     result: BearingResult, folder: Path, formats: Sequence[str] = ("png",)
 ) -> tuple[list[Path], list[ResultWarning]]:
-    """Compute a bearing with quick contacts at speeds around its own, and draw it over speed as files.
-    Returns ``files``, files written; none where its quick contacts have no speed; ``left_out``, speeds that
-    are left out, and why.
+    """Compute a bearing with estimated contacts at speeds around its own, and draw it over speed as files.
+    Returns ``files``, files written; none where its estimated contacts have no speed; ``left_out``, speeds
+    that are skipped, and why.
     """
     points, left_out = over_speed(result.case, ratio_of_case=_lambda_ratio(result))
     if not points:

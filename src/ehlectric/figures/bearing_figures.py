@@ -84,7 +84,7 @@ class _End(Text):
 
 
 def label_ends(ax: Axes, ends: Sequence[tuple[float, str, str]]) -> None:
-    """Write the names of lines beside the right edge of the axes, at their heights and without overlap."""
+    """Write the names of lines next to the right edge of the axes, at their heights and without overlap."""
     look: dict[str, Any] = {"transform": ax.transAxes, "fontsize": "small", "va": "center"}
     ordered = sorted(ends)
     names = [_End(1.015, 0.5, text, color=text_colour(colour), **look) for _, text, colour in ordered]
@@ -226,7 +226,7 @@ def contact_capacitances(result: BearingResult, ax: Axes | None = None) -> Axes:
     ax.bar(at + 0.2, factor * outer, 0.4, color=ORANGE, label="outer contact")
     ax.set_ylabel(f"capacitance\n[{unit}]")
     _elements(result, ax)
-    # The capacitance in summary.json is the mean over a pitch, that of this position another one.
+    # The capacitance in summary.json is the mean over a pitch, the capacitance at this position differs.
     here, mean = circuit.capacitance, result.capacitance(fill)
     total, of = unit_for(mean, "F", least=1.0)
     text = f"bearing, {fill_text(fill)}: mean {readable(total * mean, 4)} {of}\n"
@@ -390,7 +390,8 @@ INVERTER = 4e3, 5e6
 # The axis begins at this frequency [Hz], or lower, so that it shows a corner above _NOTED [Hz] by a decade.
 _BEGIN, _NOTED = 1e3, 100.0
 
-# A phase within this distance of that of a capacitor or of a resistor is a number, not a figure [degrees].
+# A phase within this distance of the phase of a capacitor or of a resistor is a number, not a figure
+# [degrees].
 _CONSTANT = 2.0
 
 

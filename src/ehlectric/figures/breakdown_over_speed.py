@@ -41,8 +41,8 @@ def capacitance_over_speed(points: Speeds, ax: Axes | None = None, *, at_case: S
 def breakdown_over_speed(points: Speeds, ax: Axes | None = None, *, at_case: Speed | None = None) -> Axes:
     """Draw first and ring-to-ring breakdown of a bearing over its speed, with the shaft voltage.
 
-    The arguments are those of ``capacitance_over_speed``. The area is shaded where the shaft voltage is above
-    the first breakdown, and the critical speed and the margin of the bearing itself are named.
+    The arguments are the arguments of ``capacitance_over_speed``. The area is shaded where the shaft voltage
+    is above the first breakdown, and the critical speed and the margin of the bearing itself are named.
     """
     ax, curves = axes_or_new(ax), curves_of(points, at_case)
     _draw(breakdown_panel(points, curves, at_case), curves, ax)
@@ -52,7 +52,7 @@ def breakdown_over_speed(points: Speeds, ax: Axes | None = None, *, at_case: Spe
 
 
 def margin_over_speed(result: BearingResult, ax: Axes | None = None) -> Axes:
-    """Draw the margin of a bearing over its speed within what is uncertain: median, and 90 of 100 cases."""
+    """Draw the margin of a bearing over its speed within the uncertain inputs: median and 90 of 100 cases."""
     ax, band, margin = axes_or_new(ax), result.margin_band, result.margin
     assert band is not None and margin is not None
     panel = margin_panel(band, (result.case.bearing.inner_speed, margin))
@@ -63,7 +63,7 @@ def margin_over_speed(result: BearingResult, ax: Axes | None = None) -> Axes:
 
 
 def _draw(panel: Panel, curves: Curves, ax: Axes) -> Axes:
-    """Draw a panel with the names of its lines beside the axes, and of its areas above them."""
+    """Draw a panel with the names of its lines next to the axes, and of its areas above them."""
     draw_panel(panel, ax, speed_axis(curves))
     ends = [
         (float(line.y[np.isfinite(line.y)][-1]), "\n".join(line.name.rsplit(" ", 1)), line.colour)
@@ -91,7 +91,7 @@ def _name_critical(curves: Curves, ax: Axes) -> None:
 
 
 def _label_margin(at_case: Speed | None, curves: Curves, ax: Axes) -> None:
-    """Write the margin of the bearing itself beside an arrow."""
+    """Write the margin of the bearing itself next to an arrow."""
     if at_case is None or (first := value_of(at_case[1], "first_break")) is None:
         return
     rpm, shaft = units.rpm(at_case[0]), at_case[1]["bearing"]["shaft_voltage"]
@@ -116,7 +116,7 @@ def _label_place(ax: Axes, curves: Curves, rpm: float, *, first: float, shaft: f
     """Place of a label at two rising curves [V]: between them, below both, or above both where there is room.
 
     Offset of the label in points, and its alignment. Right of a speed, the curves are above their values at
-    this speed, and left of it below them. Where the first breakdown is the lower one, it rises faster than
+    this speed, and left of it below them. If the first breakdown is the lower one, it rises faster than
     the shaft voltage, and may reach a label on the right.
     """
     to_axes = ax.transData + ax.transAxes.inverted()

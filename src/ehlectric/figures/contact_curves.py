@@ -61,8 +61,8 @@ def enlarged_below(ax: Axes, ends: tuple[float, float], *, framed: bool = False)
 # A dielectric strength below this part of the maximum field is named above its line, away from the ticks.
 _LOW = 0.1
 
-# A dielectric strength above this many times the maximum field is named beside the axes instead of drawn: the
-# field would be flat below it.
+# A dielectric strength above this many times the maximum field is named next to the axes instead of drawn:
+# the field would be flat below it.
 _FAR = 2.5
 
 # The voltage axis ends at this many times the minimum of the breakdown voltage, or the applied voltage.
@@ -109,7 +109,7 @@ def breakdown_voltages(result: AnyContact) -> Array:
 
 
 def breakdown(result: AnyContact, axes: Sequence[Axes] | Axes | None = None) -> Axes:
-    """Draw the local breakdown voltage over x/b beside the applied voltage; for a point contact over y/b too.
+    """Draw the local breakdown voltage and the applied voltage over x/b; for a point contact also over y/b.
 
     The local breakdown voltage is the one at which the field at this place reaches the dielectric strength.
     Its minimum, the breakdown voltage of the film, is marked.
@@ -131,7 +131,7 @@ def breakdown(result: AnyContact, axes: Sequence[Axes] | Axes | None = None) -> 
 def _lines(result: AnyContact) -> list[tuple[str, Array, Array, Mask]]:
     """Lines through the place that breaks down first: axis, positions in half-widths, voltages, and a mask.
 
-    The mask leaves out the ends of the field domain, whose faces disturb the field.
+    The mask excludes the ends of the field domain, whose faces disturb the field.
     """
     voltages, b = breakdown_voltages(result), result.conditions.semi_axes[0]
     if isinstance(result, Result):
@@ -267,7 +267,7 @@ def meter(result: AnyContact, ax: Axes | None = None) -> Axes:
 # Range of x/b that is drawn, and colours of temperatures.
 _WINDOW, _HEAT = (-1.75, 1.25), "inferno"
 
-# Smallest range of the colours, of a film that is hardly heated [K].
+# Smallest range of the colours, of a film with very little heating [K].
 _LEAST_RANGE = 0.1
 
 
@@ -305,7 +305,7 @@ def _panel(result: AnyContact, panel_of: Callable[[Line], Panel], ax: Axes) -> A
 
 
 def _along(result: AnyContact, values: Array) -> Array:
-    """Values (..., nx) along entrainment: of a point contact those of the line of nodes nearest to y = 0."""
+    """Values (..., nx) along entrainment: of a point contact along the line of nodes nearest to y = 0."""
     if isinstance(result, PointResult):
         line: Array = values[..., int(np.argmin(np.abs(result.film.y)))]
         return line

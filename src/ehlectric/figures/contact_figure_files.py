@@ -94,7 +94,7 @@ def _name(ax: Axes, result: AnyContact, name: str) -> None:
 def _fit_height(figure: Figure) -> None:
     """Make a figure of maps as high as what is drawn on it.
 
-    Axes of equal scale need less height than the page has where a legend or a colour bar takes width.
+    Axes of equal scale need less height than the page offers where a legend or a colour bar takes width.
     """
     figure.draw_without_rendering()
     needed = figure.get_tightbbox()

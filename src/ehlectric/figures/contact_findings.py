@@ -26,7 +26,7 @@ AnyContact = Result | PointResult
 # Part of the half-width of a smooth line contact behind which the film has its constriction.
 _CONSTRICTION = 0.8
 
-# Ratio of the maximum pressure to the Hertz pressure above which the maximum is that of the pressure spike.
+# Ratio of the maximum pressure to the Hertz pressure above which the maximum is the pressure spike.
 _SPIKE = 1.02
 
 
@@ -43,7 +43,7 @@ def with_unit(value: float, unit: str, *, least: float = 0.1) -> str:
 
 
 def signed(number: str) -> str:
-    """Number with a minus sign in place of a hyphen."""
+    """Number with a minus sign instead of a hyphen."""
     return number.replace("-", "−")
 
 
@@ -174,14 +174,14 @@ def deviation_text(result: AnyContact) -> str:
     if isinstance(result, PointResult):
         return f"{text} inside the Hertz ellipse"
     text += f", worst at {place_text(result, place)}"
-    # The faces at the ends of the field range are those of the computation, not of the contact.
+    # The faces at the ends of the field range belong to the computation, not to the contact.
     ends = float(np.max(apart, where=~counted, initial=0.0))
     more = f"; at the ends of the range, not drawn, {per_cent(ends)}"
     return text + more if ends > np.max(deviation) else text
 
 
 def pressure_text(result: PointResult) -> str:
-    """Pressure in the centre beside the Hertz pressure, and the pressure spike where it is higher."""
+    """Pressure in the centre next to the Hertz pressure, and the pressure spike where it is higher."""
     film, hertz = result.film, result.conditions.max_pressure
     peak = with_unit(film.max_pressure, "Pa")
     what = f"Pressure spike of {peak} on this grid" if has_spike(result) else f"Maximum pressure {peak}"
@@ -189,7 +189,7 @@ def pressure_text(result: PointResult) -> str:
 
 
 def has_spike(result: PointResult) -> bool:
-    """Whether the maximum pressure is that of the pressure spike of smooth surfaces.
+    """Whether the maximum pressure is the pressure spike of smooth surfaces.
 
     The height of the spike depends on the grid.
     """

@@ -51,7 +51,7 @@ def refined(
     """Values on a finer grid within a window, by bicubic splines.
 
     Between nodes, lines of equal value are smooth instead of a chain of cells. A spline through a pressure
-    spike may swing by some per cent of the spike on its flanks.
+    spike may swing by several per cent of the spike on its flanks.
 
     ``position``, positions x, shape (nx,), and y, shape (ny,), of the nodes [m]; ``values``, values at the
     nodes, shape (nx, ny); ``window``, ranges of x and of y that are shown [m]. Returns ``position``,
@@ -94,14 +94,14 @@ def smoothed(values: Array) -> Array:
 
 
 # Smallest ratio of height to width, approximately, of a single map and of several maps side by side. If this
-# needs different scales in x and y, the label of the axis says so.
+# needs different scales in x and y, the label of the axis states it.
 _LEAST_HEIGHT, _LEAST_OF_SEVERAL = 0.42, 0.25
 
 # Maps whose ratio of height to width is below this take the whole width of the page. They are drawn below
 # each other, with the colour bar below them.
 _LOW = 0.5
 
-# Widths of a figure: with one map, what each further map beside it adds, and with low maps [inches].
+# Widths of a figure: with one map, what each further map next to it adds, and with low maps [inches].
 _WIDTH, _FURTHER, _WIDE = 5.8, 1.6, 7.2
 
 # Room around the maps: at their sides for labels and a colour bar; above and below them for title and labels,
@@ -138,7 +138,7 @@ def field_window(result: PointResult) -> tuple[Range, Range]:
 def map_panels(
     result: OfPointContact, number: int, window: tuple[Range, Range], *, rows: int = 0
 ) -> list[Axes]:
-    """Axes of a new figure for maps of the same window, beside or below each other.
+    """Axes of a new figure for maps of one window, next to or below each other.
 
     The maps fill the figure.
     """
@@ -199,7 +199,7 @@ def draw_map(
     """Draw values as colours over x/b and y/b.
 
     Both axes have the same scale, except for long ellipses: their narrow axis is stretched, and its label
-    says so.
+    states it.
 
     ``position``, positions x, shape (nx,), and y, shape (ny,), of the nodes [m]; ``values``, values at the
     nodes, shape (nx, ny). Returns the coloured mesh, from which a colour bar can be made.
@@ -253,7 +253,7 @@ def colour_bar(
     ticks: Array,
     extend: str = "neither",
 ) -> Colorbar:
-    """Add one colour bar for the maps on ``axes``: beside them, or below them if they are low."""
+    """Add one colour bar for the maps on ``axes``: next to them, or below them if they are low."""
     place: dict[str, Any] = {"pad": 0.02}
     below = on_low_page(result, len(axes), window)
     if below:
@@ -309,7 +309,7 @@ def mark(result: OfPointContact, ax: Axes, at: Array, label: str) -> Line2D:
 
 
 def say(result: OfPointContact, ax: Axes, at: Array, text: str) -> None:
-    """Write a text beside each of the positions ``at``, the rows x, y [m] of shape (n, 2).
+    """Write a text next to each of the positions ``at``, the rows x, y [m] of shape (n, 2).
 
     The text is on the side of the outlet: right of the marks, or below them where entrainment points down.
     Close marks share one text.
@@ -393,7 +393,7 @@ _LINE_WINDOW = (-1.4, 1.4)
 
 def spots(result: AnyContact, ax: Axes | None = None) -> Axes:
     """Draw the film of a contact whose surfaces touch, and mark the nodes that touch. Returns axes of the map
-    of a point contact, or of the profile of a line contact; thicker films than those of 95 % of the Hertz
+    of a point contact, or of the profile of a line contact; thicker films than in 95 % of the Hertz
     zone have the last colour, or are cut off.
     """
     return _map(result, ax) if isinstance(result, PointResult) else _profile(result, ax)

@@ -57,7 +57,7 @@ def touches(result: Result | PointResult) -> bool:
 
 
 def film_scale(result: Result | PointResult) -> float:
-    """Film thickness [m] that tells the unit and the reach of figures.
+    """Film thickness [m] that determines the unit and the reach of figures.
 
     It is the central film, or the mean film where the surfaces touch: a spot may lie in the middle.
     """
@@ -66,10 +66,11 @@ def film_scale(result: Result | PointResult) -> float:
 
 
 def field_scale(result: Result | PointResult) -> float:
-    """Field strength [V/m] that tells the unit and the reach of figures.
+    """Field strength [V/m] that determines the unit and the reach of figures.
 
-    It is the largest field. Where the surfaces touch, that is the voltage over the boundary film, beside
-    which the field of the film could not be seen; most of the Hertz zone has less than the field given here.
+    It is the largest field. If the surfaces touch, that is the voltage divided by the boundary film, compared
+    with which the field of the film could not be seen; most of the Hertz zone has less than the field given
+    here.
     """
     field = result.field
     if not touches(result):
@@ -232,7 +233,7 @@ def field_strength(line: Line) -> Panel:
     """Field at both surfaces and at mid-film, or the maximum across the film of a point contact."""
     result, part = line.result, line.result.field
     factor, unit = unit_for(field_scale(result), "V/m")
-    # The end faces of the field's domain disturb the field beside them.
+    # The end faces of the field's domain disturb the field next to them.
     inner = line.of_field(part.inner)
     x = line.field_x[inner]
 
@@ -270,7 +271,7 @@ def heat(line: Line) -> Iterator[Panel]:
 
 
 def temperature(line: Line) -> Panel:
-    """Temperature at mid-film and of both surfaces, with that of the oil in the inlet."""
+    """Temperature at mid-film and of both surfaces, with the temperature of the oil in the inlet."""
     heated, case = line.result.film.heated, line.result.case
     assert heated is not None and heated.mid_temperature is not None
     assert heated.surface_temperatures is not None

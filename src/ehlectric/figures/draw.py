@@ -78,7 +78,7 @@ def draw_panel(panel: Panel, ax: Axes, along: Along | None = None) -> None:
         scale_axis(ax.xaxis, along.title, values=np.round(x, 6), log=along.log)
         if along.window is not None:
             ax.set_xlim(*along.window)
-    # Ticks reach as far as shaded areas, too.
+    # Ticks also reach as far as shaded areas.
     ends = [end for area in panel.areas if area.ends is not None for end in area.ends]
     scale_axis(ax.yaxis, with_unit(panel.title, panel.unit), values=np.concatenate([y, *ends]), log=panel.log)
     if panel.ends is not None:

@@ -501,8 +501,8 @@ class _Drawing:
 def drive_figures_of(result: DriveResult) -> dict[str, _Drawing]:
     """Figures of a drive by the names of their files.
 
-    Figures with nothing to show are left out: a spectrum without lines, distributions without discharges,
-    remedies and a duty cycle where the file has none, and voltages over time where no time was recorded.
+    Figures with nothing to show are omitted: a spectrum without lines, distributions without discharges,
+    remedies and a duty cycle where the file lacks them, and voltages over time where no time was recorded.
     """
     voltages_file, over_voltage, over_frequency, of_events, of_remedies, over_cycle = DRIVE_FIGURE_FILES
     drawings: dict[str, _Drawing] = {}
@@ -606,7 +606,7 @@ def _span(result: DriveResult) -> float:
 
 
 def _times(result: DriveResult, times: Array | None = None) -> Array:
-    """Times [s], or those of the trace, from its begin in the unit of the axis."""
+    """Times [s], or times of the trace from its start, in the unit of the axis."""
     factor, _ = unit_for(_span(result), "s", least=1.0)
     since: Array = (result.solution.record.trace[:, 0] if times is None else times) - _begin(result)
     return factor * since
@@ -706,7 +706,7 @@ def legend_of_discharges(axes: list[Axes]) -> None:
 
 def bins_of(values: Array) -> tuple[Array, bool]:
     """Edges of the bins of a distribution of positive values, and whether they have equal ratios. ``values``,
-    values of all discharges, of which the rarest are left out, shape (n,).
+    values of all discharges, of which the rarest are dropped, shape (n,).
     """
     low, high = np.percentile(values[values > 0.0] if np.any(values) else [1.0], _SHOWN)
     log = is_wide(np.array([low, high]))

@@ -17,7 +17,7 @@ from ehlectric.quantities.palette import BLACK, BLUE, GREY, MIDDLE_GREY, OCHRE, 
 from ehlectric.quantities.results import NAMES_OF_ENDS
 from ehlectric.quantities.units import RPM
 
-# Longest cycle whose time is in seconds; that of a longer one is in hours [s].
+# Longest cycle whose time is in seconds; the time of a longer one is in hours [s].
 _LONGEST = 7200.0
 
 # Bands of the states: number, name with the lambda ratio up to which surfaces touch, colour and opacity. A

@@ -40,7 +40,7 @@ POINT_FIGURE_FILES = (
 ROUGHNESS_FIGURE, BREAKDOWN_FIGURE, METER_FIGURE = "roughness.png", "breakdown.png", "meter.png"
 SPOTS_FIGURE, TEMPERATURE_FIGURE, SHEAR_FIGURE = "spots.png", "temperature.png", "shear_stress.png"
 
-# Figures of stationary contacts, line or point. Earlier versions drew the potential of line contacts too.
+# Figures of stationary contacts, line or point. Earlier versions also drew the potential of line contacts.
 ALL_FIGURES = tuple(
     dict.fromkeys(
         (
@@ -57,7 +57,7 @@ ALL_FIGURES = tuple(
 MOTION_FIGURE_FILES = ("motion_history.png", "motion_maps.png", "motion_beside_stationary.png")
 
 # Figures of bearings: loads and films, circuit, course over a pitch of the cage, impedance over frequency,
-# margin over the speed within what is uncertain, and a duty cycle over time, of a bearing that has one.
+# margin over the speed within the uncertain inputs, and a duty cycle over time, of a bearing that has one.
 DUTY_FIGURE = "bearing_duty.png"
 BEARING_FIGURE_FILES = (
     "bearing_loads.png",
@@ -87,7 +87,7 @@ DRIVE_FIGURE_FILES = (
 # Figures of an oil.
 OIL_FIGURE_FILES = ("oil_over_pressure.png", "oil_over_temperature.png")
 
-# Figure of a measurement beside computed values.
+# Figure of a measurement compared with computed values.
 MEASURED_FIGURE = "measured_and_computed.png"
 
 # Figure of the sensitivity of a sweep; maps and lines of a sweep are named by the value that they show.

@@ -44,7 +44,7 @@ from ehlectric.readable import readable
 
 def potential(result: Result, ax: Axes | None = None) -> Axes:
     """Draw a map of the electric potential in the film, with ten equipotential lines. Returns axes with the
-    map, and a colour bar beside them.
+    map, and a colour bar next to them.
     """
     field, electric = result.field, result.case.electric
     low, high = sorted((electric.potential_1, electric.potential_2))
@@ -151,7 +151,7 @@ def _map(
     )
     ax.set_ylabel(f"height $y$ [{unit}]")
     label_position(result, ax)
-    # Beside the axes themselves, a wide legend above them does not push the bar away.
+    # Next to the axes themselves, a wide legend above them does not push the bar away.
     place: dict[str, Any] = {"cax": ax.inset_axes(BAR)} if under else {"ax": ax, "pad": 0.02}
     bar = figure_of(ax).colorbar(filled, label=fitted_label(ax, label, along=False), **place)
     bar.set_ticks(list(ticks))
@@ -171,7 +171,7 @@ def pressure_and_film(result: Result, ax: Axes | None = None) -> Axes:
     label_position(result, ax)
     ax.set_ylabel(f"pressure $p$ [{above.unit}]", color=BLUE)
     twin = ax.twinx()
-    # Dashes tell the curves of both axes apart without colours too.
+    # Dashes also distinguish the curves of both axes without colours.
     dashed = [
         replace(curve, dash="longdash") if curve.name == "film thickness" else curve for curve in below.curves
     ]
@@ -228,7 +228,7 @@ def film_change(result: Result, ax: Axes | None = None) -> Axes:
 
 
 def film(result: Result, ax: Axes | None = None) -> Axes:
-    """Draw pressure and film; below them, the change by roughness where the smooth contact was solved too.
+    """Draw pressure and film; below them, the change by roughness if the smooth contact was also solved.
     ``ax``, axes to draw pressure and film on; axes of a new figure, with both panels, if omitted.
     """
     if ax is not None or result.smooth is None:
@@ -342,7 +342,7 @@ def _deviations(result: Result, ax: Axes) -> None:
 def roughness(result: Result, ax: Axes | None = None) -> Axes:
     """Draw the roughness of both surfaces over x/b, as the film solver uses it.
 
-    Peaks, which make the film thinner, point up for both surfaces. Where the case cuts off the heights, both
+    Peaks, which make the film thinner, point up for both surfaces. If the case cuts off the heights, both
     ends are drawn.
 
     Returns axes over the range of x/b of the figure of pressure and film thickness.

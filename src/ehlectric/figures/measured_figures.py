@@ -47,9 +47,9 @@ class _Scale:
 
 
 def figure(factors: FilmFactors, name: str) -> Figure:
-    """Figure of a measurement beside computed values. Returns above measured values with error bars, and
-    computed lines at film factor 1 and at the mean with its 95 % band; below the film factor of every row.
-    Raises InputError where there is no figure of this name.
+    """Figure of a measurement compared with computed values. Returns above measured values with error bars,
+    and computed lines at film factor 1 and at the mean with its 95 % band; below the film factor of every
+    row. Raises InputError where there is no figure of this name.
     """
     drawing_of({MEASURED_FIGURE: figure}, in_formats([name])[0])
     with style():
@@ -58,7 +58,7 @@ def figure(factors: FilmFactors, name: str) -> Figure:
         _values(factors, scale, above)
         speeds = above.get_xlim()
         _factors(factors, scale, below)
-        # Rows without a film factor are drawn above only, and belong to the figure too.
+        # Rows without a film factor are drawn only above, and also belong to the figure.
         below.set_xlim(speeds)
         above.set_xlim(speeds)
         share_below([above, below])

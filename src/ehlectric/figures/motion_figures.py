@@ -1,4 +1,4 @@
-"""Figures of transient contacts: history, maps over position and time, and moving beside stationary
+"""Figures of transient contacts: history, maps over position and time, and moving compared with stationary
 roughness.
 """
 
@@ -48,7 +48,7 @@ from ehlectric.quantities.palette import BLUE, BODY, GREEN, GREY, MAP_EDGE, ON_M
 from ehlectric.quantities.units import unit_for
 from ehlectric.readable import readable
 
-# A film that differs by less than this part from that of stationary roughness is as thick.
+# A film that differs by less than this part from the film of stationary roughness is as thick.
 _SAME = 0.005
 
 
@@ -91,7 +91,7 @@ def settled_steps(run: MotionRun) -> Mask:
 
 
 def thinner(moving: float, still: float) -> str:
-    """Text: how much a minimum film is thinner or thicker than that of stationary roughness.
+    """Text: how much a minimum film is thinner or thicker than the minimum film of stationary roughness.
 
     Examples
     --------
@@ -118,15 +118,15 @@ def of_maps(run: MotionRun) -> str:
 
 
 def of_comparison(run: MotionRun, frame: int) -> str:
-    """Sentence: minimum film at an instant, compared with that of stationary roughness."""
+    """Sentence: minimum film at an instant, compared with stationary roughness."""
     unit = film_unit(run)
     moving = float(np.min(run.dataset["thickness"].isel(frame=frame).values))
     still = float(np.min(run.values("stationary_thickness")))
     return f"Minimum film {in_unit(moving, unit)} moving, {thinner(moving, still)} ({in_unit(still, unit)})"
 
 
-# The film has changed where it differs from that before the motion by more than this part of its range; the
-# time before is left out if it is longer than this part of the run.
+# The film has changed where it differs from the film before the motion by more than this part of its range;
+# the time before is not drawn if it is longer than this part of the run.
 _CHANGE, _WAITING = 0.02, 0.15
 
 # Distance that counts as another place [half-widths].
@@ -282,7 +282,7 @@ def _over_time(run: MotionRun, ax: Axes) -> None:
         ax.axvline(covered, color="black", lw=0.7, ls=(0, (6.0, 3.0)), label=label)
 
 
-# The maps show x from -1.5 to 1.5 [half-widths]: beyond it the field is not solved, or hardly changes.
+# The maps show x from -1.5 to 1.5 [half-widths]: beyond it the field is not solved, or changes little.
 _REACH = 1.5
 
 # Times at which the lines of the speeds cross x = 0, over the duration of the run.
@@ -465,7 +465,7 @@ def roughness_at(
     """Draw the heights of the rough surfaces along entrainment at a recorded instant.
 
     ``stationary``, number of the instant at which the surfaces are where stationary roughness is, to draw
-    them too. Returns axes with the same range of x as the axes of the film; peaks of both surfaces point up.
+    them as well. Returns axes with the range of x of the axes of the film; peaks of both surfaces point up.
     """
     ax = axes_or_new(ax)
     heights = {k: run.along(f"roughness_{k}", frame) for k in run.speeds}
@@ -483,7 +483,7 @@ def roughness_at(
 
 
 def compared_frame(run: MotionRun) -> int | None:
-    """Recorded instant whose minimum film differs most from that of stationary roughness.
+    """Recorded instant whose minimum film differs most from the minimum film of stationary roughness.
 
     Instants before the roughness fills the contact do not count, unless the run ends before.
 

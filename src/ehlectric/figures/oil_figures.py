@@ -43,7 +43,7 @@ from ehlectric.runtime.undrawn import drawing
 # Pressure up to which an oil is drawn at least [Pa]; a higher one of the user is drawn with some room.
 _PRESSURE, _ROOM = 2e9, 1.1
 
-# Ends of the temperatures of an oil without a range of its own [K]: those of a data sheet.
+# Ends of the temperatures of an oil without a range of its own [K]: the temperatures of a data sheet.
 _ENDS = (313.15, 373.15)
 
 # Nodes of a curve over pressure and over temperature.
@@ -90,7 +90,7 @@ _NAMES: Mapping[str, str] = MappingProxyType(
 
 def over_pressure(report: OilReport) -> list[Axes]:
     """Draw the properties of an oil over pressure, a curve for each temperature. Returns axes of a new
-    figure: viscosity, density (or its ratio to that at ambient pressure), permittivity, and thermal
+    figure: viscosity, density (or its ratio to the density at ambient pressure), permittivity, and thermal
     properties that change with pressure.
     """
     highest = max(_PRESSURE, _ROOM * max(report.pressures, default=0.0))

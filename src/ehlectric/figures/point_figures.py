@@ -314,14 +314,15 @@ def _in_metres(result: PointResult, window: tuple[Range, Range]) -> tuple[Range,
 
 def pressure_map(result: PointResult, ax: Axes | None = None) -> Axes:
     """Draw a map of the pressure with lines of equal pressure, and the cavitated region hatched. Returns axes
-    with the map, and a colour bar beside them.
+    with the map, and a colour bar next to them.
     """
     film, window = result.film, film_window(result)
     ax = map_panels(result, 1, window, rows=1)[0] if ax is None else ax
     hertz = result.conditions.max_pressure
     factor, unit = unit_for(max(film.max_pressure, hertz), "Pa")
     nodes = (film.x, film.y)
-    # The pressure spike is hardly wider than the grid, so that its nodes would look like a string of pearls.
+    # The pressure spike is little wider than the grid spacing, so that its nodes would look like a string of
+    # pearls.
     spike = has_spike(result)
     drawn = smoothed(film.pressure) if spike else film.pressure
     at, pressure = refined(nodes, factor * drawn, _in_metres(result, window))
@@ -348,7 +349,7 @@ def _cavitated(result: PointResult, ax: Axes) -> Patch:
     """Hatch the cavitated region, where the pressure is ambient, and return its legend entry.
 
     The edge of the region is drawn without the steps of the grid, less than a node away from them. The
-    boundary nodes of the domain are at ambient pressure in any case. They are hatched where the node beside
+    boundary nodes of the domain are at ambient pressure in any case. They are hatched where the node next to
     them, one row inside, cavitates.
     """
     film = result.film

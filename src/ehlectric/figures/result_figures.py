@@ -102,8 +102,8 @@ def figure(result: AnyResult, name: str, *, style: str = "screen", **options: An
 def figure_names(result: AnyResult) -> list[str]:
     """Names of the figures that a result has.
 
-    Those of a bearing include its figures over speed, which are drawn from contacts that are not solved.
-    Those of a sweep are maps and lines of each value that has a name, over the first varied keys; ``x`` and
+    Figures of a bearing include its figures over speed, which are drawn from contacts that are not solved.
+    Figures of a sweep are maps and lines of each value that has a name, over the first varied keys; ``x`` and
     ``y`` choose others.
 
     Parameters
@@ -127,7 +127,7 @@ def draw_figures(
     """Draw all figures of a result as files.
 
     ``folder``, folder of the files; it is made if it does not exist. Returns files, and warnings about speeds
-    that the figures of a bearing leave out; there are no figures of a sweep here: they need the keys of their
+    that the figures of a bearing omit; there are no figures of a sweep here: they need the keys of their
     axes. Raises InputError where there is no such format or style, the folder cannot be used, or another
     command draws into it.
     """
@@ -155,7 +155,7 @@ def save_figures(
         Formats of the files, of "png", "svg" and "pdf".
     style : str
         "screen", "dark": light on a dark page, or "journal": as wide as one or two columns of a journal (84
-        or 174 mm), in small type, without the title, which the metadata of the files have in any style.
+        or 174 mm), in small type, without the title, which the metadata of the files contain in any style.
 
     Returns
     -------

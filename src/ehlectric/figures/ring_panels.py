@@ -64,7 +64,7 @@ def film_panel(result: BearingResult) -> Panel:
     factor, unit = unit_for(float(films.min()), "m")
     limits = {touching: "touch" if touching == CONDUCTING else "touch at times"}
     limits |= {PARTIAL: "may touch"} if touching < PARTIAL else {}
-    # Circles far below the films are left out, because they would leave little room for the films.
+    # Circles far below the films are omitted, because they would leave little room for the films.
     ratios = [ratio for ratio in limits if films.min() < _FAR * ratio * rq]
     curves = [
         Curve(

@@ -99,7 +99,7 @@ def breakdown_panel(points: Speeds, curves: Curves, at_case: Speed | None) -> Pa
 
 
 def margin_panel(band: MarginBand, at_case: tuple[float, float] | None = None) -> Panel:
-    """Margin over the speed within what is uncertain, and that of the bearing itself at its speed [rad/s]."""
+    """Margin over the speed within the uncertain inputs, and of the bearing itself at its speed [rad/s]."""
     rpm, ones = band.speed / RPM, np.ones_like(band.speed)
     # Surfaces that touch have a margin of 0, which a logarithmic axis does not have.
     least = max(0.5 * float(np.min(band.median, where=band.median > 0.0, initial=1.0)), _LEAST_MARGIN)

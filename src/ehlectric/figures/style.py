@@ -72,7 +72,7 @@ class _Look:
     columns: tuple[float, float] | None = None
     height: float = 1.0  # ratio of the height of a figure in one column to its height on the screen
     stacked: float = 1.0  # the same ratio of the panels of a figure that stand below each other in one column
-    tones: Mapping[str, str] = field(default_factory=dict)  # colours by those of paper, which are the others
+    tones: Mapping[str, str] = field(default_factory=dict)  # colours by their colours on paper
 
 
 def _settings(name: str) -> dict[str, Any]:
@@ -115,11 +115,11 @@ class OfContact(Protocol):
 
 @contextmanager
 def style(name: str | None = None) -> Iterator[None]:
-    """Context manager in which figures have the text sizes, line widths and page sizes of a style.
+    """Context manager in which figures use the text sizes, line widths and page sizes of a style.
 
     Each style starts from the defaults of matplotlib: a matplotlibrc of the user changes no figure. The
     settings of matplotlib belong to the whole process and are restored at the end. Threads that draw
-    take turns, so that none restores the settings of another.
+    wait for each other, so that none restores the settings of another.
 
     ``name``, name of the style, "screen", "journal" or "dark"; the style of the context around this one if
     omitted, which is "screen" outside of any. Raises InputError where there is no style of this name.
@@ -150,7 +150,7 @@ def _set_all(settings: Mapping[str, Any]) -> None:
 def page_width(width: float, panels: int = 1) -> float:
     """Width of a figure in the style that is in use, from its width on the screen [inches].
 
-    Panels beside each other take two columns of a journal.
+    Panels next to each other take two columns of a journal.
     """
     columns = _LOOKS[_style.get()].columns
     return width if columns is None else columns[width > _COLUMN_LIMIT or panels > 1]
@@ -232,7 +232,7 @@ def note(
 
 
 class _Inside(Annotation):
-    """Text beside a point, which changes to the other side of it where it would leave the axes."""
+    """Text next to a point, which changes to the other side of it where it would leave the axes."""
 
     def draw(self, renderer: Any) -> None:
         """Draw the text on the side of its point where there is room."""
@@ -249,7 +249,7 @@ class _Inside(Annotation):
 def label_point(
     ax: Axes, at: tuple[float, float], text: str, offset: tuple[float, float], **look: Any
 ) -> None:
-    """Write a text beside a point of axes [data units], an offset away from it [pt]; opposite to the offset
+    """Write a text next to a point of axes [data units], an offset away from it [pt]; opposite to the offset
     where it would leave the axes otherwise.
     """
     defaults: dict[str, Any] = {"ha": "left", "va": "center", "in_layout": False}
@@ -271,8 +271,8 @@ def figure_of(ax: Axes) -> Figure:
 def name_over(ax: Axes, text: str, *, converged: bool = True) -> None:
     """Write a title over all panels of a figure: its first line, the finding, larger than the others.
 
-    In the style "journal" the title is not drawn, because a caption says it. The metadata of the file has it
-    in every style. Where the result is not converged, its first line is drawn in every style.
+    In the style "journal" the title is not drawn, because a caption says it. The metadata of the file contain
+    it in every style. If the result is not converged, its first line is drawn in every style.
     """
     figure = figure_of(ax)
     text = "\n".join(map(printable, text.split("\n")))
@@ -286,7 +286,7 @@ def name_over(ax: Axes, text: str, *, converged: bool = True) -> None:
     finding = _even(first, _FINDING, room)
     below = [part for line in others for part in _even(line, _BELOW, room)]
     how: dict[str, Any] = {} if converged else NOT_CONVERGED
-    # Empty lines keep the room for the smaller ones, which are drawn beside them.
+    # Empty lines keep the room for the smaller ones, which are drawn next to them.
     lines = "\n".join([*finding, *(" " for _ in below)])
     title = figure.suptitle(lines, x=0.01, ha="left", size=_FINDING, parse_math=False, **how)
     if below:
@@ -344,7 +344,7 @@ def _width(text: str, size: float, *, math: bool = False) -> float:
 def _width_in(_fonts: tuple[str, ...], text: str, size: float, *, math: bool) -> float:
     """Width of a line of text of a size [pt]; kept, because a title is broken at many widths.
 
-    The fonts are those of Matplotlib's settings: their change makes a new measurement.
+    The fonts follow Matplotlib's settings: their change makes a new measurement.
     """
     letters = FontProperties(size=size)
     return float(text_to_path.get_text_width_height_descent(text, letters, ismath=math)[0])
@@ -364,7 +364,7 @@ def titled(ax: Axes, title: str, *, converged: bool) -> Figure:
 
 
 def share_below(axes: Sequence[Axes]) -> None:
-    """Remove the labels of the common axis from all stacked panels but the lowest."""
+    """Remove the labels of the common axis from all stacked panels except the lowest."""
     for ax in axes[:-1]:
         ax.set_xlabel("")
         ax.tick_params(labelbottom=False)
@@ -422,10 +422,10 @@ def legend_above(
 ) -> None:
     """Place a legend above the axes, of the given artists, or of all that have a label.
 
-    ``handles``, artists in the legend, those of a tuple drawn over each other with the label of the last; all
-    that have a label if omitted; ``columns``, columns of the legend; fewer where the page is too narrow for
-    them, and a figure of a journal is then higher by the rows more; ``lift``, height of the legend above the
-    axes [pt], which leaves room for an axis on top of them.
+    ``handles``, artists in the legend, artists of a tuple drawn over each other with the label of the last;
+    all that have a label if omitted; ``columns``, columns of the legend; fewer where the page is too narrow
+    for them, and a figure of a journal is then higher by the rows more; ``lift``, height of the legend above
+    the axes [pt], which leaves room for an axis on top of them.
     """
     entries: list[Any] = ax.get_legend_handles_labels()[0] if handles is None else list(handles)
     # Bars and lines with error bars are subclasses of tuple with labels of their own.
@@ -454,7 +454,7 @@ def legend_above(
     whole = legend.get_tightbbox
 
     def above(renderer: Any = None) -> Bbox:
-        """Box of the legend for the layout, which makes room for it above the axes, not beside them."""
+        """Box of the legend for the layout, which makes room for it above the axes, not next to them."""
         box, axes_box = cast("Bbox", whole(renderer)), ax.get_window_extent()
         return Bbox.from_extents(min(box.x0, axes_box.x1), box.y0, min(box.x1, axes_box.x1), box.y1)
 
@@ -488,7 +488,7 @@ COLOURS = colormaps["viridis"]
 
 
 def line_colours() -> ListedColormap:
-    """Colours of lines and dots: without the lightest ones, which can hardly be seen on white, or on a dark
+    """Colours of lines and dots: without the lightest ones, which are almost invisible on white, or on a dark
     page without the darkest ones.
     """
     ends = (0.38, 1.0) if _LOOKS[_style.get()].tones else (0.0, 0.85)
@@ -498,7 +498,7 @@ def line_colours() -> ListedColormap:
 # An axis has a tick at each value where there are at most so many, each of at most so many characters.
 _FEW_VALUES, _SHORT = 8, 4
 
-# Place of a colour bar beside the axes, in parts of them.
+# Place of a colour bar next to the axes, in parts of them.
 BAR = (1.025, 0.0, 0.04, 1.0)
 
 # Round numbers of a decade: three, six and twelve of them.
@@ -632,7 +632,7 @@ def norm_of(levels: Array, *, log: bool) -> Normalize:
 
 def colour_bar(ax: Axes, norm: Normalize, text: str, levels: Array, colours: Colormap = COLOURS) -> None:
     """Add a colour bar with ticks at round levels, at every second or third one where there are many."""
-    # Beside the axes themselves, a wide legend above them does not push the bar away.
+    # Next to the axes themselves, a wide legend above them does not push the bar away.
     bar_axes = ax.inset_axes(BAR)
     bar = figure_of(ax).colorbar(
         ScalarMappable(norm, colours), cax=bar_axes, label=fitted_label(ax, text, along=False)
@@ -653,7 +653,7 @@ def label_position(result: OfContact, ax: Axes, axis: str = "x", *, line: str = 
     ax.set_xlabel(f"${axis}/b$   ({line}$b$ = {readable(factor * result.conditions.half_width, 4)} {unit})")
 
 
-# Room that the axis of lengths above the axes takes [pt], and place of its name beside its numbers [pt].
+# Room that the axis of lengths above the axes takes [pt], and place of its name next to its numbers [pt].
 LENGTH_AXIS, _LENGTH_NAME = 18.0, (-4.0, 6.0)
 
 

@@ -46,9 +46,9 @@ def profile(drawn: Profile, ax: Axes | None = None, name: str = "") -> Axes:
 
 
 def height_map(drawn: Map, ax: Axes | None = None) -> Axes:
-    """Draw the heights of a map about their mean as colours, with Sq beside the colour bar. Returns axes with
-    the map, x and y to the same scale, and a colour bar; the lowest and the highest 0.1 % of the heights lie
-    beyond the ends of the colours.
+    """Draw the heights of a map about their mean as colours, with Sq next to the colour bar. Returns axes
+    with the map, x and y to the same scale, and a colour bar; the lowest and the highest 0.1 % of the heights
+    lie beyond the ends of the colours.
     """
     ax = axes_or_new(ax)
     heights = drawn.heights - np.mean(drawn.heights)

@@ -176,7 +176,7 @@ _NARROW, _LETTERS = 5.0, 18
 def distribution(results: SweepResults, analysis: Sensitivity, ax: Axes | None = None) -> Axes:
     """Draw the cumulative distribution of a value, with its 5, 50 and 95 % quantiles.
 
-    For a breakdown voltage or a margin, the applied voltage is drawn too.
+    For a breakdown voltage or a margin, the applied voltage is also drawn.
 
     Returns axes with the share of samples below each value; the samples are the solved points of A and B.
     """
@@ -232,7 +232,7 @@ def parts(results: SweepResults, analysis: Sensitivity, ax: Axes | None = None) 
         ax.barh(rows + shift, middle, height=0.36, color=colour, label=kind.replace("_", " "))
         # With few rows, the estimate may lie outside its bootstrap interval.
         reach = np.maximum([middle - ends[0], ends[1] - middle], 0.0)
-        # Beside a bar of no length, its interval would look like a stray mark.
+        # At a bar of no length, its interval would look like a stray mark.
         none = (np.abs(middle) < _ZERO) | ((ends[0] <= 0.0) & (ends[1] >= 0.0))
         drawn = ~none | (np.max(np.abs([middle, *ends]), axis=0) > _NOTHING)
         look: dict[str, Any] = {"fmt": "none", "ecolor": "black", "elinewidth": 0.9, "capsize": 2.5}
@@ -257,7 +257,7 @@ def parts(results: SweepResults, analysis: Sensitivity, ax: Axes | None = None) 
 
 
 def sensitivity_figure(results: SweepResults, analysis: Sensitivity) -> Figure:
-    """Figure of the distribution of a value beside the sensitivity indices of the inputs."""
+    """Figure of the distribution of a value next to the sensitivity indices of the inputs."""
     with style():
         high = max(3.4, 1.6 + 0.42 * len(analysis.indices))
         left, right = new_panels(1, 2, (8.4, high))
@@ -275,7 +275,7 @@ def sensitivity_figure(results: SweepResults, analysis: Sensitivity) -> Figure:
 def save_sensitivity(
     results: SweepResults, analysis: Sensitivity, path: Path, formats: Sequence[str] = ("png",)
 ) -> list[Path]:
-    """Write the distribution of a value beside the sensitivity indices, as a file of each format."""
+    """Write the distribution of a value next to the sensitivity indices, as a file of each format."""
     return save_figure(sensitivity_figure(results, analysis), path, formats)
 
 
@@ -340,7 +340,7 @@ def save_speeds(
     at: Mapping[str, str] | None = None,
 ) -> list[Path]:
     """Draw capacitance and breakdown voltages of bearings over the speed, as files. Returns files written;
-    none where the slice is not over the speed of a bearing alone.
+    none where the slice is not over only the speed of a bearing.
     """
     if taken.x != SPEED or taken.y is not None or taken.free:
         return []
@@ -416,7 +416,7 @@ def default_names(results: SweepResults) -> list[str]:
 
 def with_axes(results: SweepResults, name: str, options: Mapping[str, Any]) -> dict[str, Any]:
     """Options of a figure by its name, with the default axes where none are given. Raises InputError if the
-    name is that of a value.
+    name is the name of a value.
     """
     if name in known_values(results):
         raise InputError("figure", got=f"{shown(name)}, a value;", takes=f"value={name!r} in place of a name")

@@ -129,12 +129,12 @@ def _columns(ax: Axes, along: Array) -> IntArray:
     return np.asarray(np.floor(_COLUMNS * across), dtype=np.intp)
 
 
-# Size of the name of the second key beside the lines [pt], and part of the page's width that it may take.
+# Size of the name of the second key next to the lines [pt], and part of the page's width that it may take.
 _NAME_SIZE, _NAMES = 8.0, 0.22
 
 
 def _name_lines(results: SweepResults, selection: Slice, ax: Axes) -> None:
-    """Name the lines beside the axes by their second key: in a legend or by a colour bar."""
+    """Name the lines next to the axes by their second key: in a legend or by a colour bar."""
     assert selection.y is not None
     lines, log = lines_of(results, selection, _shades)
     numbers = np.array([line.value for line in lines]) if selection.numeric else np.empty(0)

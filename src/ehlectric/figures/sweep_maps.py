@@ -103,9 +103,9 @@ def _rounded(values: Array) -> Array:
 
 
 def _without_rest(levels: Array, values: Array) -> Array:
-    """Levels without a last one for values that are hardly above the last but one.
+    """Levels without a last one for values that are only slightly above the second last.
 
-    A plateau that scatters around a level, as that of events at nearly every edge of a source, would have
+    A plateau that scatters around a level, such as events at nearly every edge of a source, would have
     lines through it that mean nothing.
 
     Examples

@@ -107,13 +107,14 @@ _KINDS = {
 # Number of points above which dots are smaller.
 _FEW = 400
 
-# Codes of warnings that say that the numbers of a point are less accurate than those of other points. Other
-# warnings, such as that of an expected breakdown, say something about a contact whose numbers are good.
+# Codes of warnings that say that the numbers of a point are less accurate than the numbers of other points.
+# Other warnings, such as the warning of an expected breakdown, say something about a contact whose numbers
+# are good.
 LESS_ACCURATE = frozenset(code for code, cause in CODES.items() if cause.less_accurate)
 
 
 def kinds(selection: Slice) -> dict[str, Mask]:
-    """Mask of the points of each kind of mark, shape (points,); kinds without points are left out."""
+    """Mask of the points of each kind of mark, shape (points,); kinds without points are omitted."""
     known, intermittent = np.isfinite(selection.values), selection.intermittent
     without = selection.of("solved") & ~known & ~selection.doubtful
     masks = {
@@ -128,8 +129,8 @@ def kinds(selection: Slice) -> dict[str, Mask]:
     return {kind: mask for kind, mask in masks.items() if np.any(mask)}
 
 
-# Points of a line of a sweep, or of all of a map: their numbers, their colour if it is not that of their
-# kind, and the relative size of their dots.
+# Points of a line of a sweep, or of all of a map: their numbers, their colour if it is not the colour of
+# their kind, and the relative size of their dots.
 _Group = tuple[IntArray, str, float]
 
 
@@ -156,10 +157,11 @@ def _marks(selection: Slice, x: Array, y: Array, groups: Sequence[_Group], also:
 
 
 def _warned(selection: Slice) -> Mask:
-    """Mask of the points with a value whose numbers are less accurate than those of others, shape (points,).
+    """Mask of the points with a value whose numbers are less accurate than the numbers of others, shape
+    (points,).
 
-    They have a warning of ``LESS_ACCURATE`` that not all points have: a warning of all points tells no point
-    from another.
+    They have a warning of ``LESS_ACCURATE`` that not all points have: a warning of all points distinguishes
+    no point from another.
     """
     # Of a share of time with contact, that surfaces touch is no doubt but what it says.
     doubts = LESS_ACCURATE - {"touching", "partial-film"} if selection.value in TIME_SHARES else LESS_ACCURATE
@@ -348,7 +350,7 @@ def lines_of(
 
 
 def joined(selection: Slice, lines: Sequence[SeriesLine]) -> bool:
-    """Whether points are joined by lines: those of a line differ in x only, and some line has two of them."""
+    """Whether points are joined by lines: points of a line differ only in x, and a line has two of them."""
     return not selection.free and max(line.numbers.size for line in lines) > 1
 
 
@@ -432,7 +434,7 @@ def _applied(
     lines: list[SeriesLine],
     ends: tuple[tuple[float, float], float],
 ) -> tuple[list[Curve], list[Area]]:
-    """Value that corresponds to the applied voltage, and the values below it. ``ends`` are those of the
+    """Value that corresponds to the applied voltage, and the values below it. ``ends`` are the ends of the
     horizontal axis, and the lower one of the vertical axis.
     """
     selection, (scale_x, scale), (window, floor) = path.selection, scales, ends

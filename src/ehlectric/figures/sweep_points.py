@@ -55,7 +55,7 @@ _TRIED = 200
 def label_lines(ax: Axes, lines: ContourSet, taken: Array, texts: Sequence[str], **look: Any) -> Array:
     """Write one label on each line of equal value, where it is farthest from everything else. ``taken``,
     positions of marks and of other labels, in the units of the axes, shape (n, 2). Returns the positions that
-    are taken now, with those of the m labels, shape (n + m, 2).
+    are taken now, with the positions of the m labels, shape (n + m, 2).
     """
     ax.autoscale_view()
     wider = _WIDER * min(1.0, figure_of(ax).get_figwidth() / _WIDE)
@@ -147,7 +147,7 @@ def _fill_regimes(mesh: Triangulation, quantiles: Array, taken: Array, ax: Axes)
 
 def mark(ax: Axes, curve: Curve, **look: Any) -> None:
     """Draw marks of points above everything else in the axes."""
-    # A white edge around the rings would hide the curves beside them.
+    # A white edge around the rings would hide the curves next to them.
     edge = [] if curve.marker in ("dots", "wide circle") else outlined(2.6)
     plain: dict[str, Any] = {"zorder": 5.0, "clip_on": False, "path_effects": edge}
     ax.plot(curve.x, curve.y, **(plain | _look(curve) | look))

@@ -25,11 +25,11 @@ _MORE, _FAINT = 1.6, 0.5
 
 
 def exchange_colours(figure: Figure, tones: Mapping[str, str]) -> None:
-    """Exchange the colours of all artists of a figure for those of another palette.
+    """Exchange the colours of all artists of a figure for the colours of another palette.
 
     Functions that draw name the colours of paper, and need not know the page. ``tones`` are the colours of
-    the page by those of paper; colours that are not in it stay, as those of maps do. A second exchange
-    changes nothing.
+    the page by the colours of paper; colours that are not in it stay, such as colours of maps. A second
+    exchange changes nothing.
     """
     for artist in figure.findobj():
         _exchange(artist, tones)
@@ -64,7 +64,7 @@ def _exchange(artist: Artist, tones: Mapping[str, str]) -> None:
         _exchange_scale(artist, tones)
     outlines = [effect for effect in artist.get_path_effects() or () if isinstance(effect, Outline)]
     if any(outline.colour in tones for outline in outlines):
-        # Outlines are shared between artists, of other figures too.
+        # Outlines are shared between artists, also of other figures.
         artist.set_path_effects([outline.toned(tones) for outline in outlines])
     for part in (
         artist.get_bbox_patch() if isinstance(artist, Text) else None,
@@ -75,7 +75,7 @@ def _exchange(artist: Artist, tones: Mapping[str, str]) -> None:
 
 
 def _exchange_scale(artist: ScalarMappable, tones: Mapping[str, str]) -> None:
-    """Give areas and lines that have a few colours by their values those of another palette."""
+    """Give areas and lines that have a few colours by their values the colours of another palette."""
     scale = artist.get_cmap()
     if isinstance(scale, ListedColormap):
         colours = to_rgba_array(scale.colors)

@@ -2,7 +2,7 @@
 error.
 
 It is solved step by step with the run. It takes about a fifth of the time of the run: it has half the steps,
-each with half the nodes of a line contact or a quarter of those of a point contact.
+each with half the nodes of a line contact or a quarter of the nodes of a point contact.
 ``ehlectric.motion.summary`` compares the two films.
 """
 

@@ -5,7 +5,7 @@ the mean speed of the surfaces, and b is the half-width. At T = 0 all moving rou
 domain. A point at x in the case is at x - D + u_k t at the time t. Here D is the length of the domain, and
 u_k is the speed of its surface. At the time D/u_k the point is at its position in the case. If u_k is
 negative, the point is at x + D + u_k t. Roughness that lies beyond the far end of the domain in the case is
-left out. Moving roughness therefore begins with a front, behind which its height rises from zero over one
+ignored. Moving roughness therefore begins with a front, behind which its height rises from zero over one
 half-width.
 """
 
@@ -194,7 +194,7 @@ def _time_grid(case: Case, conditions: Conditions | PointConditions) -> Schedule
 
 
 def _moving(speed: float) -> float:
-    """Speed divided by the entrainment speed, with 0 in place of rounding errors."""
+    """Speed divided by the entrainment speed, with 0 instead of rounding errors."""
     return speed if abs(speed) > _AT_REST else 0.0
 
 
@@ -371,7 +371,7 @@ class TransientContact:
 def travelled_case(case: Case, schedule: Schedule) -> Case:
     """Case whose domain is extended to the length of the surfaces that pass through the contact.
 
-    The grid spacing and the number of nodes across entrainment stay the same.
+    The grid spacing and the number of nodes across entrainment do not change.
     """
     grid, length = case.grid, schedule.length
     inlet, outlet = schedule.domain

@@ -104,7 +104,7 @@ class TransientSolver:
         )
 
     def key_films(self, instant: Instant) -> KeyFilms:
-        """Film thicknesses of an instant that are compared with those of the coarse run."""
+        """Film thicknesses of an instant that are compared with the coarse run."""
         mesh, scale = self._moving.film.level.mesh, self.contact.problem.scales.thickness
         return KeyFilms.of(mesh, instant, scale)
 
@@ -147,7 +147,9 @@ class TransientSolver:
         return film
 
     def temperature_rise(self, instant: Instant) -> float | None:
-        """Largest temperature at mid-film above that of the oil in the inlet [K]; None without heat."""
+        """Largest temperature at mid-film above the temperature of the oil in the inlet [K]; None without
+        heat.
+        """
         physics, warmth = self.contact.problem.physics, instant.warmth
         if warmth is None or physics is None or physics.thermal is None:
             return None

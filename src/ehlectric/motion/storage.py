@@ -84,8 +84,8 @@ class Record:
     """Recorded instant ``snapshot``, with the time steps since the recorded instant before it.
 
     ``rows`` are the values of these steps in order, up to ``step``. A run is resumed from ``history`` and
-    ``coarse``, the films of its last two steps and those of its coarse run, None where the coarse run did not
-    converge. ``seconds`` is the computing time since the recorded instant before.
+    ``coarse``, the films of its last two steps and the films of its coarse run, None where the coarse run did
+    not converge. ``seconds`` is the computing time since the recorded instant before.
     """
 
     step: int

@@ -46,7 +46,7 @@ from ehlectric.runtime.stored import Part, check_parts, warnings_in
 if TYPE_CHECKING:
     import xarray as xr
 
-# Format of the file, which tells its kind and its version.
+# Format of the file: its kind and its version.
 SCHEMA = "ehlectric.motion.run/1"
 
 # Variables over the time steps that a file has from the first recorded instant on at whose steps surfaces
@@ -284,7 +284,7 @@ def _maps_in(file: sqlite3.Connection, name: str, instants: int) -> Stack:
 def _numbers_of(instants: Sequence[Mapping[str, Any]]) -> dict[str, Array]:
     """Values over the recorded instants, and over the time steps, by the names of their variables.
 
-    Those of asperities are left out if surfaces touch at no step of the run or of its coarse run.
+    Variables of asperities are omitted if surfaces touch at no step of the run or of its coarse run.
     """
     values: dict[str, Array] = {}
     for name, first in instants[0].items():

@@ -74,7 +74,7 @@ def strength_between(time: Array, estimate: Array, frame_time: Array, strength: 
 
     The arguments over the time steps are their times [s] and the ``estimate``, voltage divided by minimum
     film thickness [V/m], shape (steps,). Those over the recorded instants are their times [s] and the largest
-    field ``strength`` [V/m], shape (frames,). The result has the shape (steps,).
+    field ``strength`` [V/m], shape (frames,). Returns field strength of shape (steps,).
 
     Examples
     --------

@@ -56,7 +56,7 @@ def run_errors(run: MotionRun) -> RunErrors | None:
     """Discretisation errors of a run; None if its coarse run did not converge at all steps, or it has none.
 
     Runs of earlier versions have no coarse run. A run whose surfaces touch has no errors either: its minimum
-    is the boundary film, and its load share is compared with that of the coarse run.
+    is the boundary film, and its load share is compared with the load share of the coarse run.
     """
     names = ("lowest_thickness", "coarse_lowest_thickness", "central_thickness", "coarse_central_thickness")
     if any(name not in run.dataset for name in names) or TouchHistory.of(run) is not None:
@@ -70,7 +70,8 @@ def run_errors(run: MotionRun) -> RunErrors | None:
 
 
 def estimated(lowest: tuple[Array, Array], central: tuple[Array, Array], minimum: float) -> RunErrors:
-    """Errors of a run from its film thicknesses and those of its coarse run at the same instants.
+    """Errors of a run from its film thicknesses and the film thicknesses of its coarse run at the same
+    instants.
 
     ``lowest`` and ``central`` are the minimum film thickness between the nodes and the central film thickness
     over time, of the run and of its coarse run, in any unit, shape (n,).

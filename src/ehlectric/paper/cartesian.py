@@ -21,7 +21,7 @@ from scipy.constants import epsilon_0
 from ehlectric.arrays import Array, IntArray
 from ehlectric.errors import ConvergenceError
 
-# Largest number of nodes of the Cartesian grid, including those inside the bodies.
+# Largest number of nodes of the Cartesian grid, including nodes inside the bodies.
 MOST_NODES = 3e7
 
 # A node nearer to a surface than this part of the row spacing counts as on the surface.

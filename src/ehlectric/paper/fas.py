@@ -44,7 +44,7 @@ LARGEST_COARSEST = 201
 # The nested iteration starts on the coarsest grid with at least this many nodes.
 FIRST_GRID = 201
 
-# Change of ln eps between neighbouring nodes above which their residuals are left out on the coarser grid: it
+# Change of ln eps between neighbouring nodes above which their residuals are dropped on the coarser grid: it
 # cannot resolve such a change.
 UNRESOLVED = 1.5
 
@@ -190,7 +190,8 @@ def _cycles(
 
 
 def residual_norm(equations: FilmEquations, at: Iterate) -> float:
-    """Residual of an iterate: the largest scaled residual of the Reynolds equation, or that of the load.
+    """Residual of an iterate: the largest scaled residual of the Reynolds equation, or the residual of the
+    load.
 
     The larger one counts; the residual of the load is ten times its relative error. The result is NaN if
     the film thickness is not positive at every node.

@@ -141,7 +141,7 @@ def field_model() -> Figure:
 _COLOURS = (BLUE, GREEN, PURPLE, AMBER)
 _MICRO = 1e6
 
-# Width of figures with two panels beside each other on the screen [inches].
+# Width of figures with two panels next to each other on the screen [inches].
 _SCREEN_WIDTH = 10.0
 
 # Height of the legend below two panels of a journal [inches].

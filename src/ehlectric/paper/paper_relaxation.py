@@ -14,7 +14,7 @@ from scipy.linalg import solve_banded
 from ehlectric.arrays import Array, Mask
 from ehlectric.paper.film_equations import NEIGHBOURS, Coefficients, FilmEquations, Iterate
 
-# Number of neighbours on each side of a node whose unknowns a relaxation couples to that of the node.
+# Number of neighbours on each side of a node whose unknowns a relaxation couples to the unknown of the node.
 HALF_BAND = 6
 
 # Largest change of a pressure P in one relaxation.

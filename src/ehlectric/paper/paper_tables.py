@@ -1,4 +1,4 @@
-"""Tables of the study: Table 3 beside the printed one, and tables that test the paper's conclusions."""
+"""Tables of the study: Table 3 compared with the printed one, and tests of the paper's conclusions."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """Electric field of a line contact by the paper's own method: point successive over-relaxation (SOR).
 
-The equations on the Cartesian grid are those of ``ehlectric.paper.cartesian``.
+The equations on the Cartesian grid are the equations of ``ehlectric.paper.cartesian``.
 """
 
 from __future__ import annotations

@@ -57,7 +57,7 @@ class Methods:
     sweeps: int  # fewest sweeps of the over-relaxation
     damping: float  # damping factor of the fewest sweeps
     # capacitance_difference and strength_difference: relative differences of the capacitance and of the
-    # largest field from those of ehlectric's solver.
+    # largest field from ehlectric's solver.
     capacitance_difference: float
     strength_difference: float
 
@@ -136,7 +136,7 @@ def readings_differ_by(result: Result) -> float:
     """Largest relative difference between the field strengths of the two readings of mid-film.
 
     The readings are the line s = 1/2 and a straight line. Columns where the straight line is outside the film
-    are left out.
+    are skipped.
     """
     field, straight = result.field, straight_line(result)
     inside = field.inner & np.isfinite(straight)

@@ -1,4 +1,4 @@
-"""Inputs that exclude each other, and those of one kind only, for checks, changes of cases, and forms."""
+"""Inputs that exclude each other, and inputs of only one kind, for checks, changes of cases, and forms."""
 
 from __future__ import annotations
 

@@ -19,13 +19,13 @@ class Stored:
 
     dims: tuple[str, ...]  # its dimensions; a ``Part`` may replace a name by several
     unit: str | None = None  # its unit; None where the file states none
-    # What its values must be, a key of ``VALUES``. Those of "0 or 1" are read as booleans.
+    # What its values must be, a key of ``VALUES``. Values of "0 or 1" are read as booleans.
     rule: str = "finite"
     text: str = ""
-    name: str = ""  # its name in the file, by default that of the field with the prefix of the part
+    name: str = ""  # its name in the file, by default the field's name with the prefix of the part
     needed: bool = True  # whether a file must have it
-    dtype: str | None = None  # type of its values in the file, by default that of the field
-    unknown: bool = False  # whether None in place of a number is stored as NaN
+    dtype: str | None = None  # type of its values in the file, by default the type of the field
+    unknown: bool = False  # whether None instead of a number is stored as NaN
     # Where the lengths of the arrays of several objects differ, they follow each other in one variable; this
     # variable has the lengths.
     count: str = ""

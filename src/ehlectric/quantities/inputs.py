@@ -1,8 +1,8 @@
 """Inputs of the files, from ``inputs.toml``: label, symbol and meaning of every key, form fields.
 
 Errors, forms, axes, schemas and the documentation look inputs up here, and have no labels of their own. The
-tables of the package ``cases`` take the SI unit and the bounds of a number from here. Those of a
-parameter of a law of the lubricant stand with the law.
+tables of the package ``cases`` take the SI unit and the bounds of a number from here. The unit and bounds of
+a parameter of a law of the lubricant stand with the law.
 """
 
 from __future__ import annotations
@@ -45,8 +45,8 @@ class Input(Bounds, Quantity):
     """Input of a file with its unit and bounds, and its field in the app if it has one.
 
     ``shown`` is the unit of the number in the field, as the file takes it; ``slider`` are the ends of its
-    slider in this unit, spaced by logarithms if ``log``. ``choices`` are empty where the library has them.
-    ``field_note`` stands next to the field, and an ``optional`` field may be left empty.
+    slider in this unit, spaced by logarithms if ``log``. ``choices`` are empty where the library contains
+    them. ``field_note`` stands next to the field, and an ``optional`` field may be left empty.
     """
 
     kind: Literal["number", "count", "choice", "text"] = "number"
@@ -95,7 +95,7 @@ def _input(key: str, **entry: Any) -> Input:
 
 
 def _typical(entry: Mapping[str, Any]) -> tuple[float, float] | None:
-    """Typical values of an input in its SI unit: its own, or those of its slider and somewhat beyond."""
+    """Typical values of an input in its SI unit: its own, or the range of its slider and somewhat beyond."""
     factor = units.known_factor(entry.get("shown", ""), entry.get("unit", "").replace("**", "^"))
     if factor is None or ("typical" not in entry and "slider" not in entry):
         return None

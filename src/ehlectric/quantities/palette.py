@@ -28,7 +28,7 @@ BODY, OIL, CAVITATED, OUT_OF_RANGE = "#c9ced6", "#fff1cc", "#e3e6ea", "#a3a8ad"
 # Line of a surface that lies behind another one.
 PALE_BLUE = "#9ccbe8"
 
-# Colours of a dark page by those of paper; the others are the same on both. Lines have a contrast of at
+# Colours of a dark page by the colours of paper; the others are the same on both. Lines have a contrast of at
 # least 3 to the page. No colour of the dark page is one of paper, so that none is exchanged twice.
 DARK: Mapping[str, str] = MappingProxyType(
     {

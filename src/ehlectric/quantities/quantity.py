@@ -1,6 +1,6 @@
 """A quantity of the book: what every output says about one result or input.
 
-The modules beside this one list the quantities of each kind of file. Tables, pages, reports, figures, heads
+The modules next to this one list the quantities of each kind of file. Tables, pages, reports, figures, heads
 of columns and the documentation look them up by key, and have no labels, units or digits of their own.
 """
 
@@ -46,7 +46,7 @@ class Quantity:
     head: str = field(default="", kw_only=True)
     # Note that follows every value and its unit, such as ", of each surface".
     note: str = field(default="", kw_only=True)
-    # Text in place of a value that a summary has as null; if it is empty, such a value is not shown.
+    # Text instead of a value that is null in a summary; if it is empty, such a value is not shown.
     null: str = field(default="", kw_only=True)
     # Key of the same table that contains the dotted key of an input, in whose unit the value is.
     unit_of: str = field(default="", kw_only=True)

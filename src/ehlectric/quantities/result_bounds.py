@@ -1,7 +1,7 @@
 """Bounds: which numbers of a result are upper or lower bounds, as an ideal film is better than a real one.
 
 The book says what an ideal film makes of each quantity. Whether that holds for a result follows from what its
-film leaves out: starvation, heat, or roughness. A real film is thinner, so that its field is higher, and it
+film neglects: starvation, heat, or roughness. A real film is thinner, so that its field is higher, and it
 breaks down at a lower voltage. The films of a bearing with heat are best estimates, and no bounds.
 """
 
@@ -33,7 +33,7 @@ def left_out(summary: Summary) -> tuple[str, ...]:
 
 
 def bound_words(summary: Summary) -> str:
-    """Why the breakdown voltage of a contact is an upper bound; empty where its film leaves nothing out.
+    """Why the breakdown voltage of a contact is an upper bound; empty where its film neglects nothing.
 
     Examples
     --------
@@ -47,7 +47,7 @@ def bound_words(summary: Summary) -> str:
 def contact_bounds(book: Keys, summary: Summary) -> dict[str, Bound]:
     """Bounds of the numbers of a contact, by dotted key.
 
-    Where surfaces touch, the maximum field is that of the boundary film, which its thickness gives. The
+    Where surfaces touch, the maximum field occurs in the boundary film, which its thickness gives. The
     resistance of spots that are ridges is an upper bound in any film.
     """
     always = {"asperities.resistance"}
@@ -174,7 +174,7 @@ def bearing_bounds(book: Keys, summary: Summary) -> dict[str, Bound]:
     """Bounds of the numbers of a bearing, by dotted key.
 
     Isothermal films are bounds: real films are thinner, break down at lower voltages and higher speeds, and
-    have higher fields. So are smooth films, and films whose surfaces may touch. All others are best
+    have higher fields. Smooth films, and films whose surfaces may touch, are also bounds. All others are best
     estimates. The shaft voltage falls with the film, but less than it. The energy of a breakdown voltage that
     is an upper bound is one too, although a thinner film has a higher capacitance: it grows as 1/h at most,
     and the square of the voltage falls as h^2.
@@ -190,7 +190,7 @@ def bearing_bounds(book: Keys, summary: Summary) -> dict[str, Bound]:
         **dict.fromkeys(_OF_SHAFT, ideal and not leaks),
         **cycle_life_bounds(summary.get("duty") or {}, "duty."),
     }
-    # Words in place of a number are no bound.
+    # Words instead of a number are no bound.
     worded = [
         key for key in ("bearing.first_break", "margin.critical_speed") if value_at(summary, key) is None
     ]

@@ -11,7 +11,7 @@ from typing import Any, Literal, Self
 from ehlectric.quantities.quantity import data_file
 from ehlectric.readable import filled_in
 
-# "severe": the numbers must not be used. "note": the numbers are valid, and the text tells how they were
+# "severe": the numbers must not be used. "note": the numbers are valid, and the text describes how they were
 # obtained.
 Severity = Literal["note", "warning", "severe"]
 
@@ -25,8 +25,8 @@ SEVERITY_WORDS: Mapping[str, str] = MappingProxyType(
 class WarningCode:
     """Meaning of a warning code in one sentence, severity, and keys of the quantities that it concerns.
 
-    Outputs show a warning beside those quantities; one without any concerns the whole result. The keys of
-    both bearings of a drive begin with "end". Of the points of a sweep, those whose numbers are
+    Outputs show a warning next to those quantities; one without any concerns the whole result. The keys of
+    both bearings of a drive begin with "end". Points of a sweep whose numbers are
     ``less_accurate`` than others for this cause have a ring in its figures.
     """
 

@@ -1,7 +1,7 @@
 """Results of all kinds by the dotted keys of summary.json, from the files ``*_results.toml`` of this folder.
 
-``contact_results.toml`` explains the fields of an entry. Keys that several kinds have, those of oils and of
-surfaces, stand once. A book has besides the keys of a summary what outputs show and no summary stores.
+``contact_results.toml`` explains the fields of an entry. Keys that several kinds have, and the keys of oils
+and of surfaces, stand once. A book has besides the keys of a summary what outputs show and no summary stores.
 """
 
 from __future__ import annotations
@@ -140,7 +140,7 @@ BEARING_KEYS: Keys = {**_OIL, **_read("bearing")}
 BEARING_BOOK: Keys = {**BEARING_KEYS, **_read("bearing", stored=False)}
 ELEMENT_KEYS: Keys = _within("contacts", BEARING_KEYS)
 
-# Drives: the table "end" is that of the bearing at either end, "event" a row of the table of discharges.
+# Drives: the table "end" belongs to the bearing at either end, "event" a row of the table of discharges.
 _DRIVE = {**_read("drive"), **under("end.life", _within("life", BEARING_KEYS))}
 _ENDS: Keys = {
     f"{end}.{name}": replace(quantity, label=f"{quantity.label}, {words}" if quantity.label else "")

@@ -12,13 +12,13 @@ from ehlectric.quantities.formats import UNITS, USUAL, scale_of, suited
 from ehlectric.quantities.quantity import BOUNDS, Bound, Keys, Quantity, key_of
 from ehlectric.readable import formatted
 
-# Nested tables of a result, SI units, as summary.json has them.
+# Nested tables of a result, SI units, as in summary.json.
 Summary: TypeAlias = Mapping[str, Any]
 
 
 @dataclass(frozen=True)
 class Row:
-    r"""Row of a table: a name, a value with its unit, and a note. A row with a name alone is a heading.
+    r"""Row of a table: a name, a value with its unit, and a note. A row with only a name is a heading.
 
     Raises ValueError if the unit of a number is not in ``UNITS``.
 
@@ -83,7 +83,7 @@ class Row:
 
     @property
     def heading(self) -> bool:
-        """True if the row has a name only, which heads the rows that follow."""
+        """True if the name is all that the row contains: a heading of the rows that follow."""
         return bool(self.name) and not self.text
 
 
@@ -112,7 +112,7 @@ class RowTexts:
     """Texts next to the numbers of a kind of result, by dotted key: functions of the summary."""
 
     notes: Mapping[str, Callable[[Summary], str]] = field(default_factory=dict)
-    # Value in place of the stored one, or of a quantity that is not stored: a number in SI units, a text, a
+    # Value instead of the stored one, or of a quantity that is not stored: a number in SI units, a text, a
     # text with its unit, or None where there is nothing to show; ``ValueWithNote`` for a value and a note.
     values: Mapping[str, Callable[[Summary], Any]] = field(default_factory=dict)
     # Whether a quantity says that the numbers must not be used.
@@ -125,7 +125,7 @@ class RowTexts:
     only: Mapping[str, Iterable[str]] = field(default_factory=dict)
 
     def __or__(self, other: RowTexts) -> RowTexts:
-        """Texts of both, those of the other where both have some; the conditions are those of the first."""
+        """Texts of both, where the other takes precedence, and the conditions of the first."""
         return RowTexts(
             {**self.notes, **other.notes},
             {**self.values, **other.values},
@@ -223,7 +223,7 @@ def row_of(
     bound: Bound = "",
     alarm: bool = False,
 ) -> Row:
-    """Row of a quantity with its label, unit and digits; a text may have its unit beside it.
+    """Row of a quantity with its label, unit and digits; a text may have its unit next to it.
 
     Examples
     --------

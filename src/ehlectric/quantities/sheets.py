@@ -43,8 +43,8 @@ CONTACT_CARDS, CHECK_CARDS = _cards("contact"), _cards("contact_check")
 TOUCHING_CARDS, SPOT_CARDS = _cards("touching_contact"), _cards("spots")
 BEARING_CARDS, DRIVE_CARDS = _cards("bearing"), _cards("drive")
 
-# Formula by geometry of the film of the breakdown voltage by formula, which pages show and compare with
-# heights of roughness: those from which a bearing by formula has its films.
+# Formula by geometry of the film of the estimated breakdown voltage, which pages show and compare with
+# heights of roughness: the formulas that give the films of a bearing without solution.
 BREAKDOWN_FORMULAS = {"line": "pan_hamrock", "point": "chittenden"}
 
 # Large numbers of the first page of a report, each with those that stand small below it.

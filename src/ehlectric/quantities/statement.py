@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
-# "green": no breakdown expected; "yellow": breakdown possible within what is uncertain; "red": breakdown
+# "green": no breakdown expected; "yellow": breakdown possible within the uncertainty; "red": breakdown
 # expected, or surfaces that touch under a voltage; "grey": nothing to compare the breakdown voltage with.
 Level = Literal["green", "yellow", "red", "grey"]
 

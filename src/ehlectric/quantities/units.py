@@ -19,7 +19,7 @@ ROTATION = "rad/s"
 RPM = math.pi / 30.0
 
 # Products and quotients of up to eight named units with one-digit exponents. No quantity here needs other
-# units, and pint would compute for ever on nested exponents, and on long names and products.
+# units, and pint would compute endlessly on nested exponents, and on long names and products.
 _LETTER = "[A-Za-zµΩ°ÅΔ_]"
 _NAME = rf"{_LETTER}{{1,40}}+(?:(?:\*\*|\^)?[-+]?[1-9])?"
 _UNIT = re.compile(rf"(?:1?\s*+/\s*+)?{_NAME}(?:(?:\s*+[*/·]\s*+|\s++){_NAME}){{0,7}}")
@@ -57,7 +57,7 @@ _EXAMPLES = "K, °C or °F"
 _LETTERS = {"C": "degC", "F": "degF"}
 
 # Units that are read without pint, which takes half a second to load: factor to SI units as a number times a
-# power of ten, and the exponents of m, kg, s, A, K, rad and mol. Those of the first table take prefixes.
+# power of ten, and the exponents of m, kg, s, A, K, rad and mol. Units of the first table take prefixes.
 _PREFIXED: dict[str, tuple[float, int, tuple[int, ...]]] = {
     "m": (1.0, 0, (1, 0, 0, 0, 0, 0, 0)),
     "g": (1.0, -3, (0, 1, 0, 0, 0, 0, 0)),
@@ -523,7 +523,7 @@ def _si_name(name: str) -> str:
 
 
 def printed(unit: str) -> str:
-    """Unit with the signs that people print, in place of those of a keyboard.
+    """Unit with the signs that people print, instead of the signs of a keyboard.
 
     Examples
     --------

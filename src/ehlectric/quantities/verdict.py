@@ -28,7 +28,7 @@ class Verdict:
     Attributes
     ----------
     level : str
-        "green": no breakdown expected; "yellow": breakdown is possible within what is uncertain; "red":
+        "green": no breakdown expected; "yellow": breakdown is possible within the uncertainty; "red":
         breakdown expected, or surfaces that touch under a voltage; "grey": there is no voltage or no
         strength to judge by.
     code : str
@@ -112,7 +112,7 @@ class Verdict:
         return assumed_text(self.assumptions, self.bound, self.where)
 
     def sentences(self, without: tuple[str, ...] = ()) -> tuple[str, ...]:
-        """Sentences of the reasons, without those of some codes."""
+        """Sentences of the reasons, without some codes."""
         kept = (statement for statement in self.reasons if statement.code not in without)
         return tuple(capital(statement_text(statement, self.where)) for statement in kept)
 

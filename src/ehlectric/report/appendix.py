@@ -65,7 +65,7 @@ class Input:
 def inputs_of(case: SweptCase, *, apart: bool = False) -> Iterator[Input]:
     """Inputs of a case in the order of its tables, without the title and the remedies of a drive.
 
-    A value is that of the library where it equals the one of the base that the case names, and a default
+    A value is a library value where it equals the value of the base that the case names, and a default
     where it equals the default of its key: a case does not keep whether somebody typed it.
     """
     tables = _tables(case, apart=apart)
@@ -113,7 +113,7 @@ def input_text(case: SweptCase, key: str, value: Any) -> str:
 
 
 def replaced_by(case: SweptCase, key: str) -> str:
-    """Key of a drive whose value takes the place of that of its bearings; empty where none does."""
+    """Key of a drive whose value replaces the value of its bearings; empty where none does."""
     end, inner = end_and_key(key)
     return REPLACED[inner] if end and isinstance(case, DriveCase) and inner in case.replaced else ""
 
@@ -157,7 +157,7 @@ def _library_values(case: Case | BearingCase) -> dict[str, tuple[str, Source | N
             continue
         file = _file_of(folder, base, given)
         sources = _sources_of_inputs(file)
-        # A single source may be that of the whole file; else each key has its own.
+        # A single source may hold for the whole file; else each key has its own.
         whole = sources[0] if len(sources) == 1 and not sources[0].keys else None
         for key, value in _values(folder, base, file[folder]).items():
             if key == "base":
@@ -168,7 +168,7 @@ def _library_values(case: Case | BearingCase) -> dict[str, tuple[str, Source | N
 
 
 def _file_of(folder: str, base: str, given: Mapping[str, Any]) -> Mapping[str, Any]:
-    """File of the library of a base, or that of a bearing whose geometry is estimated."""
+    """File of the library of a base, or the file of a bearing whose geometry is estimated."""
     if folder != "bearing" or not is_estimated(base):
         return library.tables(folder, base)
     ratings = (value_at(given, f"bearing.life.{name}_rating") for name in ("dynamic", "static"))
@@ -270,7 +270,7 @@ def named(key: str) -> Named:
 
 
 def worded(text: str) -> str:
-    """Text with the names of inputs in place of their keys.
+    """Text with the names of inputs instead of their keys.
 
     Examples
     --------
@@ -325,7 +325,7 @@ def _given(case: SweptCase, inputs: Sequence[Input]) -> Iterator[str]:
     from_data_sheet = any("lubricant.viscosity" in entry.key for entry in inputs)
     for entry in inputs:
         key = end_and_key(entry.key)[1]
-        # The folder of a file is that of one machine.
+        # The folder of a file belongs to one machine.
         value = Path(entry.value).name if key.endswith(".file") else input_text(case, entry.key, entry.value)
         if key == "lubricant.base" and from_data_sheet:
             value = f"from a data sheet, with what that lacks from {value} of the library"
@@ -349,7 +349,7 @@ def _input_cells(case: SweptCase, entry: Input, numbers: Mapping[Source, int]) -
 
 
 def _meaning(key: str) -> str:
-    """Meaning of an input without its unit, which stands beside the value; empty for keys of tables."""
+    """Meaning of an input without its unit, which stands next to the value; empty for keys of tables."""
     try:
         text = describe(key)
     except InputError:
@@ -378,7 +378,7 @@ def _assumptions(case: SweptCase, inputs: Iterable[Input]) -> Iterator[Block]:
 
 
 def limit_section(case: SweptCase) -> Section:
-    """Section of what the models behind a result leave out."""
+    """Section of what the models behind a result neglect."""
     rows = tuple((limit.topic, limit.text) for limit in limits_of(case))
     return Section(
         "What the model leaves out",

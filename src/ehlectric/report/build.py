@@ -47,8 +47,8 @@ from ehlectric.tables.motion_tables import run_rows
 
 
 def report_of(path: str | Path, *, summary: bool = False) -> Report:
-    """Report of a stored result, as data. Returns title, date and sections; with ``summary`` the first page
-    alone. Raises InputError if the folder has no result or several, or the result cannot be read.
+    """Report of a stored result, as data. Returns title, date and sections; with ``summary`` only the first
+    page. Raises InputError if the folder has no result or several, or the result cannot be read.
     """
     date = date_of_report()
     path = stored_result(path)
@@ -64,7 +64,7 @@ def report_of(path: str | Path, *, summary: bool = False) -> Report:
 
 
 def _title(result: Any) -> str:
-    """Title of a result; that of a sweep is its own, or that of its case."""
+    """Title of a result; a sweep has its own, or the title of its case."""
     return printable(getattr(result, "title", "") or result.case.title)
 
 

@@ -72,7 +72,7 @@ def _deciding(
         yield key, value, origin or origins.get(key, _GIVEN), why
 
 
-# Tables that stand in place of a number that decides the result.
+# Tables that replace a number that decides the result.
 _TABLES = {
     "discharge.strength_table": "discharge.dielectric_strength",
     "circuit.grounding_ring_table": "circuit.grounding_ring_resistance",
@@ -80,15 +80,15 @@ _TABLES = {
 
 
 def _of_inputs(case: DriveCase, *, apart: bool) -> Iterator[tuple[str, str, str, str]]:
-    """Rows of circuit, arc and bearings, those of equal bearings once where no end has values of its own;
-    without an origin where it is that of an input.
+    """Rows of circuit, arc and bearings, with equal bearings once where no end has values of its own;
+    without an origin where it is the origin of an input.
     """
     decided = TEXTS["decided"]
     for before, part in {"": case, **parts_of(case, apart=apart)}.items():
         given = flattened(part.to_dict())
         for key, why in decided.items():
             name = key.partition(".")[2]
-            # Resistances of 0 ohm are those of a path that has none.
+            # Resistances of 0 ohm stand for a path without resistance.
             if key in given and (given[key] or "resistance" not in key):
                 yield f"{before}{key}", input_text(case, f"{before}{key}", given[key]), "", why
             elif part is case and name in case.circuit.estimated:
@@ -167,7 +167,7 @@ def number_tables(summary: Summary) -> Iterator[Table | Text]:
 
 
 def remedy_blocks(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[Block]:
-    """Tables of the remedies: what they change, and their numbers beside those of the drive as it is."""
+    """Tables of the remedies: what they change, and their numbers next to the unchanged drive."""
     yield Text(SENTENCES["remedies"])
     heads, changes = ("remedy", "input", AS_IT_IS, "with the remedy"), tuple(_changes(result))
     yield Table("What each remedy changes", heads, changes, shares=(0.25, 0.39, 0.18, 0.18))
@@ -239,7 +239,7 @@ def _value_at(case: DriveCase, key: str, tables: Mapping[str, Any]) -> str:
 
 
 def swept_values(results: SweepResults) -> tuple[str, ...]:
-    """Keys of the summary that a report of a sweep shows: of one end where both bearings are the same."""
+    """Keys of the summary that a report of a sweep shows: of one end where both bearings are equal."""
     return tuple(at_ends(SWEEPS["drive_drawn"], _ends(results)))
 
 
@@ -251,7 +251,7 @@ def listed_values(results: SweepResults) -> tuple[str, ...]:
 
 
 def _ends(results: SweepResults) -> tuple[str, ...]:
-    """Ends whose numbers are shown: one where both bearings are the same at all points."""
+    """Ends whose numbers are shown: one where both bearings are equal at all points."""
     assert isinstance(results.case, DriveCase)
     first, second = results.case.bearings
     alike = first == second and not any(end_and_key(key)[0] in ENDS for key in results.varied)

@@ -85,7 +85,7 @@ def _blocks(result: Any, part: Part, path: Path) -> Iterator[Block]:
 
 
 def is_solved(result: Any) -> bool:
-    """Whether figures of a result show a solution; those of a sweep leave out points without one."""
+    """Whether figures of a result show a solution; figures of a sweep skip points without one."""
     return bool(getattr(result, "converged", True))
 
 
@@ -245,7 +245,7 @@ def _share_text(index: Mapping[str, Any]) -> str:
 
 
 def _basis(entry: Mapping[str, Any]) -> str:
-    """Where the range of an uncertain input comes from, in a few words."""
+    """Origin of the range of an uncertain input, in a few words."""
     reason: str = entry["reason"]
     return f"range: {reason.partition(':')[0]}" if reason else "range of the file"
 
@@ -260,8 +260,8 @@ def _value(case: BearingCase, key: str, value: Any) -> str:
 
 
 def usual_range(case: BearingCase | DriveCase, key: str) -> str:
-    """Usual range of an input of a bearing; a capacitance of the circuit of a drive has that of the motor of
-    a bearing.
+    """Usual range of an input of a bearing; a capacitance of the circuit of a drive has the range of the
+    motor of a bearing.
     """
     end, inner = end_and_key(key)
     bearing = case.bearings[ENDS.index(end) if end in ENDS else 0] if isinstance(case, DriveCase) else case

@@ -66,19 +66,19 @@ _SEVERITIES = {"severe": _ALARM, "warning": LIGHTS["yellow"], "note": LIGHTS["gr
 # Parts of a word after which a line may end.
 _PARTS = re.compile(r"[^_.\-/]*[_.\-/]|[^_.\-/]+")
 
-# Room beside the text of a cell [pt], and characters of a line of a file.
+# Room next to the text of a cell [pt], and characters of a line of a file.
 _PAD, _LINE_LENGTH = 3.0, 96
 
 # Room that a title of a section needs for itself and for what begins below it [pt].
 _ROOM = 130.0
 
-# Height of a figure beside the numbers of the first page [pt]: with its caption it is as high as they are.
+# Height of a figure next to the numbers of the first page [pt]: with its caption it is as high as they are.
 _ROOM_NEXT_TO_PICTURE = 235.0
 
 # Sizes of the first page, of which the largest is taken at which its contents fit.
 _SCALES = (1.0, 0.98, 0.95, 0.92, 0.9, 0.85, 0.8, 0.75, 0.7)
 
-# Height above that of all pages [pt].
+# Height above the height of all pages [pt].
 _ANY = 1e5
 
 # Share of the height of a page above which a figure has a page of its own.
@@ -126,7 +126,7 @@ def parts_of(block: object, width: float, height: float) -> Iterator[Flowable]:
                 yield _panel([first, *others, last], _SEVERITIES[line.severity], width)
                 yield Spacer(1.0, 4.0)
         case Picture():
-            # Two figures of usual height share a page; only tall ones take it alone.
+            # Two figures of usual height share a page; a tall figure takes a whole page.
             tall = 72.0 * float(block.figure.get_size_inches()[1]) > _TALL * height
             yield _picture(block, width, height - 60.0 if tall else 0.5 * height - 55.0)
 
@@ -162,7 +162,7 @@ def _numbers(numbers: Sequence[tuple[str, str, str]], width: float, columns: int
 
 
 def _light(light: Light, width: float) -> Flowable:
-    """Panel of a verdict, with its lamp beside what it means."""
+    """Panel of a verdict, with its lamp next to what it means."""
     colour = LIGHTS[light.level]
     heading, bound = marked(light.words), f" ({marked(light.bound)})" if light.bound else ""
     lamp = f'<font size="13" color="{colour}">{_LAMPS[light.level]}</font>'
@@ -171,7 +171,7 @@ def _light(light: Light, width: float) -> Flowable:
 
 
 def _panel(texts: Sequence[str], colour: str, width: float) -> Flowable:
-    """Panel of paragraphs, in the markup of reportlab, beside a line of a colour."""
+    """Panel of paragraphs, in the markup of reportlab, next to a line of a colour."""
     look = [
         ("BACKGROUND", (0, 0), (-1, -1), PANEL),
         ("LINEBEFORE", (0, 0), (0, -1), 4.0, HexColor(colour)),
@@ -271,7 +271,7 @@ def _parted(word: str, room: float, size: float) -> str:
 
 
 def _widths(rows: Sequence[Sequence[str]], width: float, size: float) -> list[float]:
-    """Widths of columns [pt]: as wide as their texts where the page has room, else in proportion to them."""
+    """Widths of columns [pt]: as wide as their texts if they fit on the page, else in proportion to them."""
     columns = list(zip(*rows, strict=True))
     pad = 2.0 * _PAD + 0.5
 
@@ -381,7 +381,7 @@ def _first_parts(report: Report, width: float) -> Iterator[Flowable]:
 
 
 def _side_by_side(numbers: Numbers, picture: Picture, width: float) -> Flowable:
-    """Numbers below each other, and a figure beside them."""
+    """Numbers below each other, and a figure next to them."""
     left, right = (share * width for share in (0.36, 0.64))
     shown = list(_loose([_picture(picture, right - 6.0, _ROOM_NEXT_TO_PICTURE)]))
     look = [("VALIGN", (0, 0), (-1, -1), "TOP"), ("LEFTPADDING", (0, 0), (0, 0), 0.0)]
@@ -466,7 +466,7 @@ class _Document(BaseDocTemplate):  # type: ignore[misc]
 
 
 def _fitted(title: str, font: str) -> str:
-    """Title that fits beside the name of the program."""
+    """Title that fits next to the name of the program."""
     text, room = title, _WIDTH - 60.0
     while stringWidth(text, font, _SMALL) > room:
         text = short(title, len(text) - 5)

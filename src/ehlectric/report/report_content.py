@@ -106,7 +106,7 @@ class Numbers:
     """Numbers in large letters: label, value with its unit, and a note of each."""
 
     numbers: tuple[tuple[str, str, str], ...]
-    # Number of columns. A figure that follows stands beside a single column, and below several of them.
+    # Number of columns. A figure that follows stands next to a single column, and below several of them.
     columns: int = 1
 
 
@@ -115,7 +115,7 @@ class Light:
     """Verdict of a result, with its traffic light."""
 
     level: Level
-    # Heading, so that the colour is not the only sign; it says where the verdict is that of an ideal film.
+    # Heading, so that the colour is not the only sign; it states if the verdict holds for an ideal film.
     words: str
     text: str  # sentences after the heading
     bound: str = ""  # "upper bound" for a verdict on one, after the heading; empty otherwise

@@ -34,13 +34,13 @@ _HEADS, _SHARES = ("quantity", "value", "unit", "note"), (0.42, 0.17, 0.1, 0.31)
 _SEVERITIES = ("severe", "warning", "note")
 
 
-# Figures that decide, where a result has them; of other results it is the one that tells most.
+# Figures that decide, where a result has them; of other results the most informative figure.
 _DECIDING = ("bearing_duty", "drive_duty", "breakdown_over_speed", "drive_remedies")
 
 
 def part_of(result: Any, summary: Mapping[str, Any], *, date: str = "", **fields: Any) -> Part:
-    """Part of a report of a result that is no sweep. ``date`` is that of the result, empty where it is not
-    known; ``fields`` are those that depend on the kind of the result.
+    """Part of a report of a result that is no sweep. ``date`` is the date of the result, empty where it is
+    not known; ``fields`` are the fields that depend on the kind of the result.
     """
     names, default = figure_names(result), default_figure(result)[0].removesuffix(".png")
     first = next((name for name in (*_DECIDING, default) if name in names), "")
@@ -127,7 +127,7 @@ def _plain(cell: object, text: type) -> str:
 
 
 def density_tables(densities: Mapping[str, float | None]) -> Iterator[Table]:
-    """Table of the published limits beside current densities over Hertz areas [A/m²], by the name of the
+    """Table of the published limits next to current densities over Hertz areas [A/m²], by the name of the
     bearing; none without a current.
     """
     known = {place: density for place, density in densities.items() if density}
@@ -177,7 +177,7 @@ def alarms_of(warnings: Iterable[ResultWarning], failure: str) -> Iterator[Text]
 
 
 def caption_of(name: str, *, converged: bool) -> str:
-    """Caption of a figure; that of a result that is not converged says so.
+    """Caption of a figure; it states if the result is not converged.
 
     Examples
     --------
@@ -190,7 +190,7 @@ def caption_of(name: str, *, converged: bool) -> str:
     return " ".join(filter(None, ["" if converged else SENTENCES["unconverged_figure"], text]))
 
 
-# Sentences in place of figures that have nothing to show.
+# Sentences instead of figures that have nothing to show.
 _EMPTY: Mapping[str, str] = MappingProxyType(
     {"breakdown_over_speed": "There is no figure of the breakdown voltage over the speed: no speed has one."}
 )
@@ -202,8 +202,8 @@ _FORMULA = re.compile(r"(?<!\\)\$|\\mathrm|[{}]")
 def pictures_of(
     result: Any, *, converged: bool, names: Iterable[str] | None = None
 ) -> Iterator[Picture | Text]:
-    """Figures of a result; a sentence in place of a figure that has nothing to show. ``converged``, whether
-    the result is converged; captions say so where it is not.
+    """Figures of a result; a sentence instead of a figure that has nothing to show. ``converged``, whether
+    the result is converged; captions state if it is not.
     """
     for name in figure_names(result) if names is None else names:
         block: Picture | Text = Text(f"The figure {name} could not be drawn.", "alarm")

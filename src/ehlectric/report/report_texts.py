@@ -1,6 +1,7 @@
 """Limits of the models behind a result and the literature behind its equations, of ``report_texts.toml``.
 
-The file has the texts, and the names of the conditions under which they hold; this module has the conditions.
+The file contains the texts, and the names of the conditions under which they hold; this module has the
+conditions.
 """
 
 from __future__ import annotations
@@ -54,7 +55,7 @@ REFERENCES, DRIVE_REFERENCES = _of_file(Reference, "references"), _of_file(Refer
 
 
 def limits_of(case: SweptCase) -> Iterator[Limit]:
-    """Limits that hold for a case; those of a drive are followed by those of its bearings, each once."""
+    """Limits that hold for a case; for a drive, the limits of its bearings follow, each once."""
     if isinstance(case, DriveCase):
         yield from _holding(DRIVE_LIMITS, case)
         yield from (limit for limit in _of_bearings(case, LIMITS) if limit.topic not in _REPLACED)
@@ -63,7 +64,9 @@ def limits_of(case: SweptCase) -> Iterator[Limit]:
 
 
 def references_of(case: SweptCase) -> Iterator[Reference]:
-    """Publications behind the equations of a case; of a drive, those of its bearings follow, each once."""
+    """Publications behind the equations of a case; of a drive, the publications of its bearings follow, each
+    once.
+    """
     if isinstance(case, DriveCase):
         simulation = list(_holding(DRIVE_REFERENCES, case))
         known = {reference.doi for reference in simulation if reference.doi}

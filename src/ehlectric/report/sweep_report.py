@@ -127,7 +127,7 @@ def _points(results: SweepResults) -> Iterator[Block]:
     inputs = [
         _column(results, key, [point.inputs.get(key) for point in results.points]) for key in results.varied
     ]
-    # Real films are thinner than those of a sweep, and break down earlier.
+    # Real films are thinner than the films of a sweep, and break down earlier.
     bounded = (breakdown.value, breakdown.margin, *(f"{end}.breakdown_voltage" for end in ENDS))
     columns = []
     for key in values:

@@ -67,7 +67,7 @@ def _load_reportlab() -> None:
     """Load reportlab, also where its settings cannot be looked for in the home of the user.
 
     Its own import goes on without the file ``.reportlab_mods`` of a home, but not where the home is no
-    folder, as that of many services is /dev/null.
+    folder, as for many services, whose home is /dev/null.
     """
     try:
         import reportlab  # noqa: F401

@@ -11,7 +11,7 @@ _HERE = Path(__file__).parent
 
 
 def examples_folder() -> Path:
-    """Folder of the examples: in an installed package beside this module, else that of the repository. Raises
+    """Folder of the examples: in an installed package next to this module, else in the repository. Raises
     InputError if neither exists, as in a package that was copied without its data.
     """
     for folder in (_HERE / "examples", *(parent / "examples" for parent in _HERE.parents[2:3])):

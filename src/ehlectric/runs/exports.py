@@ -44,11 +44,12 @@ _CHUNK = 50_000
 def vtkhdf_file(result: Any) -> bytes:
     """Content of a VTKHDF file in SI units: the blocks "film" and "field" of a contact, or a film over time.
 
-    The film of a line contact is its upper surface as a line over x, with the film thickness as y; that of a
-    point contact is a surface over x and y, with the film thickness as z. The field fills the gap between the
-    deformed surfaces. Every array of the dataset that lies on one of both grids is a value of its points. The
-    gap is thousands of times wider than high: scale its height in ParaView (Transform, Scale). With moving
-    roughness the film has a time step for each recorded instant, and there is no field in the gap.
+    The film of a line contact is its upper surface as a line over x, with the film thickness as y; the film
+    of a point contact is a surface over x and y, with the film thickness as z. The field fills the gap
+    between the deformed surfaces. Every array of the dataset that lies on one of both grids is a value of its
+    points. The gap is thousands of times wider than high: scale its height in ParaView (Transform, Scale).
+    With moving roughness the film has a time step for each recorded instant, and there is no field in the
+    gap.
 
     Raises InputError if the result is another one: it has no film and field on a grid.
     """
@@ -123,7 +124,7 @@ def _type(group: h5py.Group, name: str) -> None:
 
 
 def _grid(group: h5py.Group, sizes: tuple[int, ...], instants: int = 1) -> h5py.Dataset:
-    """Write an unstructured grid of these sizes, and return its points, those of all instants in a row."""
+    """Write an unstructured grid of these sizes, and return its points, of all instants in a row."""
     connected, number = cells(sizes), int(np.prod(sizes))
     _type(group, "UnstructuredGrid")
     group["NumberOfPoints"] = np.array([number])

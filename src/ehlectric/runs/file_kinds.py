@@ -1,4 +1,4 @@
-"""Kinds of files: how each is recognised, and what a file given to the wrong command is told.
+"""Kinds of files: how each is recognised, and the message for a file given to the wrong command.
 
 The kinds are the cases of a contact, with or without motion, bearing files, drive files and sweep files.
 Results are recognised by the first bytes of their files, so that their names do not matter.
@@ -87,7 +87,7 @@ def command_of_file(path: str | Path) -> str:
 
 def refuse_input(path: Path) -> None:
     """Refuse a TOML file where a result is expected, and name the command that solves it. Raises InputError
-    if the file has the suffix of TOML files.
+    if the suffix of the file is a suffix of TOML files.
     """
     if path.suffix.lower() == ".toml" and path.is_file():
         name, command = _NAMES[read_input(path).kind]
@@ -95,7 +95,7 @@ def refuse_input(path: Path) -> None:
 
 
 def kind_of_tables(table: Mapping[str, Any]) -> FileKind | None:
-    """Kind of the tables of a file; None if none of them tells it."""
+    """Kind of the tables of a file; None if none of them determines it."""
     if any(key in table for key in _OF_SWEEPS):
         return "sweep"
     if any(key in table for key in _OF_DRIVES):

@@ -111,7 +111,7 @@ def _tidied(schema: Any) -> Any:
 
 
 def _says_something(default: Any) -> bool:
-    """Whether a default is a value that one can write; a table or a list has those of its keys."""
+    """Whether a default is a value that one can write; a table or a list has the defaults of its keys."""
     return default not in (None, "") and not isinstance(default, dict | list)
 
 

@@ -79,8 +79,8 @@ def film_factors(
 ) -> FilmFactors:
     """Film factors that explain a measurement: capacitance of a bearing, or film of a contact.
 
-    The film factor is the film thickness over that of isothermal, fully flooded oil. It contains heat,
-    starvation and grease; ``film_factor`` and ``supply`` of the case are not used. Other than the key
+    The film factor is the film thickness divided by the isothermal, fully flooded film thickness. It contains
+    heat, starvation and grease; ``film_factor`` and ``supply`` of the case are not used. Other than the key
     ``film_factor`` of a bearing file it may be above 1, where a film is thicker than computed.
 
     Parameters

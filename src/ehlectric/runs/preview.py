@@ -1,7 +1,7 @@
-"""Preview of a file before it is solved: dry contact, films and voltages by formula, size of a sweep.
+"""Preview of a file before it is solved: dry contact, films and voltages from formulas, size of a sweep.
 
-Nothing here solves a film, so that the answer is there at once. Films by formula, and what follows from
-them, may be far from the solution; every row and every table that has them says so.
+Nothing here solves a film, so that the answer is there at once. Films from formulas, and what follows from
+them, may be far from the solution; every row and every table with them states it.
 """
 
 from __future__ import annotations
@@ -41,10 +41,10 @@ class Preview:
     """Preview of a file before it is solved."""
 
     title: str
-    rows: tuple[Row, ...]  # rows of a table: dry contact, films by formula and what follows from them
+    rows: tuple[Row, ...]  # rows of a table: dry contact, films from formulas and what follows from them
     summary: dict[str, Any]  # the same numbers as nested tables, SI units
     warnings: tuple[ResultWarning, ...]  # warnings about the case and its surfaces
-    # Whether the film of a bearing breaks down, by formula; None for other files and without a strength.
+    # Whether the film of a bearing breaks down, from formulas; None for other files and without a strength.
     verdict: Verdict | None = None
 
     def __repr__(self) -> str:
@@ -133,7 +133,7 @@ def _breakdown_rows(estimate: Mapping[str, Any]) -> Iterator[Row]:
 
 
 def _row(key: str, value: float, note: str) -> Row:
-    """Row of a number by formula, whose film is that of smooth surfaces; breakdown is an upper bound then."""
+    """Row of a number from a formula for smooth surfaces; breakdown is an upper bound then."""
     about = CONTACT_BOOK["point"][key]
     return row_of(key, about, value, note, bound=about.bound)
 
@@ -193,7 +193,7 @@ def _preview_drive(case: DriveCase) -> Preview:
 
 
 def _without_films(case: BearingCase, reason: str) -> Preview:
-    """Preview of a bearing whose contacts neither the atlas nor a formula describes: its inputs alone."""
+    """Preview of a bearing whose contacts neither the atlas nor a formula describes: only its inputs."""
     from ehlectric.bearing import clearances_of, resolve_bearing
     from ehlectric.tables.bearing_tables import input_rows
 

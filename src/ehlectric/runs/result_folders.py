@@ -1,7 +1,7 @@
 """Folders of results: the files that ehlectric writes there, and results that no other run replaces.
 
 A folder holds one result. A run removes the files of an earlier result of any kind, by the names that
-ehlectric writes, and leaves all other files alone. A sweep and a run of moving roughness may have taken
+ehlectric writes, and does not touch other files. A sweep and a run of moving roughness may have taken
 hours, so another run does not replace them: it is refused.
 """
 

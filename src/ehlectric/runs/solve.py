@@ -83,7 +83,7 @@ def load(path: str | Path) -> AnyResult:
     Returns
     -------
     Result, PointResult, BearingResult, DriveResult or MotionResult
-        Result, equal to the one that was saved. That of a drive does not have its solved bearings.
+        Result, equal to the one that was saved. The result of a drive does not contain its solved bearings.
 
     Raises
     ------
@@ -204,9 +204,9 @@ def solve(
         file.
     progress : callable, optional
         Called with a number of parts done, the number of all parts, and a text. The parts of a contact are
-        percent of the expected work; they never decrease, and reach 100 at the end. Where a grid is refined,
-        their text has its grid, the error so far and about the time that is left. Those of a bearing are its
-        contacts, and those of a drive percent of the simulated time.
+        percent of the expected work; they never decrease, and reach 100 at the end. If a grid is refined,
+        their text has its grid, the error so far and about the time that is left. The parts of a bearing are
+        its contacts, and the parts of a drive percent of the simulated time.
     require_convergence : bool
         Whether to raise a ConvergenceError if a film does not converge, instead of returning the result with
         ``converged`` false.
@@ -223,7 +223,7 @@ def solve(
     Returns
     -------
     Result, PointResult, BearingResult or DriveResult
-        Result of a line contact, a point contact, a bearing or a drive. Its warnings are logged, too.
+        Result of a line contact, a point contact, a bearing or a drive. Its warnings are also logged.
 
     Raises
     ------
@@ -395,12 +395,12 @@ def solve_motion(case: Case, *, progress: Progress = silent) -> MotionResult:
 
 R = TypeVar("R")
 
-# Result of a case, or the error in its place.
+# Result of a case, or the error instead.
 _Outcome = Result | PointResult | BearingResult | DriveResult | Exception
 
 
 class Solved(NamedTuple, Generic[R]):
-    """One case of ``solve_many`` that is finished: its number, its result, and the error in its place.
+    """One case of ``solve_many`` that is finished: its number, its result, and the error instead.
 
     Attributes
     ----------
@@ -474,7 +474,7 @@ def solve_many(
         Whatever ``solve`` takes. The iterable is read as the processes get free, so it may be endless.
     workers : int, optional
         Number of processes of this machine; by default the number of cores. With 1, the cases are solved in
-        this process, one after the other. Processes take some seconds to start: 1 is faster for a few cases
+        this process, one after the other. Processes take a few seconds to start: 1 is faster for a few cases
         of a second or less, such as bearings whose contacts are not solved.
     progress : callable, optional
         Called before each case is yielded with the number of finished cases, the number of all cases, which
@@ -487,7 +487,7 @@ def solve_many(
     ------
     Solved
         Number of the case, and its result or its error, in the order in which they finish. An error of one
-        case ends nothing: it stands in place of the result.
+        case ends nothing: it replaces the result.
 
     Raises
     ------
@@ -589,7 +589,7 @@ def _without_classes_of_the_script(given: Solvable | InputError) -> Solvable | I
 
 
 def _ran_out(outcome: _Outcome) -> bool:
-    """Whether a case found too little memory; alone it may find more."""
+    """Whether a case had too little memory; without other cases it may have more."""
     return isinstance(outcome, Exception) and is_out_of_memory(outcome)
 
 

@@ -44,7 +44,7 @@ def workbook(result: AnyResult | SweepResults) -> bytes:
     "over speed", and a duty cycle the sheet "duty cycle".
 
     Each number has the unit that engineers use, such as rpm, °C and MPa; the sheets of keys also contain it
-    in SI units. Raises InputError if the package openpyxl is missing, or the table has more rows or columns
+    in SI units. Raises InputError if the package openpyxl is missing, or there are more rows or columns
     than a sheet.
     """
     try:

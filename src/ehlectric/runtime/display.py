@@ -42,7 +42,7 @@ class Values:
     """Base class of frozen dataclasses with arrays: they can be compared, and print as one short line.
 
     Two instances are equal if they are of the same class and all of their fields are equal: arrays to the
-    last bit, with NaN equal to NaN. Fields with ``compare=False``, such as computing times, are left out.
+    last bit, with NaN equal to NaN. Fields with ``compare=False``, such as computing times, are ignored.
     Like arrays, the instances cannot be hashed. A subclass is decorated with
     ``dataclass(frozen=True, eq=False, repr=False)``.
 
@@ -61,7 +61,7 @@ class Values:
     # Names of fields and properties that contain no arrays, but many other values.
     NO_ARRAYS: ClassVar[frozenset[str]] = frozenset()
 
-    __hash__: ClassVar[None]  # type: ignore[assignment]  # as of every class with __eq__ alone
+    __hash__: ClassVar[None]  # type: ignore[assignment]  # as of every class with only __eq__
 
     def __eq__(self, other: object) -> bool:
         return same(self, other) if type(self) is type(other) else NotImplemented
@@ -225,7 +225,7 @@ def import_matplotlib() -> None:
 
 
 def headline(title: str, *parts: str | None, verdict: object = None) -> str:
-    """Title, key numbers and level of a verdict on one line; parts that are None or empty are left out.
+    """Title, key numbers and level of a verdict on one line; parts that are None or empty are skipped.
 
     Examples
     --------
@@ -271,7 +271,7 @@ class Shown(Tabled, Values):
         Parameters
         ----------
         name : str, optional
-            Name of the figure, with or without ".png", such as "field_map". By default the figure that tells
+            Name of the figure, with or without ".png", such as "field_map". By default the figure that shows
             most about a result of this kind. ``ehlectric.figure_names`` lists the names.
         **options
             ``style``, "screen", "journal" or "dark"; and of the figures of a sweep ``x``, ``y``, ``value``

@@ -239,7 +239,7 @@ def is_table(
     columns: Mapping[str, Callable[[Any], bool]],
     others: Mapping[str, Callable[[Any], bool]] = MappingProxyType({}),
 ) -> bool:
-    """Whether a value of JSON is an object with the keys of ``columns``, and any of those of ``others``."""
+    """Whether a value of JSON is an object with the keys of ``columns``, and any keys of ``others``."""
     if not isinstance(value, dict) or columns.keys() - value.keys():
         return False
     known = {**others, **columns}

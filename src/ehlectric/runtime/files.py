@@ -132,8 +132,8 @@ def whole(path: Path) -> Iterator[Path]:
     """Context that writes a file whole or not at all.
 
     Yields a new empty file in the same folder, with a hidden name. It is renamed to ``path`` where the
-    context ends without an exception, and removed otherwise. The file has the permissions of any new file of
-    the process. Where ``path`` is a link, its target is replaced.
+    context ends without an exception, and removed otherwise. Its permissions are the permissions of any new
+    file of the process. If ``path`` is a link, its target is replaced.
 
     Raises WriteError where the file cannot be written, as on a full disk.
     """
@@ -145,7 +145,7 @@ def whole(path: Path) -> Iterator[Path]:
 
 @contextmanager
 def _new_file(path: Path) -> Iterator[tuple[Path, Callable[[], None]]]:
-    """Context with a new file beside a path, and a function that brings its content to the disk."""
+    """Context with a new file in the folder of a path, and a function that brings its content to the disk."""
     # The name is known before the file is made: a signal in between must not leave the file behind.
     new = path.resolve().with_name(f"{_HIDDEN}{secrets.token_hex(8)}{path.suffix}")
     fd = -1
@@ -203,7 +203,7 @@ def writing(path: Path, *others: Path) -> Iterator[None]:
 
 def refuse_full(path: Path) -> None:
     """Refuse to go on where the disk of a file is full, for programs that do not say why they cannot write.
-    Raises WriteError where the disk has hardly a block left.
+    Raises WriteError where the disk has almost no block left.
     """
     with writing(path):
         if shutil.disk_usage(path.resolve().parent).free < _BLOCK:
@@ -251,7 +251,7 @@ def _fill(path: Path, content: Content) -> None:
 def clear_left_behind(folder: Path) -> None:
     """Remove the hidden files that killed writers left in a folder, and no file of a writer that lives.
 
-    The kernel releases the lock of a file with its writer. Where the file system has no locks, nothing is
+    The kernel releases the lock of a file with its writer. If the file system has no locks, nothing is
     removed.
     """
     with os.scandir(folder) as entries:

@@ -41,7 +41,7 @@ def alone_in(
     The folder is made if it does not exist, and removed again where an exception leaves it empty. Hidden
     files that killed commands left there are removed. Contexts of one folder may be nested.
 
-    ``patience``, longest time to wait for another command [s]; by default some seconds for figures, none for
+    ``patience``, longest time to wait for another command [s]; by default a few seconds for figures, none for
     results. Raises InputError where the folder or a name cannot be used, or another command writes into the
     folder.
 

@@ -107,9 +107,9 @@ def seal_of(content: Iterable[bytes]) -> bytes:
 
 
 def sealed(path: Path) -> bool:
-    """Whether a file has a seal that fits its content. Returns False where the file has no seal, as those of
-    earlier versions and those that are still written. Raises DamagedError where the seal does not fit the
-    content; InputError where the file cannot be read.
+    """Whether a file has a seal that fits its content. Returns False where the file has no seal, such as
+    files of earlier versions and those that are still written. Raises DamagedError where the seal does not
+    fit the content; InputError where the file cannot be read.
     """
     with reading(path), path.open("rb") as file:
         length, expected = _split(file)
@@ -217,7 +217,7 @@ def read_all(path: str, seconds: int) -> int:
     except BlockingIOError:
         return _BUSY
     except (InputError, MemoryError):
-        return _SOUND  # too large: the reader says so
+        return _SOUND  # too large: the reader reports it
     except Exception:  # HDF5 and its wrappers raise errors of many types
         return _UNREADABLE
     return _SOUND

@@ -16,7 +16,7 @@ _STOPPING = tuple(getattr(signal, name) for name in _NAMES if hasattr(signal, na
 
 
 def not_ignored() -> list[signal.Signals]:
-    """Signals that stop the program. After ``nohup`` that of a closed terminal does not: it is ignored.
+    """Signals that stop the program. After ``nohup`` the signal of a closed terminal does not: it is ignored.
 
     An ignored signal must keep this setting, which processes that are started inherit; they inherit no
     handler.

@@ -16,7 +16,7 @@ from pathlib import Path, PurePosixPath
 
 from ehlectric.errors import MemoryLimitError
 
-# Texts of errors that mean that memory ran out, although their types do not say so: of the loader of shared
+# Texts of errors that mean that memory ran out, although their types do not show it: of the loader of shared
 # libraries, of threads that cannot start, and of HDF5.
 _TEXTS = ("cannot allocate memory", "failed to map segment", "can't start new thread", "memory allocation")
 
@@ -32,7 +32,7 @@ _FRESH = 0.1
 
 
 def physical_memory() -> float:
-    """Physical memory of the machine [bytes]; infinite where the operating system does not tell it."""
+    """Physical memory of the machine [bytes]; infinite where the operating system does not report it."""
     try:
         return float(os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE"))
     except (AttributeError, ValueError, OSError):
@@ -45,9 +45,9 @@ def available_memory() -> float:
     It is the least of the physical memory of the machine, of what is left of the limits of the process
     (``ulimit -v`` and ``ulimit -d``), and of what is left of the limits of its control groups.
 
-    Returns memory [bytes]; at least zero, and infinite where the operating system tells no limit.
+    Returns memory [bytes]; at least zero, and infinite where the operating system reports no limit.
 
-    The control groups are read ten times a second at most. They are some ten files, and a contact that
+    The control groups are read ten times a second at most. They are about ten files, and a contact that
     refines its grid asks for every grid.
     """
     return max(
@@ -100,7 +100,7 @@ def left_of_process(status: Path = Path("/proc/self/status")) -> float:
 
 
 def _in_use(status: Path, name: str) -> int:
-    """Number of bytes beside a name in a status file of the kernel; zero where it tells none."""
+    """Number of bytes next to a name in a status file of the kernel; zero where it is missing."""
     try:
         for line in status.read_text(encoding="ascii", errors="replace").splitlines():
             if line.startswith(f"{name}:"):

@@ -60,8 +60,8 @@ def read_dataset(path: Path) -> xr.Dataset:
 def load_library() -> None:
     """Load the library of NetCDF files; raises an ImportError where it cannot be loaded.
 
-    Whoever solves for long calls it before: afterwards there may be no memory for the library. An error of
-    its own says so, which the packages above it replace by other words.
+    Whoever solves for long calls it before: afterwards there may be no memory for the library. This is
+    reported by an error of its own, which the packages above it replace by other words.
     """
     import_module("h5py")
 
@@ -92,7 +92,7 @@ class Layout:
     # Dimensions and values of each variable, and its attributes if it has any.
     variables: Mapping[str, tuple[Any, ...]]
     attributes: Mapping[str, Any]
-    # Variables that are coordinates, besides those with the name of a dimension.
+    # Variables that are coordinates, besides variables with the name of a dimension.
     coordinates: tuple[str, ...] = ()
     # Options with which variables are created in the file, as chunks and compression.
     storage: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)

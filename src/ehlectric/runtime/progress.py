@@ -3,7 +3,7 @@
 Log of the package by the standard library: the logger ``ehlectric``.
 Progress of the solvers has the level INFO for each contact and DEBUG for each step; warnings of results have
 the level WARNING. Nothing is printed unless a program asks for it, as with ``logging.basicConfig``. The
-logger ``ehlectric.machine`` tells what the machine lacks; the command line prints it.
+logger ``ehlectric.machine`` reports what the machine lacks; the command line prints it.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ Progress: TypeAlias = Callable[[int, int, str], None]
 
 
 def silent(_done: int, _of: int, _text: str) -> None:
-    """Progress that is told to nobody.
+    """Progress that is not reported.
 
     Examples
     --------
@@ -33,7 +33,7 @@ def silent(_done: int, _of: int, _text: str) -> None:
 
 
 def progress_or_silent(given: Progress | None) -> Progress:
-    """Progress that a caller gave, or one that is told to nobody in place of None. Raises InputError if it
+    """Progress that a caller gave, or progress that is not reported instead of None. Raises InputError if it
     cannot be called, such as True.
 
     Examples
@@ -57,7 +57,7 @@ _SOON = 3.0
 class Remaining:
     """Estimate of the time that is left of a part of a job, from the steps of the part that are done.
 
-    A part is told from another one by the number of its steps. The time counts down between two steps. It is
+    Parts are distinguished by the number of their steps. The time counts down between two steps. It is
     not known where the present step takes longer than all steps that are left were to take: the last contact
     of a bearing may take longer than all others.
 
@@ -112,10 +112,10 @@ class RunOutcome(Generic[R]):
     """
 
     result: R
-    # Key figures, nested, in SI units: those of summary.json where the run writes one.
+    # Key figures, nested, in SI units: the figures of summary.json where the run writes one.
     summary: Mapping[str, Any]
     files: tuple[Path, ...]
-    warnings: tuple[ResultWarning, ...] = ()  # warnings that tell where the result is unreliable
+    warnings: tuple[ResultWarning, ...] = ()  # warnings about where the result is unreliable
     failure: str | None = None  # one line that says what was not solved; None where the run succeeded
     # Further results with figures of their own, such as the film factors of a measurement.
     further_results: tuple[object, ...] = ()

@@ -28,7 +28,7 @@ _SPECIAL = (
     (stat.S_ISSOCK, "it is a socket, not a regular file"),
 )
 
-# Folders whose files the kernel makes up when they are read. Some of them have no end or wait for ever.
+# Folders whose files the kernel makes up when they are read. Some of them have no end or never return.
 _KERNEL = ("/proc/", "/sys/")
 
 
@@ -43,7 +43,7 @@ def regular(path: str | Path) -> Iterator[BufferedReader]:
 
     A pipe, a device, a socket, a folder and a file of the kernel are refused before anything is read from
     them, by an InputError. The check is made on the open file, so that the file cannot change in between. An
-    OSError within the context becomes an InputError too.
+    OSError within the context also becomes an InputError.
     """
     try:
         path = Path(path)

@@ -18,10 +18,11 @@ from ehlectric.errors import InputError
 from ehlectric.runtime.files import reading
 from ehlectric.runtime.memory import available_memory, in_bytes, least_limit
 
-# Largest size of the values of one NetCDF file [bytes]: twice those of a point contact on the finest grid.
+# Largest size of the values of one NetCDF file [bytes]: twice the values of a point contact on the finest
+# grid.
 MOST_VALUES = 8_000_000_000
 
-# Largest ratio of the size of the values to that of their file, beyond values of a size that does no harm
+# Largest ratio of the size of the values to the size of their file, beyond values of a size that does no harm
 # [bytes]. Files of ehlectric are not compressed; other programs compress smooth maps at most a hundredfold.
 MOST_RATIO = 100
 HARMLESS = 64_000_000
@@ -45,7 +46,7 @@ def check_size(path: Path, size: int, most: int, *, copies: float = 1.0) -> None
     ehlectric.errors.InputError: case.toml: has 20 GB; expected at most 1 MB
     """
     if size > most:
-        # All digits where the rounded sizes would be the same.
+        # All digits where the rounded sizes would be equal.
         sizes = [in_bytes(size), in_bytes(most)]
         has, allowed = sizes if sizes[0] != sizes[1] else [f"{size} bytes", f"{most} bytes"]
         raise InputError(path, f"has {has}", takes=f"at most {allowed}")

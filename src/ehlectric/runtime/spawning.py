@@ -1,7 +1,7 @@
 """Processes that do not import the script that starts them.
 
-Those of ``multiprocessing`` do, and a script that solves at its top level would then solve again in each of
-them. Only functions and values of packages are handed to them: what a script defines, they cannot import.
+Processes of ``multiprocessing`` do, and a script that solves at its top level would then solve again in each
+of them. Only functions and values of packages are handed to them: what a script defines, they cannot import.
 """
 
 from __future__ import annotations

@@ -49,10 +49,10 @@ class Part:
     """Variables of a file that hold the fields of one class."""
 
     kind: type[Any]  # dataclass whose fields have metadata of ``stored``
-    # Dimensions over which the file has many objects of the class; empty for one object.
+    # Dimensions over which the file contains many objects of the class; empty for one object.
     over: tuple[str, ...] = ()
     prefix: str = ""  # first letters of the names of variables that have none of their own
-    # Dimensions in place of a name in the metadata.
+    # Dimensions instead of a name in the metadata.
     axes: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     # Options that differ from the metadata, by the name of the field.
     changed: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
@@ -215,7 +215,7 @@ def _fits(value: Any, rule: str | tuple[str, ...]) -> bool:
 
 
 def _mapped(things: Any, function: Callable[[Any], Any]) -> Any:
-    """Nested lists with the result of a function in place of each item."""
+    """Nested lists with the result of a function instead of each item."""
     if isinstance(things, list | tuple):
         return [_mapped(thing, function) for thing in things]
     return function(things)
@@ -230,7 +230,7 @@ def _leaves(things: Any) -> Iterator[Any]:
 
 
 def _value(entry: Stored, value: Any) -> Any:
-    """Value of a field from that of its variable: numbers of Python, masks of booleans."""
+    """Value of a field from the value of its variable: numbers of Python, masks of booleans."""
     if entry.rule == "0 or 1":
         value = value.astype(bool)
     elif entry.rule == "0 to 1":
@@ -240,7 +240,7 @@ def _value(entry: Stored, value: Any) -> Any:
 
 
 def _part(values: Mapping[str, Array], entry: Stored, at: tuple[int, ...]) -> Array:
-    """Values of one of the arrays that follow each other in a variable; none where the file has none."""
+    """Values of one of the arrays that follow each other in a variable; none where the file contains none."""
     if entry.name not in values:
         return np.zeros(0)
     counts = values[entry.count]

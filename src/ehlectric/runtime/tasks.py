@@ -22,7 +22,7 @@ T = TypeVar("T")
 # Interval at which the caller is called back while no task finishes [s].
 _PULSE = 1.0
 
-# Times that a task is run alone after its process was killed, where one lost task loses all results.
+# Times that a task is run without others after its process was killed, where one lost task loses all results.
 _TRIES = 3
 
 _CANCELLED = "tasks in flight were cancelled"
@@ -45,11 +45,11 @@ def run_all(
 ) -> None:
     """Run tasks in parallel, in processes of their own.
 
-    A task whose process is killed is run again, with nothing beside it, up to three times; one that runs out
-    of memory once. All other results are kept meanwhile.
+    A task whose process is killed is run again, with nothing in parallel, up to three times; one that runs
+    out of memory once. All other results are kept meanwhile.
 
     Raises LostError where the process of a task was killed four times, or no process can begin; MemoryError
-    where a task ran out of memory also alone.
+    where a task also ran out of memory without other tasks.
 
     An exception of a task is raised again here, and all other tasks are stopped.
     """
@@ -100,7 +100,7 @@ def finished_tasks(
 
     If a process dies, the tasks in flight are tried again one at a time. A task whose process dies again in
     all of these tries is lost. If not even an empty call returns, the crew is lost. A task that ran out of
-    memory is tried again alone where the crew shares the memory of one machine.
+    memory is tried again without other tasks where the crew shares the memory of one machine.
     """
     remaining, flying = iter(tasks), dict[Future[T], tuple[K, A]]()
     try:
@@ -147,7 +147,7 @@ class _Finished(Generic[K, A, T]):
     """Tasks that are no longer in flight."""
 
     outcomes: list[tuple[K, T]] = field(default_factory=list)
-    # died and short: tasks whose process died, and those that ran out of memory beside others.
+    # died and short: tasks whose process died, and tasks that ran out of memory next to others.
     died: list[tuple[K, A]] = field(default_factory=list)
     short: list[tuple[K, A]] = field(default_factory=list)
     # Why the crew solves no more: a task was cancelled, or a worker could not begin it. Empty if it does.

@@ -1,4 +1,4 @@
-"""Threads that take turns, and one BLAS thread for small and banded factorisations.
+"""Threads that wait for each other, and one BLAS thread for small and banded factorisations.
 
 OpenBLAS uses all of its threads even for a factorisation of bandwidth six. Starting them takes tens of times
 longer than the factorisation.
@@ -23,7 +23,7 @@ class Turn:
     """Turn that one thread of a process has at a time, and may have several times at once.
 
     A process that is forked while a thread has the turn begins with a free one: the thread is not in it, and
-    would keep the turn for ever.
+    would never give the turn back.
 
     Examples
     --------
@@ -99,8 +99,8 @@ def _blas() -> list[Any]:
 def one_blas_thread() -> Iterator[None]:
     """Context in which BLAS and LAPACK run on one thread.
 
-    The limit holds for the whole process. Threads therefore take turns: overlapping contexts could leave the
-    limit set at their end. Solve in several processes to use several cores. A process that is
+    The limit holds for the whole process. Threads therefore wait for each other: overlapping contexts could
+    leave the limit set at their end. Solve in several processes to use several cores. A process that is
     forked meanwhile keeps one thread.
     """
     with _turn.taken():

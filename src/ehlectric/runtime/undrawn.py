@@ -40,7 +40,7 @@ class Drawn:
     """Figures of a result as files."""
 
     files: tuple[Path, ...]
-    warnings: tuple[ResultWarning, ...] = ()  # warnings about what the figures leave out
+    warnings: tuple[ResultWarning, ...] = ()  # warnings about what the figures omit
     undrawn: tuple[Undrawn, ...] = ()  # figures that failed
 
 

@@ -56,7 +56,7 @@ class Crew:
     renew: Callable[[], None] = lambda: None  # function that replaces processes that died
     # Function that returns what the crew is waiting for, as text; empty if it is working.
     waiting: Callable[[], str] = str
-    # Whether all share the memory of one machine, so that a task finds more of it when it runs alone.
+    # Whether all share the memory of one machine, so that a task finds more of it when no other runs.
     shares_memory: bool = False
     # Function that is given the futures that nobody waits for any more, and stops what it can of them.
     abandon: Callable[[Iterable[Future[Any]]], None] = cancel
@@ -93,8 +93,8 @@ def this_process() -> Crew:
 def packed_submit(executor: Executor) -> Callable[..., Future[Any]]:
     """Submit function of an executor of Dask, whose workers need no package to receive a task.
 
-    A worker of Dask that receives a function that it cannot import ends without a word, and the task waits
-    for another one for ever. The task is therefore received as bytes, and the error is its outcome.
+    A worker of Dask that receives a function that it cannot import ends without a message, and the task waits
+    endlessly for another one. The task is therefore received as bytes, and the error is its outcome.
     """
 
     def submit(call: Callable[..., T], *values: Any) -> Future[T]:
@@ -195,7 +195,7 @@ def _of_pool(pool: ProcessPoolExecutor, number: int) -> Iterator[Crew]:
         yield Crew(submit, width, renew, shares_memory=True, abandon=abandon, check=check)
     finally:
         # Not left to end by themselves: in a process that multiprocessing started, the pool's thread may come
-        # too late to tell them, and the process then waits for them for ever. This is also faster.
+        # too late to stop them, and the process then waits for them endlessly. This is also faster.
         end_now(pool)
 
 

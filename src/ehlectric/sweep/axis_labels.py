@@ -77,7 +77,7 @@ def _list_of(key: str) -> str:
 
 
 def _bounds(case: SweptCase) -> bool:
-    """Whether the films of a case are upper bounds; those of a bearing with heat are best estimates."""
+    """Whether the films of a case are upper bounds; films of a bearing with heat are best estimates."""
     match case:
         case BearingCase():
             return case.bearing.bounding

@@ -1,4 +1,4 @@
-"""Batches of the points of a sweep: bearings with quick contacts, which are solved together."""
+"""Batches of the points of a sweep: bearings with estimated contacts, which are solved together."""
 
 from __future__ import annotations
 
@@ -71,8 +71,9 @@ def batches_of(
 ) -> tuple[list[Batch], list[tuple[str, Inputs]]]:
     """Batches of points, given with the keys of their cases and their inputs, and the points in no batch.
 
-    Only bearings with quick contacts are solved in batches. Each batch has points from the whole range of its
-    group, in random order: the same interpolation tables of the gaps around the films then serve all batches.
+    Only bearings with estimated contacts are solved in batches. Each batch has points from the whole range of
+    its group, in random order: the same interpolation tables of the gaps around the films then serve all
+    batches.
     """
     batches, others = [], list[tuple[str, Inputs]]()
     samples = sweep.uncertainty_samples
@@ -94,7 +95,7 @@ def batches_of(
     return batches, others
 
 
-# Samples of all points of a batch: some seconds, after which its points are saved.
+# Samples of all points of a batch: a few seconds, after which its points are saved.
 _SAMPLES_TOGETHER = 8 * TOGETHER
 
 
@@ -162,7 +163,8 @@ def solve_batch(batch: Batch) -> list[Outcome] | None:
 
 
 def seconds_of(sweep: Sweep) -> float | None:
-    """Time of a sweep of bearings with quick contacts on one core [s], from that of some of its points.
+    """Time of a sweep of bearings with estimated contacts on one core [s], from the time of some of its
+    points.
 
     None where these points are no valid cases.
     """
@@ -193,7 +195,7 @@ _TRIED, _UNCERTAIN_TRIED = 256, 8
 def _summaries(batch: Batch, part: SolvedPart) -> Iterator[dict[str, Any]]:
     """Summaries of points that were solved together, nested as in summary.json, without their time.
 
-    The text of a warning is the meaning of its code: that of a single bearing names numbers and contacts.
+    The text of a warning is the meaning of its code: the text of a single bearing names numbers and contacts.
     """
     count, solution = part.points.size, part.solution
     codes: list[dict[str, str]] = [{} for _ in range(count)]

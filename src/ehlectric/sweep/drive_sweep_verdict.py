@@ -17,9 +17,9 @@ _CODES = {"green": "drives-none", "yellow": "drives-some", "red": "drives-all"}
 
 
 def swept_verdict(results: SweepPoints) -> Verdict | None:
-    """Verdict on a sweep of a drive from those of its points; None without a solved point. Returns green
-    where no point is expected to discharge, red where all are, else yellow; points that are not solved, or
-    must not be used, leave neither green nor red.
+    """Verdict on a sweep of a drive from the verdicts of its points; None without a solved point. Returns
+    green where no point is expected to discharge, red where all are, else yellow; points that are not solved,
+    or must not be used, leave neither green nor red.
     """
     case = results.case
     assert isinstance(case, DriveCase)

@@ -94,7 +94,7 @@ def case_key(case: SweptCase, uncertainty_samples: int | None = None) -> str:
     """Hash of everything that the result of a case depends on.
 
     The hash covers all inputs, with their defaults, and the contents of files, but not the title and the
-    paths of files. ``uncertainty_samples``, those of the probability of breakdown, where it is asked for.
+    paths of files. ``uncertainty_samples``, samples of the probability of breakdown, where it is requested.
 
     Returns SHA-256 hash, hexadecimal. Raises InputError if a file of the case cannot be read.
 
@@ -174,7 +174,7 @@ def lacking_point(sweep: Sweep, planned: Sequence[Planned]) -> Lacking | None:
     """Slowest and, of these, hottest point of a sweep of drives, if it cannot be computed.
 
     Its films are the thinnest, so that asperities may close them as at no other point. The bearings
-    of the point are solved with films of the atlas or by formula, in about a second.
+    of the point are solved with films of the atlas or from formulas, in about a second.
 
     Returns point and reason; None where it can be computed, and for sweeps of contacts and bearings, whose
     results do not need the resistance of closed contacts.
@@ -207,7 +207,7 @@ Task = tuple[str, PointCase]
 
 def solve_point(table: PointCase, uncertainty_samples: int | None = None) -> Outcome:
     """Solve a case given as data, in any process. Returns outcome of the point; no exception is raised:
-    an error becomes the reason of a failed point. ``uncertainty_samples``, those of the probability of
+    an error becomes the reason of a failed point. ``uncertainty_samples``, samples of the probability of
     breakdown of a bearing, which is not computed without them.
     """
     started = time.perf_counter()
@@ -302,7 +302,7 @@ def _lost(reason: str) -> Outcome:
 
 
 def _ran_out(outcome: Outcome) -> bool:
-    """Whether a point found too little memory; alone it may find more."""
+    """Whether a point had too little memory; without other points it may have more."""
     return outcome.status == "failed" and outcome.again
 
 
@@ -322,7 +322,7 @@ _LOGGERS = ("distributed", "tornado", "asyncio")
 def cluster(address: str) -> Iterator[Crew]:
     """Context manager that connects to a Dask scheduler and yields a crew of its workers.
 
-    Workers that join the cluster later are used too.
+    Workers that join the cluster later are also used.
 
     Raises InputError if no scheduler answers at the address, or dask.distributed is not installed.
 
@@ -336,7 +336,7 @@ def cluster(address: str) -> Iterator[Crew]:
         ) from None
     _silence()
     with own_filters():
-        # Dask warns if versions differ. If the difference breaks something, an error says so.
+        # Dask warns if versions differ. If the difference breaks something, an error follows.
         warnings.simplefilter("ignore")
         try:
             asyncio.run(asyncio.wait_for(_ask(address), ANSWER))

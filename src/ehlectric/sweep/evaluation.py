@@ -26,9 +26,9 @@ if TYPE_CHECKING:
 def evaluate(case: BearingCase | DriveCase, inputs: Mapping[str, Any], *, laws: object = None) -> xr.Dataset:
     """Evaluate a bearing, or both of a drive, at many points of operation: a thousand a second on one core.
 
-    Contacts are from the atlas of films, or by formula where those of the case are; those of a case with
+    Contacts are from the atlas of films, or from formulas if the case requests them; contacts of a case with
     solved contacts are from the atlas here. Every point has the numbers that ``solve_bearing`` gives for it
-    alone, to 1e-8.
+    when called by itself, to 1e-8.
 
     Parameters
     ----------
@@ -38,7 +38,7 @@ def evaluate(case: BearingCase | DriveCase, inputs: Mapping[str, Any], *, laws: 
     inputs : mapping
         Arrays or lists of equal length n by dotted key of the case: numbers in SI units, texts with units, or
         names. Points that share their names and whole numbers are computed together. Keys of a drive are
-        ``drive.speed``, ``drive.temperature``, and those of its bearings.
+        ``drive.speed``, ``drive.temperature``, and keys of its bearings.
     laws : None
         Refused: only the contacts of ``solve``, ``solve_many`` and ``run_sweep`` take laws of your own.
 
@@ -47,7 +47,7 @@ def evaluate(case: BearingCase | DriveCase, inputs: Mapping[str, Any], *, laws: 
     xarray.Dataset
         Dataset over ``point`` in SI units. Its coordinates are the inputs; its variables are the numbers of
         the tables ``bearing``, ``lubricant``, ``mechanics`` and ``life`` of summary.json by dotted key, NaN
-        where a point has none, but not those with the key of an input. ``converged`` tells whether a point
+        where a point has none, but not results with the key of an input. ``converged`` is whether a point
         has a result, ``reason`` why it has none, and ``warning_codes`` has the codes of its warnings, joined
         by "; ". Variables of a drive begin with the end of their bearing, as in
         ``drive_end.bearing.capacitance``.

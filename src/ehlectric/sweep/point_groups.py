@@ -19,7 +19,7 @@ from ehlectric.sweep.sweep_inputs import Sweep
 
 Inputs = Mapping[str, Any]
 
-# Mark in the text of a case in place of a quantity, by its number; no text of a case has this character.
+# Mark in the text of a case instead of a quantity, by its number; no text of a case has this character.
 _MARK, _MARKS = "\0{}", re.compile(r'"\\u0000(\d+)"')
 
 
@@ -47,7 +47,7 @@ def groups_of(sweep: Sweep, inputs: Iterable[Inputs]) -> list[PointGroup]:
 
 
 def plan_together(sweep: Sweep) -> Iterator[Planned]:
-    """Points of a sweep as ``plan`` yields them, faster for those of bearings with quick contacts.
+    """Points of a sweep as ``plan`` yields them, faster for bearings with estimated contacts.
 
     Rules between inputs, such as that a bore is less than the inner raceway, are checked where all quantities
     of a group have their least or largest values: rules that hold there hold between them. A group is planned

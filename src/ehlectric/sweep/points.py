@@ -67,7 +67,7 @@ class Point:
         >>> Point(0, {}, "solved", summary=warned).doubtful
         True
         """
-        # A text may tell that a code of a later version is severe.
+        # A text may state that a code of a later version is severe.
         codes = (self.summary or {}).get(CODES_OF_TEXTS, ())
         return (
             self.solved
@@ -194,7 +194,7 @@ _PLAIN = frozenset({float, int, str, bool})
 
 
 def kinds_of(column: Sequence[Any]) -> set[type]:
-    """Types of the values of a column; that of NumPy's floats is float.
+    """Types of the values of a column; the type of NumPy's floats is float.
 
     Examples
     --------

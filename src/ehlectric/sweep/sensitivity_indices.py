@@ -233,7 +233,7 @@ def _bounds(samples: Array, failed: int, q: float) -> tuple[float | None, float 
 
 def indices(a: Array, b: Array, mixed: Array) -> tuple[Array, Array]:
     """First-order and total sensitivity indices of all inputs. ``a`` and ``b``, values at the rows of A and
-    of B, shape (n,); ``mixed``, values at the rows of A with one column replaced by that of B, for each
+    of B, shape (n,); ``mixed``, values at the rows of A with one column replaced by the column of B, for each
     input, shape (inputs, n). Returns indices of the inputs; NaN where the value does not vary,
     shape (inputs,).
 
@@ -255,7 +255,7 @@ def intervals(a: Array, b: Array, mixed: Array, *, resamples: int, seed: int) ->
     """Bootstrap confidence intervals of the sensitivity indices, at the level of 95 %.
 
     ``a`` and ``b``, values at the rows of A and of B, shape (n,); ``mixed``, values at the rows of A with one
-    column replaced by that of B, for each input, shape (inputs, n). Returns lower and upper ends of the
+    column replaced by the column of B, for each input, shape (inputs, n). Returns lower and upper ends of the
     intervals: row 0 of the first-order indices, row 1 of the total indices, shape (2, inputs).
     """
     columns = _columns(a, b, mixed)

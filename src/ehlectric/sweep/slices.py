@@ -247,7 +247,7 @@ _LONGEST_WHOLE = 300
 
 @dataclass(frozen=True)
 class Slice:
-    """Slice of a sweep: the points with fixed values of all but one or two varied keys."""
+    """Slice of a sweep: the points with fixed values of all except one or two varied keys."""
 
     x: str  # varied key along the horizontal axis
     y: str | None  # second varied key, if any
@@ -332,8 +332,8 @@ def select_slice(
     results: SweepResults, x: str, y: str | None, value: str, at: Mapping[str, str] | None = None
 ) -> Slice:
     """Select a slice of a sweep over one or two varied keys. ``y``, second varied key, if any. Returns points
-    of the slice, in the order of the design; varied keys with a single value are fixed too. Raises InputError
-    if a key does not vary, or the values of ``x`` are not numbers.
+    of the slice, in the order of the design; varied keys with a single value are also fixed. Raises
+    InputError if a key does not vary, or the values of ``x`` are not numbers.
     """
     for name, key in (("x", x), ("y", y)):
         if key is not None and key not in results.varied:
@@ -396,7 +396,7 @@ def _slice(
     """Slice of the points with some numbers."""
     (x, y), rows = keys, list(chosen)
     points = tuple(results.points[k] for k in rows)
-    # Values of points with a severe warning are left out of figures.
+    # Values of points with a severe warning are not drawn in figures.
     usable = np.where([point.doubtful for point in points], np.nan, 1.0)
     numbers = results.numbers.get(value, [None] * len(results.points))
     breakdown = breakdown_of(results.case, value)

@@ -83,8 +83,8 @@ def _check(name: str, *, right: bool) -> None:
 
 
 def check_seals(file: sqlite3.Connection) -> None:
-    """Check that outcomes are those that were written; those of earlier versions have no checksum. Raises
-    UnfitError where an outcome has changed.
+    """Check that outcomes are unchanged since they were written; outcomes of earlier versions have no
+    checksum. Raises UnfitError where an outcome has changed.
     """
     if not file.execute(
         "SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = ?", (_SEALS,)
@@ -97,7 +97,7 @@ def check_seals(file: sqlite3.Connection) -> None:
 
 
 def check_results(file: sqlite3.Connection) -> None:
-    """Check all stored outcomes, also those of other sweeps in the same folder. Raises UnfitError where an
+    """Check all stored outcomes, also of other sweeps in the same folder. Raises UnfitError where an
     outcome is not as it was written.
     """
     rows = file.execute("SELECT key, again, date, status, reason, seconds, version, summary FROM results")
@@ -224,9 +224,9 @@ def _settings(rows: Sequence[tuple[Any, Any]]) -> dict[str, Any]:
 
 
 def _check_design(results: SweepResults) -> None:
-    """Check that the points are those of the design.
+    """Check that the points are the points of the design.
 
-    Those of a Sobol design are not computed again, as other versions may draw others.
+    Points of a Sobol design are not computed again, as other versions may draw others.
     """
     axes, ranges, points = results.axes, results.ranges, results.points
     sobol = results.design == "sobol"
@@ -279,7 +279,7 @@ def _parsed(rows: Sequence[tuple[Any, ...]]) -> Iterator[tuple[Any, Any]]:
         except (RecursionError, TypeError, ValueError):
             values = ()
         if len(values) != len(texts):
-            # One of them is no JSON: alone, it is named.
+            # One of them is no JSON: read one by one, it is named.
             values = [_json(text, f"point {some[k // 2][0]}") for k, text in enumerate(texts)]
         yield from zip(values[::2], values[1::2], strict=True)
 
@@ -402,7 +402,7 @@ class Store(Journal):
         super().__init__(folder / NAME, _FORM, _check_stored)
 
     def begin(self, sweep: Sweep, planned: Iterable[Planned]) -> None:
-        """Replace the stored input and points by those of a sweep; stored outcomes are kept."""
+        """Replace the stored input and points by another sweep's; stored outcomes are kept."""
         settings = {
             "case": sweep.case.toml_text(),
             _LAWS: None if (laws := _law_values(sweep.case)) is None else laws.stored(),

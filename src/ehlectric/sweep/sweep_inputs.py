@@ -90,7 +90,7 @@ def _check_drive(key: str, case: DriveCase, varied: Collection[str]) -> None:
 
 
 def _nearest(key: str) -> str:
-    """Key of a drive that is nearest to a key of another kind of file; one of a bearing is that of both."""
+    """Key of a drive that is nearest to a key of another kind of file; a key of a bearing stands for both."""
     if key.partition(".")[0] not in BearingCase.known_keys():
         return nearest_key(key, DriveCase)
     return any_of([key_of_drive(meaning) for meaning in meant(key, BearingCase)])
@@ -133,12 +133,12 @@ class Breakdown:
 
 CONTACT, FIRST_BREAK, THROUGH = (Breakdown(**BREAKDOWNS[name]) for name in ("contact", "first", "through"))
 
-# With a coating on a ring, the breakdown voltages beside the shaft voltage are those of the shaft.
+# With a coating on a ring, the breakdown voltages next to the shaft voltage are voltages of the shaft.
 _COATED_FIRST = replace(FIRST_BREAK, value="bearing.shaft_first_break")
 _COATED_THROUGH = replace(THROUGH, value="bearing.shaft_through_breakdown")
 
 
-# Of a drive no applied voltage stands beside the breakdown voltage of a film.
+# For a drive no applied voltage stands next to the breakdown voltage of a film.
 _NONE = Breakdown("", "", "")
 
 
@@ -492,7 +492,7 @@ def check_user_laws(sweep: Sweep) -> None:
 
 
 def _with_case(table: Mapping[str, Any], *, written: bool) -> Mapping[str, Any]:
-    """Tables of a sweep with its base case in place of the tables or the file of the case."""
+    """Tables of a sweep with its base case instead of the tables or the file of the case."""
     case = table.get("case")
     try:
         if isinstance(case, str | Path):

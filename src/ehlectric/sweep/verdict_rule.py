@@ -38,7 +38,7 @@ def sweep_verdict(results: SweepPoints) -> Verdict | None:
     Returns green where no margin is below 1, red where all are, else yellow; it is not green where points
     have no margin: they are not solved or must not be used, or their surfaces touch. It is not red if
     points are not solved or must not be used: their margins may lie on the other side. Nor is it green where
-    the margin of a contact is that of a boundary film, as its asperities touch. Nor is it green or red where
+    the margin of a contact belongs to a boundary film, as its asperities touch. Nor is it green or red where
     the margin of a point may lie on the other side of 1, by the accuracy of films that are not solved, by its
     warnings, or at a strength that differs by 20 %. Without any margin it is red where the surfaces touch at
     all points of a bearing with a motor, yellow where they touch at some or without a motor, and None where
@@ -153,7 +153,7 @@ def _film_error(point: Point, case: SweptCase) -> float:
 
 
 def _over_summits(point: Point, case: SweptCase) -> float:
-    """Relative change of a margin over that of all films, of a small one: more than 1 under summits."""
+    """Relative change of a margin divided by a small change of all films: more than 1 under summits."""
     if not isinstance(case, BearingCase):
         return 1.0
     height = point.inputs.get("bearing.summit_height", case.bearing.summit_height)

@@ -52,7 +52,7 @@ def _kinds(solved: Sequence[Point]) -> Iterator[ResultWarning]:
 
 
 def sensitivity_warnings(sensitivity: Sensitivity) -> Iterator[ResultWarning]:
-    """Warnings about rows that sensitivity indices leave out, and about wide confidence intervals."""
+    """Warnings about rows that sensitivity indices skip, and about wide confidence intervals."""
     if sensitivity.dropped:
         yield ResultWarning.of("rows-dropped", dropped=sensitivity.dropped, rows=sensitivity.rows)
     if sensitivity.doubtful:

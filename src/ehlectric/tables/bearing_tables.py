@@ -62,7 +62,7 @@ def total_rows(summary: Summary) -> list[Row]:
 
 
 def check_rows(summary: Summary, words: RowTexts | None = None) -> list[Row]:
-    """Rows of a bearing whose contacts are not solved, with further words beside its numbers."""
+    """Rows of a bearing whose contacts are not solved, with further words next to its numbers."""
     bounds = bearing_bounds(BEARING_BOOK, summary)
     rows = sheet_rows(BEARING_CHECK, BEARING_BOOK, summary, _WORDS | (words or RowTexts()), bounds)
     return list(placed_rows(rows, summary))

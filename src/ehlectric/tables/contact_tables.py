@@ -39,7 +39,7 @@ _LEAST_ERROR = 1e-4
 def case_rows(case: Case, summary: Summary) -> list[Row]:
     """Rows of a contact before it is solved: its conditions, dry contact, and film thicknesses by formulas.
 
-    ``summary`` is that of ``contact.summary.case_summary``.
+    ``summary`` is the result of ``contact.summary.case_summary``.
     """
     words = _WORDS | RowTexts(
         values={"grid.film": lambda _: _grid(case), "field.voltage": lambda _: case.electric.voltage},
@@ -165,7 +165,7 @@ def _iterations(summary: Summary) -> str:
 
 
 def _meniscus(summary: Summary) -> str | None:
-    """Where oil fills the gap; None without a supply of oil."""
+    """Region where oil fills the gap; None without a supply of oil."""
     film = summary["film"]
     if "oil_layer" not in film:
         return None
@@ -175,7 +175,7 @@ def _meniscus(summary: Summary) -> str | None:
 
 
 def _change(name: str) -> Callable[[Summary], str]:
-    """Note with the effect of heat and shear on a film, over the isothermal, Newtonian one."""
+    """Note with the effect of heat and shear on a film, divided by the isothermal, Newtonian film."""
 
     def note(summary: Summary) -> str:
         film = summary["film"]
@@ -195,7 +195,7 @@ def _constants(case: object) -> str:
     """Note with the constants of the rheology of a case."""
     if not isinstance(case, Case) or case.film is None:
         return ""
-    # Units of keys are those of the tables of all kinds of files, which take longer to load than to print.
+    # Units of keys come from the tables of all kinds of files, which take longer to load than to print.
     from ehlectric.cases.input_keys import unit_of
 
     given = case.film.constants(case.lubricant).items()
@@ -376,7 +376,7 @@ def _limits(summary: Summary) -> str:
 
 
 def _formula_rows(key: str) -> Callable[[Summary], Iterator[Row]]:
-    """Rows of a film thickness by each formula that gives it, beside the solved one."""
+    """Rows of a film thickness by each formula that gives it, next to the solved one."""
 
     def rows(summary: Summary) -> Iterator[Row]:
         about = CONTACT_BOOK[_geometry(summary)][f"film_formulas.*.{key}"]
@@ -397,7 +397,7 @@ def _range_note(summary: Summary, name: str, key: str) -> str:
 
 
 def _difference_note(summary: Summary, key: str, value: float) -> str:
-    """Note with the difference of a film by formula from the solved one, or from that of smooth surfaces.
+    """Note with the difference of a formula film from the solved film, or from the film of smooth surfaces.
 
     Where surfaces touch, the minimum film is the boundary film, and the centre may lie in a spot.
     """

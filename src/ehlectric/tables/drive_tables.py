@@ -42,7 +42,7 @@ _HEAD = 11
 
 
 def prepared_rows(summary: Summary) -> list[Row]:
-    """Rows of a drive that is not simulated; ``summary`` is that of ``drive.summary.checked_summary``."""
+    """Rows of a drive that is not simulated; ``summary`` comes from ``drive.summary.checked_summary``."""
     return _rows(DRIVE_CHECK, summary)
 
 
@@ -61,7 +61,7 @@ def _rows(sheet: Sheet, summary: Summary) -> list[Row]:
 
 
 def whole_rows(summary: Summary, sheet: Sheet = DRIVE) -> Iterator[Row]:
-    """Rows of a sheet that are not those of a bearing."""
+    """Rows of a sheet that do not belong to a bearing."""
     return sheet_rows(
         _part(sheet, ends=False), DRIVE_BOOK, summary, _WORDS, drive_bounds(DRIVE_BOOK, summary)
     )
@@ -209,7 +209,7 @@ def _duty_range(name: str) -> Callable[[Summary], Any]:
 
 
 def _stretches(summary: Summary) -> Iterator[Row]:
-    """Rows of the worst stretches of a duty cycle, that with the most discharges first."""
+    """Rows of the worst stretches of a duty cycle, the stretch with the most discharges first."""
     about = DRIVE_BOOK[key := "duty.stretches.discharges"]
     for place, stretch in enumerate((summary.get("duty") or {}).get("stretches", ())):
         yield Row(

@@ -1,4 +1,4 @@
-"""Tables of the terminal made from rows of data, and those of a measurement beside computed values."""
+"""Tables of the terminal made from rows of data, and tables of a measurement next to computed values."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def table_of(rows: Iterable[Row], title: str = "") -> Table:
-    """Table of rows for the terminal: names, and beside them values with units and notes. Returns two
+    """Table of rows for the terminal: names, and next to them values with units and notes. Returns two
     columns, both aligned to the left; values in their shown units.
     """
     from rich.table import Table
@@ -88,7 +88,7 @@ _PRINTED = 30
 
 
 def measured_tables(outcome: RunOutcome[Any]) -> Iterator[Table]:
-    """Tables of the film factors beside a result; none without a measurement."""
+    """Tables of the film factors for a result; none without a measurement."""
     for factors in outcome.further_results:
         if isinstance(factors, FilmFactors):
             yield rows_table(factors)

@@ -33,7 +33,7 @@ def run_rows(summary: Summary) -> list[Row]:
 
 
 def _meniscus(half_width: float, summary: Summary) -> str | None:
-    """Where oil fills the gap before the motion and over time; None without a layer of oil."""
+    """Region where oil fills the gap before the motion and over time; None without a layer of oil."""
     film = summary["film"]
     if "oil_layer" not in film:
         return None
@@ -50,7 +50,7 @@ def _touches(summary: Summary) -> bool:
 
 
 def _time(key: str, *, boundary: bool = False) -> Callable[[Summary], str]:
-    """Note with a time of a summary, and that a value in a spot is that of the boundary film."""
+    """Note with a time of a summary, and that a value in a spot belongs to the boundary film."""
 
     def note(summary: Summary) -> str:
         time = value_at(summary, key)

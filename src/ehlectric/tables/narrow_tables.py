@@ -90,7 +90,7 @@ def _indent(label: str) -> int:
 
 
 def _narrow(table: Table, rows: Sequence[_Row], width: int) -> Group:
-    """Labels beside values, or above them where both do not fit; headings take the whole width."""
+    """Labels next to values, or above them where both do not fit; headings take the whole width."""
     # The text of a value before its first comma is a number with its unit.
     numbers = [value.partition(",")[0] for _, value, _ in rows]
     words = [word for _, value, _ in rows for word in value.split()]

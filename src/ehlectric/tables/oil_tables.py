@@ -93,7 +93,9 @@ def heading(report: OilReport) -> str:
 
 
 def values_table(report: OilReport) -> Table:
-    """Table of the values of an oil: properties and pressures below each other, temperatures beside."""
+    """Table of the values of an oil: properties and pressures below each other, temperatures next to each
+    other.
+    """
     heads = ["", *(celsius(kelvin) or "as given" for kelvin in report.temperatures)]
     rows = []
     for line in _shown(report):
@@ -103,13 +105,13 @@ def values_table(report: OilReport) -> Table:
 
 
 def _shown(report: OilReport) -> Iterator[SurveyLine]:
-    """Lines of a report without those at pressure that are missing at ambient pressure already."""
+    """Lines of a report without lines at pressure that are missing at ambient pressure already."""
     gone = {line.of.name for line in report.lines if line.pressure == 0.0 and line.missing}
     yield from (line for line in report.lines if line.pressure == 0.0 or line.of.name not in gone)
 
 
 def _name(line: SurveyLine) -> str:
-    """Name of a line; lines at pressure stand indented below that at ambient pressure."""
+    """Name of a line; lines at pressure stand indented below the line at ambient pressure."""
     if line.pressure == 0.0:
         return line.of.title
     at = f"at {line.pressure / 1e9:g} GPa"

@@ -72,7 +72,7 @@ def ring_figure(panel: Panel, *, radial: bool) -> Plot:
 
 @dataclass(frozen=True)
 class OverSpeed:
-    """Bearing over its speed: quick points, the bearing itself, and curves scaled to it."""
+    """Bearing over its speed: estimated points, the bearing itself, and curves scaled to it."""
 
     points: Speeds
     at_case: Speed
@@ -129,7 +129,7 @@ def speed_rows(over: OverSpeed) -> list[tuple[str, ...]]:
 
 
 def _state(lambda_ratio: float, quick: str, summit_height: float) -> str:
-    """State of lubrication at a scaled lambda ratio; ``quick`` is that of the quick ratio."""
+    """State of lubrication at a scaled lambda ratio; ``quick`` is the state at the estimated ratio."""
     if not math.isfinite(lambda_ratio):
         return quick
     if touches(lambda_ratio, summit_height) and quick != "touching":

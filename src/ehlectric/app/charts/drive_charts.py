@@ -36,7 +36,7 @@ _LISTED = 400
 # Least share of time that is drawn, over the largest one.
 _LEAST = 1e-6
 
-# Heights of figures, of those of discharges, of a row of the remedies, and of what surrounds the rows [px].
+# Heights of figures, of figures of discharges, of a row of the remedies, and of what surrounds the rows [px].
 _HEIGHT, _DISCHARGES_HEIGHT, _ROW, _REST = 380, 300, 62, 110
 
 # Number of the largest lines of the spectrum in its table.
@@ -58,7 +58,7 @@ _OFFSETS, _SYMBOLS = (-0.22, 0.22, 0.0), ("circle", "square", "diamond")
 
 
 def drive_figures(result: DriveResult) -> dict[str, Figure]:
-    """Figures of a simulated drive; those with nothing to show are left out."""
+    """Figures of a simulated drive; figures with nothing to show are omitted."""
     figures = {}
     if len(result.solution.record.trace) > 1:
         figures["voltages"] = voltages_figure(result)

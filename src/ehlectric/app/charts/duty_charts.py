@@ -38,7 +38,7 @@ def cycle_plot(along: Along, panels: Iterable[Panel]) -> Plot:
 
 
 def _named_once(panels: Iterable[Panel]) -> Iterator[Panel]:
-    """Panels of which only the first names its bands, which are those of all."""
+    """Panels with common bands, which only the first panel names."""
     for number, panel in enumerate(panels):
         areas = [replace(area, name="" if number else area.name) for area in panel.areas]
         yield replace(panel, areas=areas)

@@ -73,7 +73,7 @@ def main_numbers(result: Result | PointResult) -> str:
     )
 
 
-# Sentence on a scale of the field that leaves the spots out.
+# Sentence on a scale of the field that excludes the spots.
 BEYOND = "The scale of the field ends below the field in the spots."
 
 # Largest number of marks of spots on a map.
@@ -216,7 +216,7 @@ def _section(result: Result) -> Figure:
 
 
 def _rows(z: Array, walls: Array, strength: Array) -> Array:
-    """Values at heights z in every column, (rows, columns); nan in the bodies, but for a row at the walls."""
+    """Values at heights z in every column, (rows, columns); nan in the bodies, except a row at the walls."""
     step = float(z[1] - z[0])
     rows = np.full((z.size, walls.shape[0]), np.nan)
     for k, (heights, along) in enumerate(zip(walls, strength, strict=True)):

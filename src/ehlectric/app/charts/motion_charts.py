@@ -141,7 +141,7 @@ def _stationary(run: MotionRun, of: Mapping[str, Unit]) -> list[Plot]:
 
 
 def instants(run: MotionRun) -> IntArray:
-    """Recorded instants that the movie shows: with those of the thinnest film and of the largest field."""
+    """Recorded instants that the movie shows, with the thinnest film and with the largest field."""
     most = MOST_INSTANTS if run.kind.name == "line" else MOST_INSTANTS_OF_MAPS
     always = int(np.argmin(least_films(run))), int(np.argmax(run.values("max_strength")))
     return kept_nodes(run.frames, most, always)
@@ -185,7 +185,7 @@ def movie(run: MotionRun, chosen: IntArray) -> Plot:
     """Figure of the first chosen instant, with a frame for every one.
 
     A line contact shows film, pressure and field over x, a point contact the map of its film. Values are
-    those of motion.nc at every n-th node. The minimum film and the maximum field are marked where they are,
+    taken from motion.nc at every n-th node. The minimum film and the maximum field are marked where they are,
     also between these nodes.
     """
     make = _line_movie if run.kind.name == "line" else _map_movie

@@ -82,7 +82,7 @@ Indices = NDArray[np.intp]
 def plot(data: Iterable[Mapping[str, Any]], *, height: int, converged: bool = True, **layout: Any) -> Plot:
     """Figure of Plotly with the look of the app: data, layout and config. ``height`` is in pixels.
 
-    Where the result did not converge, words across the figure say so. Texts have no colours: the styles of
+    Where the result did not converge, words across the figure state it. Texts have no colours: the styles of
     the page set them, in light and dark.
     """
     whole: Plot = {
@@ -162,8 +162,8 @@ def scatter(
 ) -> Plot:
     """Trace over positions: a line where it has the key ``line``, else markers.
 
-    ``digits`` are those of x and y, ``hover`` is the text at the pointer with a ``label`` next to it, and
-    ``more`` are further keys. The positions of a polar trace are angles [deg] and radii.
+    ``digits`` are the digits of x and y, ``hover`` is the text at the pointer with a ``label`` next to it,
+    and ``more`` are further keys. The positions of a polar trace are angles [deg] and radii.
     """
     first, second = ("theta", "r") if polar else ("x", "y")
     return {
@@ -283,7 +283,7 @@ def coarser(heights: Array, most: int = MOST_PIXELS) -> tuple[Array, tuple[int, 
 def stack(along: Along, panels: Sequence[Panel], *, converged: bool = True, **more: Any) -> Plot:
     """Figure with at most four panels, in which the pointer shows the values of all of them at one position.
 
-    Of a result that did not converge, all curves are grey, and words across the figure say so; ``more`` are
+    Of a result that did not converge, all curves are grey, and words across the figure state it; ``more`` are
     further keys of the layout.
     """
     layout: dict[str, Any] = {

@@ -241,7 +241,7 @@ class _Map:
     limits: tuple[float, float]
     colours: Any
     mark: tuple[float, float]
-    # Legend of the marked extreme; empty for a map of spots, which are marked in its place.
+    # Legend of the marked extreme; empty for a map of spots, which are marked instead.
     marked: str
     caption: str = ""
 

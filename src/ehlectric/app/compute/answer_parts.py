@@ -29,7 +29,7 @@ UNUSABLE = "not converged: do not use this value"
 
 
 def cards(rows: Iterable[Row], keys: Mapping[str, Iterable[str]]) -> list[Number]:
-    """Numbers of some keys, in the order of the keys; those that no row has are left out.
+    """Numbers of some keys, in the order of the keys; keys that no row has are skipped.
 
     Each has in its note the quantities that stand small below it, the values of ``keys``. A key of the form
     "film_formulas.*.minimum_thickness" takes the first row of this form.
@@ -64,12 +64,13 @@ def card(row: Row) -> Number:
 
 
 def unknown(key: str, about: Quantity, text: str, reason: str = "") -> Number:
-    """Number without a value, with the label of its quantity and a text in place of the value."""
+    """Number without a value, with the label of its quantity and a text instead of the value."""
     return replace(card(row_of(key, about, text, reason)), known=False)
 
 
 def concerned(key: str) -> str:
-    """Key under which warnings name a quantity: that of a film or a voltage by formula is the solved one.
+    """Key under which warnings name a quantity: for a film or a voltage from a formula, the key of the solved
+    one.
 
     Examples
     --------
@@ -90,7 +91,7 @@ def with_warnings(numbers: Iterable[Number], warnings: Sequence[PageWarning]) ->
 
 
 def gauge_text(margin: float, facts: Iterable[tuple[str, str]]) -> str:
-    """Sentence about a gauge of a margin for those who do not see it, with names and values beside it.
+    """Sentence about a gauge of a margin for those who do not see it, with names and values next to it.
 
     Examples
     --------
@@ -112,7 +113,7 @@ Change = Callable[[str, str], str]
 
 
 def case_of(table: Mapping[str, Any], folder: Path | None = None) -> AnyCase:
-    """Case of a bearing or of a contact from the tables of a page; ``drive_of`` takes those of a drive.
+    """Case of a bearing or of a contact from the tables of a page; ``drive_of`` takes the tables of a drive.
     Raises InputError if the tables are no valid case, or name another file.
     """
     if kind_of(table) == "drive":
@@ -128,7 +129,7 @@ def drive_of(table: Mapping[str, Any], folder: Path | None = None) -> DriveCase:
 
 
 def run_case_of(table: Mapping[str, Any], folder: Path | None = None) -> AnyCase | DriveCase:
-    """Case of any kind but a sweep from the tables of a page; see ``case_of``."""
+    """Case of any kind except a sweep from the tables of a page; see ``case_of``."""
     return drive_of(table, folder) if kind_of(table) == "drive" else case_of(table, folder)
 
 

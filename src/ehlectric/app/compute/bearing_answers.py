@@ -107,7 +107,7 @@ def _cells(effect: Mapping[str, Any], bound: str) -> Iterator[str]:
         yield value
 
 
-# Warnings of voltages that are bounds, which stand beside no number that is missing.
+# Warnings of voltages that are bounds, which do not belong next to missing numbers.
 _BOUNDS = ("isothermal-film", "smooth-film")
 
 
@@ -175,8 +175,8 @@ def _no_shaft(summary: Mapping[str, Any]) -> str:
     return "the surfaces touch" if "motor" in summary["inputs"] else "no motor is given"
 
 
-# Interval of the margin and probability of breakdown, and codes of statements and of a warning that the
-# margin with these says, too.
+# Interval of the margin and probability of breakdown, and codes of statements and of a warning that
+# the margin with these also states.
 _WITHIN = ("uncertainty.margin_range", "uncertainty.breakdown_probability")
 _SAID = (
     "bearing-voltages",
@@ -287,8 +287,8 @@ def without_cycle(table: Mapping[str, Any], session: Path | None) -> BearingCase
 def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> BearingAnswer:
     """Answer about a bearing without solving its contacts, and without what depends on other inputs.
 
-    Contacts are by formula where the tables say so, and otherwise from the atlas of films. A duty cycle has
-    an answer of its own, ``duty_answer``.
+    Contacts are from formulas if the tables request them, and otherwise from the atlas of films. A duty cycle
+    has an answer of its own, ``duty_answer``.
 
     Raises InputError if the tables are no valid case, or neither the atlas nor a formula describes its films.
     """
@@ -308,7 +308,7 @@ def whole_quick_answer(table: Mapping[str, Any], session: Path | None = None) ->
 
 
 def duty_answer(table: Mapping[str, Any], session: Path | None = None) -> DutyAnswer:
-    """Answer about the duty cycle of a bearing, which takes some seconds.
+    """Answer about the duty cycle of a bearing, which takes several seconds.
 
     Raises InputError if the tables are no valid case or name no cycle, or its file cannot be used.
     """
@@ -324,7 +324,7 @@ def duty_answer(table: Mapping[str, Any], session: Path | None = None) -> DutyAn
 def solve_contacts(
     table: Mapping[str, Any], session: Path, folder: Path, progress: Progress
 ) -> BearingAnswer:
-    """Whole answer about a bearing with solved contacts, by the same run as that of the command. Raises
+    """Whole answer about a bearing with solved contacts, by the run that the command uses. Raises
     InputError if the tables are no valid case, or the bearing cannot be solved; LostError where the process
     of a contact was killed four times.
     """
@@ -352,9 +352,9 @@ def _changes(case: BearingCase, solved: Mapping[str, Any]) -> tuple[Difference, 
 
 
 def solved_quickly(case: BearingCase) -> BearingResult:
-    """Bearing with contacts by formula where its case says so, and otherwise from the atlas of films.
+    """Bearing with contacts from formulas if its case requests them, and otherwise from the atlas of films.
 
-    Heat that would be solved, in many seconds, is that of a formula.
+    Heat that would be solved, in many seconds, is taken from a formula.
     """
     changed = heat_by_formula(case).replace({"contacts": quick_way(case.contacts)})
     return _solved(key_of(changed, without_effect=()))
@@ -463,7 +463,7 @@ def _figures(result: BearingResult, summary: Mapping[str, Any]) -> dict[str, Fig
 
 
 def _gaps(result: BearingResult) -> str:
-    """Sentence about contacts without load, which have a gap in place of a film."""
+    """Sentence about contacts without load, which have a gap instead of a film."""
     gaps = {name: largest_gap(result, name) for name in ("inner", "outer")}
     texts = [f"{name} ring up to {amount(gap, 'm')}" for name, gap in gaps.items() if gap is not None]
     if not texts:

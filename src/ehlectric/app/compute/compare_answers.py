@@ -25,8 +25,8 @@ from ehlectric.tables.bearing_tables import check_rows
 
 
 def side(table: Mapping[str, Any], folder: Path | None = None, *, whole: bool = False) -> Side:
-    """Answer about one case; that of a bearing is ``whole`` with what depends on further solutions. Raises
-    InputError if the tables are no valid case, or neither the atlas nor a formula describes its films.
+    """Answer about one case; the answer of a bearing is ``whole`` with what depends on further solutions.
+    Raises InputError if the tables are no valid case, or neither the atlas nor a formula describes its films.
     """
     case = case_of(table, folder)
     return _bearing(case, whole=whole) if isinstance(case, BearingCase) else _contact(case)
@@ -103,7 +103,7 @@ def _over_speed(case: BearingCase, summary: Mapping[str, Any]) -> Iterator[OverS
 
 
 def _outcomes_first(rows: Iterable[Row]) -> list[Row]:
-    """Rows of a contact, with those of the breakdown under a heading of their own before the inputs."""
+    """Rows of a contact, with the rows of the breakdown under their own heading before the inputs."""
     rows = list(rows)
     broken = [row for row in rows if row.key.startswith("breakdown_by_formula.")]
     others = [row for row in rows if row not in broken]

@@ -1,4 +1,4 @@
-"""Answers about one contact: at once by formula, and solved as the command solves it."""
+"""Answers about one contact: at once from formulas, and solved as the command solves it."""
 
 from __future__ import annotations
 
@@ -65,8 +65,8 @@ def contact_case(table: Mapping[str, Any], session: Path | str | None = None) ->
 
 
 def quick_answer(table: Mapping[str, Any], session: Path | str | None = None) -> ContactAnswer:
-    """Answer about a contact: solved, without files, where that takes a fraction of a second, and by formula
-    otherwise. Raises InputError if the tables are no valid case of a contact.
+    """Answer about a contact: solved, without files, where that takes a fraction of a second, and from
+    formulas otherwise. Raises InputError if the tables are no valid case of a contact.
     """
     case = contact_case(table, session)
     if not _is_quick(case):
@@ -114,7 +114,7 @@ _TEXTS = data_file("ehlectric.app", "page_texts.toml")["contact"]
 def verdict_by_formula(
     case: Case, estimate: Mapping[str, Any] | None, warnings: Iterable[ResultWarning]
 ) -> Verdict:
-    """Verdict by formula, within the errors of film and strength."""
+    """Verdict from formulas, within the errors of film and strength."""
     if estimate is None:
         given = case.discharge is not None and case.discharge.has_strength
         return no_verdict(Statement.of("not-by-formula"), code=_BEFORE_SOLVING) if given else _NO_STRENGTH
@@ -231,7 +231,7 @@ _SAID = ("contact-voltages", "formula-voltages", "breakdown-expected")
 
 
 def deciding(key: str, verdict: Verdict, voltage: float, figure: str = "") -> Deciding:
-    """Number of a key, the margin where the verdict has one, with the voltage [V] and the interval of a
+    """Number of a key, the margin if there is one in the verdict, with the voltage [V] and the interval of a
     margin: its film may be off, and the strength may differ by 20 %.
     """
     if verdict.margin is None or verdict.interval is None:

@@ -75,7 +75,7 @@ def drive_numbers(summary: Summary, sheet: Sheet, warnings: tuple[PageWarning, .
 
 
 def merged(warnings: Iterable[PageWarning]) -> tuple[PageWarning, ...]:
-    """Warnings of which those of one code, as of both bearings, are one with both texts."""
+    """Warnings, where warnings with one code, as of both bearings, are joined with both texts."""
     by_code: dict[str, PageWarning] = {}
     for warning in warnings:
         before = by_code.get(warning.code)
@@ -136,8 +136,8 @@ def deciding_rate(summary: Summary, figures: Mapping[str, Any]) -> Deciding:
 
 
 def _of_ends(key: str, pairs: Mapping[str, Pair]) -> Number:
-    """Number of both bearings: that of the drive end, or of rates that of the worse one, and the other one in
-    its note where it differs.
+    """Number to show for both bearings: for rates the larger value, otherwise the drive end; the other value
+    is in its note where it differs.
     """
     places = [*NAMES_OF_ENDS.values()]
     order = slice(None, None, -1) if key == _RATE and _worse(pairs) else slice(None)
@@ -158,7 +158,7 @@ def _of_ends(key: str, pairs: Mapping[str, Pair]) -> Number:
 
 
 def _texts(row: Row | None, others: Iterable[Row | None]) -> Iterator[str]:
-    """Note of a row, and the quantities beside it."""
+    """Note of a row, and the quantities next to it."""
     if row is not None and row.note:
         yield row.note.strip(" ,")
     yield from (f"{other.name}: {other.amount}" for other in others if other is not None)
@@ -174,12 +174,12 @@ _SOLVING = "solving the contacts of both bearings, then simulating"
 
 
 def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> DriveAnswer:
-    """Answer about a drive without a simulation, with contacts from the atlas or by formula. Raises
+    """Answer about a drive without a simulation, with contacts from the atlas or from formulas. Raises
     InputError if the tables are no valid drive, or its films have to be solved.
     """
     # The simulation has the duty cycle, whose file this session may lack.
     case = drive_of({key: value for key, value in table.items() if key != "duty"}, session)
-    # A wrong remedy is told as it is by the command.
+    # A wrong remedy is refused as by the command.
     case.variants()
     quick, key = quick_drive(case)
     if quick is None:
@@ -213,7 +213,7 @@ def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> Drive
 
 
 def simulate(table: Mapping[str, Any], session: Path, folder: Path, progress: Progress) -> DriveAnswer:
-    """Answer about a drive and its remedies over time, by the same run as that of the command. Raises
+    """Answer about a drive and its remedies over time, by the run that the command uses. Raises
     InputError if the tables are no valid drive, or it cannot be simulated; LostError where the process of a
     contact was killed four times.
     """

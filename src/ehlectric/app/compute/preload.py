@@ -8,8 +8,8 @@ from importlib import import_module
 from ehlectric.app.compute.bearing_answers import quick_answer
 from ehlectric.runs.example_files import example_text
 
-# Functions of the other pages; that of drives loads a compiler, in a quarter of a second, and the others take
-# less than a tenth of a second each.
+# Functions of the other pages; the function of drives loads a compiler, in a quarter of a second, and the
+# others take less than a tenth of a second each.
 for name in (
     "drive_answers",
     "answer_parts",

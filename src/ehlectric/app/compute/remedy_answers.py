@@ -1,4 +1,4 @@
-"""Answers about a bearing beside that with a remedy of its drive."""
+"""Answers about a bearing without and with a remedy of its drive."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from ehlectric.quantities.sheets import REMEDIED
 from ehlectric.quantities.verdict import Verdict
 from ehlectric.tables.bearing_tables import total_rows
 
-# Text in place of a number that one of both has not.
+# Text instead of a number that one of both does not have.
 _NONE = "–"
 
 # Voltages on the shaft, and those on the films, to which they are equal without a coating.

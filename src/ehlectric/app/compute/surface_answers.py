@@ -99,7 +99,7 @@ def _length(length: float) -> str:
     return f"{readable(factor * length)} {unit}"
 
 
-# Memory that the reading and the processing of a surface may take beyond that of the process [bytes].
+# Memory that the reading and the processing of a surface may take beyond the memory of the process [bytes].
 _MEMORY = 3e9
 
 # Points of an exact shape that are drawn, along a line and along the sides of a map.
@@ -265,7 +265,7 @@ def _bounded_memory() -> Iterator[None]:
         resource: Any = import_module("resource")
         used = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
     except (ImportError, OSError):
-        # Only Linux tells the size of a process in this way; elsewhere the readers' own bounds hold.
+        # Only Linux reports the size of a process in this way; elsewhere the readers' own bounds hold.
         yield
         return
     soft, hard = resource.getrlimit(resource.RLIMIT_AS)

@@ -82,7 +82,7 @@ from ehlectric.tables.sweep_summary import grouped_reasons
 # Number of points whose summaries say what may be shown.
 _SAMPLE = 50
 
-# Most warnings of a point that a map tells when the pointer is on it.
+# Most warnings of a point that a map shows when the pointer is on it.
 _MOST_WARNINGS = 3
 
 
@@ -202,7 +202,7 @@ def _accuracy(results: SweepResults) -> str:
 
 
 def _values(results: SweepResults) -> dict[str, str]:
-    """Names of the numbers that points have; those without a name are no results to look at."""
+    """Names of the numbers that points have; numbers without a name are no results to look at."""
     documented = result_keys(results.case)
     some = replace(results, points=tuple(point for point in results.points if point.solved)[:_SAMPLE])
     entries = {key: key_of(documented, key) for key in known_values(some) if not key.startswith("inputs.")}
@@ -386,14 +386,14 @@ def _by_key(table: Mapping[str, Any], case: DriveCase) -> dict[str, Any]:
 
 
 def _drive_fields() -> dict[str, Field]:
-    """Fields of a drive by key, with those of both bearings."""
+    """Fields of a drive by key, with the fields of both bearings."""
     both = (replace(field, key=f"{BOTH}.{field.key}") for group in BEARING_GROUPS for field in group.fields)
     fields = (field for group in DRIVE_GROUPS for field in group.fields)
     return {field.key: field for field in (*fields, *both)}
 
 
 def _in_tables(table: Mapping[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:
-    """Values by the keys of the tables of a drive: those of both bearings at each end."""
+    """Values by the keys of the tables of a drive: of both bearings at each end."""
     by_key: dict[str, Any] = {}
     for key, value in values.items():
         by_key |= {name: value for name in of_both_ends(key) if name == key or end_and_key(name)[0] in table}
@@ -468,7 +468,7 @@ def _in_si(value: float, key: str) -> tuple[float, str]:
 def planned(table: Mapping[str, Any], workers: int) -> SweepPlan:
     """Size of a sweep, refused corners of its ranges, and its time where the contacts are not solved.
 
-    The time follows from that of some points, which are solved here.
+    The time follows from the time of some points, which are solved here.
 
     Raises InputError if the tables are no valid sweep, or no corner of the ranges is a valid case.
     """
@@ -492,7 +492,7 @@ def solved(
 
 
 def is_stored(results: SweepResults, table: Mapping[str, Any]) -> bool:
-    """Whether the stored sweep is that of the tables, with the varied inputs in the same order."""
+    """Whether the stored sweep belongs to the tables, with the varied inputs in the same order."""
     requested = sweep_of(table)
     # A case compares by its file, whose numbers have all digits.
     same = (results.design, results.case.to_toml()) == (requested.design, requested.case.to_toml())
@@ -524,8 +524,8 @@ def point_table(
 ) -> dict[str, Any]:
     """Tables of a file with the case of a point.
 
-    Its texts are those of the base case, where these make the same case; else all keys are in SI units.
-    ``units`` are those in which the varied inputs are best read, by key.
+    Its texts are the texts of the base case, where these make the same case; else all keys are in SI units.
+    ``units`` are the units in which the varied inputs are best read, by key.
 
     Raises InputError if the inputs of the point are no valid case.
     """
@@ -570,8 +570,8 @@ def _text(key: str, value: Any, unit: str = "") -> Any:
 
 
 def files(folder: str) -> tuple[str, ...]:
-    """Names of the files of a sweep, finished or not; its tables are those of the command. Raises InputError
-    if there is no sweep, or its folder cannot be used.
+    """Names of the files of a sweep, finished or not; its tables are the tables of the command. Raises
+    InputError if there is no sweep, or its folder cannot be used.
     """
     place = Path(folder)
     results = read_sweep(place)

@@ -1,4 +1,4 @@
-"""Fields of the forms as data, and the rules by which inputs that exclude each other take turns."""
+"""Fields of the forms as data, and the rules by which inputs that exclude each other are exchanged."""
 
 from ehlectric.app.form_fields.bearing_fields import BEARING_GROUPS
 from ehlectric.app.form_fields.field import Alternative, Field, Group

@@ -93,10 +93,10 @@ def groups_of(geometry: str) -> tuple[Group, ...]:
 
 
 def switched(inputs: Inputs, start: Inputs) -> Inputs:
-    """Inputs of a contact of the other geometry, which begin with those of ``start``.
+    """Inputs of a contact of the other geometry, which begin with the inputs of ``start``.
 
-    Oil, potentials, breakdown, materials, speeds and temperature are those of the present inputs; geometry,
-    load and grid are those of ``start``. Roughness and motion, which belong to a geometry, are left out.
+    Oil, potentials, breakdown, materials, speeds and temperature are taken from the present inputs; geometry,
+    load and grid are taken from ``start``. Roughness and motion, which belong to a geometry, are omitted.
     """
     left = (*_SHARED, "title", "roughness", "motion")
     table = {key: value for key, value in start.table.items() if key not in left}

@@ -37,7 +37,7 @@ OF_CARRIER = {"switching_frequency": "10 kHz", "modulation_index": 0.9, "base_fr
 
 SWITCHING = "source.switching_frequency"
 
-# Title of the remedy whose frequency follows that of the drive.
+# Title of the remedy whose frequency follows the frequency of the drive.
 HALF = "Half the switching frequency"
 
 # Usual remedies by their titles, with what they change.
@@ -65,7 +65,7 @@ def fitted_to_source(inputs: Inputs) -> dict[str, Any]:
 # Buttons of the page of a bearing, with the titles of their remedies and what these assume.
 BEARING_REMEDIES: Mapping[str, Mapping[str, str]] = form_data("bearing_remedies")
 
-# Oils that the page of a bearing compares, thickest last: the first that is another than that of the bearing.
+# Oils that the page of a bearing compares, thickest last: the first that differs from the oil of the bearing.
 _OILS = ("fva-3", "mobil-shc-320")
 
 
@@ -108,7 +108,7 @@ def times(value: object, factor: float) -> str | None:
 
 
 def remedies_of(inputs: Inputs) -> dict[str, Mapping[str, Any]]:
-    """Changes of the remedies of a drive by their titles; what is no remedy is left out."""
+    """Changes of the remedies of a drive by their titles; what is no remedy is skipped."""
     tables = [table for table in _remedies(inputs) if isinstance(table, Mapping)]
     return {
         str(table.get("title", "")): table["changes"]
@@ -143,7 +143,7 @@ def with_remedy(inputs: Inputs, title: str, changes: Mapping[str, Any]) -> list[
 
 
 def without_remedy(inputs: Inputs, title: str) -> list[Any]:
-    """List of the remedies without those of a title."""
+    """List of the remedies without remedies of a title."""
     return [
         remedy
         for remedy in _remedies(inputs)

@@ -33,7 +33,7 @@ def form_data(name: str) -> Any:
 
 
 def kind_of(inputs: Inputs) -> str:
-    """Kind of the bearing; empty where the inputs do not tell it."""
+    """Kind of the bearing; empty where the inputs do not determine it."""
     return str(inputs.value("bearing.kind") or bearing(str(inputs.value("bearing.base"))).get("kind", ""))
 
 
@@ -167,7 +167,7 @@ class Alternative:
         ""  # key whose presence shows that the inputs use this alternative; empty for the last of the list
     )
     value: Any = None  # value of this key with which they use it; None for any
-    listed: bool = True  # whether the list has it also while the inputs do not use it
+    listed: bool = True  # whether the list also contains it while the inputs do not use it
 
     def taken(self, inputs: Inputs) -> bool:
         """Whether the inputs use this alternative."""
@@ -191,8 +191,8 @@ class Field:
     high: float = 1.0
     log: bool = False  # whether the slider is spaced by logarithms
     kind: Literal["number", "count", "choice", "text", "alternatives"] = "number"
-    choices: tuple[str, ...] = ()  # values of a choice; empty where the library has them
-    note: str = ""  # what a user must know beside the field
+    choices: tuple[str, ...] = ()  # values of a choice; empty where they are in the library
+    note: str = ""  # what a user must know next to the field
     help: str = ""  # what the input is, its usual values, and what follows as it grows
     # Label of the entry of a choice that stands for values of one's own, without a name of the library.
     custom_label: str = ""
@@ -200,7 +200,7 @@ class Field:
     when: When = always  # whether the field belongs to given inputs
     strict: bool = False  # whether the field is hidden when it does not belong, though its key is given
     optional: bool = False  # whether the field may be left empty
-    ignored: str = ""  # regular expression of the endings of a searched name that a search may leave out
+    ignored: str = ""  # regular expression of the endings of a searched name that a search may drop
     no_match_text: str = ""  # text if a search finds nothing; ``{count}`` is the number of entries
     free: bool = False  # whether a search takes a text that no entry has
 
@@ -331,7 +331,7 @@ class Group:
     note: str = ""  # what a user must know about the group, such as that its first values are assumptions
     # Sentence on given inputs, such as on values that hold where none are given; may be empty.
     tells: Callable[[Inputs], str] = lambda _: ""
-    copies: str = ""  # table whose values the table has when it is first switched on, in place of ``start``
+    copies: str = ""  # table whose values are used when this table is first switched on, instead of ``start``
     when: When = always  # whether the group belongs to given inputs
 
 
@@ -363,7 +363,7 @@ def group_of(
     return Group(title, tuple(fields), **(about | more))
 
 
-# Most digits of a number in a box; one with more, such as that of a point of a sweep, is rounded there.
+# Most digits of a number in a box; one with more, such as the number of a point of a sweep, is rounded there.
 _MOST_DIGITS = 8
 
 _NUMBER = r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?"

@@ -1,7 +1,7 @@
 """Rules by which a new input replaces others, and a memory of the values that were replaced.
 
-The rules are those of ``BearingCase.replace`` and ``Case.replace``. They work on inputs as a person writes
-them, so that the values of the library stay in the library.
+The rules are the rules of ``BearingCase.replace`` and ``Case.replace``. They work on inputs as a person
+writes them, so that the values of the library stay in the library.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from ehlectric.quantities.alternatives import (
 )
 from ehlectric.quantities.inputs import ENDS
 
-# Keys of a geometry of one's own; those that a kind does not have are left out when they come back.
+# Keys of a geometry of one's own; keys that a kind does not have are dropped when they come back.
 _GEOMETRY = (*(f"bearing.{name}" for name in DIMENSIONS), "bearing.contact_angle")
 
 
@@ -74,7 +74,7 @@ class Memory:
         return deepcopy(dict(copied if isinstance(copied, Mapping) else group.start))
 
     def custom(self, field: Field, inputs: Inputs) -> dict[str, Any]:
-        """Changes to the last user-defined values of a list, or to copies of those of the library."""
+        """Changes to the last user-defined values of a list, or to copies of the values of the library."""
         return (
             deepcopy(self._custom[field.key])
             if field.key in self._custom
@@ -108,7 +108,7 @@ def _custom_changes(inputs: Inputs, key: str) -> dict[str, Any]:
     return at_end({name: value for name, value in given.items() if value is not None} | {key: None}, end)
 
 
-# Alternatives of the checks, and those of an oil of one's own and of tables that exclude each other.
+# Alternatives of the checks, of an oil of one's own, and of tables that exclude each other.
 _TABLES = ("bearing", "lubricant", "discharge", "meter", "inlet", "motion", "grid", "contact")
 ALTERNATIVES: tuple[Rows, ...] = (
     *(group for table in _TABLES for group in dotted(table, alternatives.ALTERNATIVES[table])),
@@ -224,7 +224,7 @@ def custom_values(inputs: Inputs, key: str) -> dict[str, Any]:
 
 
 def is_custom(inputs: Inputs, key: str) -> bool:
-    """Whether the values under a key are user-defined, and not those of the library."""
+    """Whether the values under a key are user-defined, and not values of the library."""
     end, key = end_and_key(key)
     local = bearing_at(inputs, end)
     if key == "lubricant.base" and local.value("lubricant.temperature") is not None:
@@ -277,7 +277,7 @@ def _within(inputs: Inputs, table: str) -> list[str]:
 
 
 def _flat(changes: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
-    """Changes by dotted key, with those of tables under the keys of the tables."""
+    """Changes by dotted key, with changes of tables under the keys of the tables."""
     flat: dict[str, Any] = {}
     for key, value in changes.items():
         if isinstance(value, Mapping) and value:

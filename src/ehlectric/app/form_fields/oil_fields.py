@@ -1,4 +1,4 @@
-"""Fields of an oil: one of the library, or that of a data sheet."""
+"""Fields of an oil: an oil of the library, or the oil of a data sheet."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ def _needs_exponent(inputs: Inputs) -> bool:
 
 
 def assumed(inputs: Inputs) -> str:
-    """Sentence on the properties that a data sheet does not give, with the values taken in their place.
+    """Sentence on the properties that a data sheet does not give, with the values taken instead.
 
-    They are those of the oil that ``lubricant.base`` names, except for what the data sheet replaces.
+    They are the values of the oil that ``lubricant.base`` names, except for what the data sheet replaces.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Pages with a quick answer that follows the inputs and a solution on request."""
+"""Pages with an immediate answer that follows the inputs and a solution on request."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class AnswerPage(Generic[A]):
     wait: ClassVar[float] = 0.0
     elsewhere: ClassVar[Sequence[str]] = ()  # keys that other parts of the page than its form show
     first: ClassVar[int] = 2  # groups of the form that are opened on a narrow screen
-    # Functions that compute the quick answer, fuller quick answers in their order, and the solution.
+    # Functions that compute the immediate answer, fuller immediate answers in their order, and the solution.
     quick: ClassVar[Call[Any]]
     later: ClassVar[Sequence[Call[Any]]] = ()
     solved: ClassVar[Call[Any]]
@@ -80,7 +80,7 @@ class AnswerPage(Generic[A]):
 
     @classmethod
     def starting(cls, inputs: Inputs) -> Inputs:
-        """Inputs with which the page begins, from those of its address."""
+        """Inputs with which the page begins, from the inputs of its address."""
         return inputs
 
     def build(self, error: InputError | None) -> None:
@@ -149,7 +149,7 @@ class AnswerPage(Generic[A]):
         self.refresh()
 
     def refresh(self) -> asyncio.Future[None]:
-        """Answer the present inputs; the future ends with the quick answer."""
+        """Answer the present inputs; the future ends with the immediate answer."""
         self.solving.forget()
         return self._ask()
 
@@ -207,7 +207,7 @@ class AnswerView(Generic[A]):
     rows_name: ClassVar[str]  # name of the table of all rows, for screen readers
     rows_title = "All rows, as the command prints them"
     keys: ClassVar[Iterable[str]]  # keys of the main numbers, in their order
-    # Names of figures that may stand beside the verdict, and why its place is empty at first.
+    # Names of figures that may stand next to the verdict, and why its place is empty at first.
     leading: ClassVar[Sequence[str]]
     waits: ClassVar[str] = ""
 
@@ -248,7 +248,7 @@ class AnswerView(Generic[A]):
                 self.figures = {name: FigureBox(name, wide=name in wide) for name in names}
 
     def dim(self, *, dimmed: bool) -> None:
-        """Dim the answer while it is that of earlier inputs."""
+        """Dim the answer while it belongs to earlier inputs."""
         mark(self.body, "stale", on=dimmed and self.shown)
         self.body.props(f'aria-busy="{str(dimmed).lower()}"')
 
@@ -282,5 +282,5 @@ class AnswerView(Generic[A]):
         self._notes.show(notes)
 
     def show_figure(self, name: str, place: FigureBox, answer: A) -> None:
-        """Show a figure of an answer in its place, unless it stands beside the verdict."""
+        """Show a figure of an answer at its position, unless it is shown next to the verdict."""
         place.show(None if name == answer.deciding.figure else answer.figures.get(name))

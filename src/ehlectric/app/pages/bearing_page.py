@@ -165,7 +165,7 @@ class BearingPage(AnswerPage[BearingAnswer]):
 
     def __init__(self, session: Session) -> None:
         super().__init__(session)
-        # A duty cycle takes some seconds: it follows the whole answer, behind the answers of other tabs.
+        # A duty cycle takes several seconds: it follows the whole answer, behind the answers of other tabs.
         self._cycle: LatestAnswer[Inputs, DutyAnswer] = LatestAnswer(
             self._cycle_of,
             show=lambda _, answer: self._show_cycle(answer),

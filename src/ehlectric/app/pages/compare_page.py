@@ -116,7 +116,7 @@ def _quoted(text: str) -> str:
 
 
 def notes_html(first: Side, second: Side) -> str:
-    """Notes of two cases: of one alone, and of both."""
+    """Notes of two cases: of only one, and of both."""
     parts = (
         ("Only A", only_in(first, second)),
         ("Only B", only_in(second, first)),
@@ -327,7 +327,7 @@ class ComparePage:
         return first, second
 
     async def _whole(self, inputs: Inputs) -> Sides:
-        """Answers with the critical speeds, one after the other: others need the processes, too."""
+        """Answers with the critical speeds, one after the other: others also need the processes."""
         sides: list[Side | Exception] = []
         for name, quick in zip(_NAMES, self._quick or (None, None), strict=True):
             if inputs != self.session.inputs:

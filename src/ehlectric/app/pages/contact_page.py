@@ -1,4 +1,4 @@
-"""Page of one contact, line or point: its film, pressure and field by formula at once, and solved."""
+"""Page of one contact, line or point: its film, pressure and field from formulas at once, and solved."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ from ehlectric.quantities.sheets import (
 )
 from ehlectric.readable import readable
 
-# Figures beside the verdict, further ones, and those on which a click chooses the point of the cuts.
+# Figures next to the verdict, further figures, and figures on which a click chooses the point of the cuts.
 _LEADING = ("profiles", "surface")
 _MAPS = ("film-map", "pressure-map", "field-map")
 _FURTHER = ("section", *_MAPS)
@@ -41,7 +41,7 @@ _CUTS = ("cut-x", "cut-y")
 # Position of a click on a figure, all that is sent of it.
 _PLACE = "(event) => emit({x: event.points[0].x, y: event.points[0].y})"
 
-# Films by formula of the short answer, of a line and of a point contact.
+# Formula films of the short answer, of a line and of a point contact.
 _FILMS_BY_FORMULA = tuple(f"film_formulas.{name}.minimum_thickness" for name in BREAKDOWN_FORMULAS.values())
 
 

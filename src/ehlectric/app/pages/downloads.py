@@ -39,7 +39,7 @@ class Downloads:
     has none, and then the files are made first. With ``only_made`` the card has only what is made from a
     result: reports, and files for other programs.
 
-    The contacts of a bearing's files are not solved, as its page shows them, unless the page has a folder
+    The contacts of a bearing's files are not solved, as its page shows them, unless there is a folder
     with solved contacts.
     """
 

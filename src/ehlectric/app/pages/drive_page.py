@@ -231,5 +231,5 @@ class DrivePage(AnswerPage[DriveAnswer]):
         """Take over a changed input, and answer."""
         await super().change(key, value)
         if key == REMEDIES:
-            # The form has the inputs that it sends whole.
+            # The inputs that the form sends as a whole are already in it.
             self.form.set(self.session.inputs)

@@ -99,7 +99,7 @@ class DutyField:
             self.refuse(f"{LOST_FILE}, or remove the cycle.")
 
     def refuse(self, error: Exception | str) -> None:
-        """Show why there is no cycle; files have the names that their user knows."""
+        """Show why there is no cycle; each file with the name that its user gave."""
         self._tell(self.named(str(error)))
 
     def _tell(self, text: str) -> None:

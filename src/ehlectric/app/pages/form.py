@@ -34,7 +34,7 @@ class Form:
 
     ``change`` is called with a key and its new value, which is a whole table where a new input replaces
     others, and None where the key is removed. Other parts of the page show the keys ``elsewhere``.
-    On a narrow screen the ``first`` groups alone are opened.
+    On a narrow screen only the ``first`` groups are opened.
 
     While a slider is dragged, a new value waits until the one before is answered, and only the last waiting
     value is sent.
@@ -288,7 +288,7 @@ class Form:
         control.show(shown=self._is_shown(field))
 
     def _show_others(self) -> None:
-        """Show the inputs that no field has, such as those of a file, so that nothing is hidden."""
+        """Show the inputs that no field has, such as inputs of a file, so that nothing is hidden."""
         shown = {*self._elsewhere, *(field.key for field, _ in self._controls)}
         rest = {key: value for key, value in self._inputs.flat().items() if key not in shown and value != {}}
         self._others.set_visibility(bool(rest))
@@ -313,7 +313,7 @@ class Form:
         return next(group for group in self._groups if field in group.fields)
 
     def _field_of(self, key: str) -> Field | None:
-        """Field of a key of an error: that of the key, of the table it is in, or the first of its table."""
+        """Field of a key of an error: for the key, for the table it is in, or the first of its table."""
         fields = [field for field, _ in self._controls]
         shown = sorted(fields, key=lambda field: not self._is_shown(field))
         exact = [field for field in shown if field.key == key]
@@ -328,7 +328,7 @@ def _is_of_kind(changes: Mapping[str, Any]) -> bool:
 
 
 def groups_for(case: Inputs) -> Sequence[Group]:
-    """Groups of fields of a case: those of a drive, of a bearing, or of a contact of its geometry."""
+    """Groups of fields of a case: of a drive, of a bearing, or of a contact of its geometry."""
     if case.value("drive_end"):
         return DRIVE_GROUPS
     return BEARING_GROUPS if case.value("bearing") else groups_of(geometry_of(case))

@@ -37,7 +37,7 @@ def start(name: str) -> Inputs:
 
 BEARING = start("bearing_6208")
 
-# The way to the films stands in the table of the drive, where the form has it for both bearings.
+# The way to the films stands in the table of the drive, where the form offers it for both bearings.
 DRIVE = start("drive").changed({"drive_end.contacts": None, "drive.contacts": "atlas"})
 
 
@@ -325,7 +325,7 @@ class Toolbar:
             ui.navigate.to(address_of(path, inputs))
 
     async def _changed(self, text: str) -> None:
-        """Show changed inputs, in the address, too."""
+        """Show changed inputs, and put them into the address."""
         show_address(self.session.inputs, self._path)
         brief(self._toast, text)
         showing = self._show()
@@ -346,7 +346,7 @@ class Toolbar:
 
 
 def _has_files(table: Mapping[str, Any]) -> bool:
-    """Whether a case, or that of a sweep, has data from files, which stay in their session."""
+    """Whether a case, or the case of a sweep, has data from files, which stay in their session."""
     case = table.get("case", table)
     named = [case.get(name) for name in ("source", "duty")] if isinstance(case, Mapping) else []
     if any(isinstance(part, Mapping) and "file" in part for part in named):
@@ -356,6 +356,6 @@ def _has_files(table: Mapping[str, Any]) -> bool:
 
 
 def _button(name: str, test: str, click: Callable[[], Any], keys: str = "") -> ui.button:
-    """Button of the toolbar, with the keys that do the same."""
+    """Button of the toolbar, with its keyboard shortcuts."""
     button = tool(name, test, click)
     return button.props(f'aria-keyshortcuts="{keys}"').tooltip(keys) if keys else button

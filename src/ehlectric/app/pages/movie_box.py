@@ -29,8 +29,8 @@ from ehlectric.app.view_models import Line, MotionAnswer
 from ehlectric.app.work import Job
 from ehlectric.errors import InputError, LostError
 
-# Motion with which the page begins: that of the example, with fewer instants, at each of which a field is
-# solved.
+# Motion with which the page begins: the motion of the example, with fewer instants, at each of which a field
+# is solved.
 _FIRST = {**start("moving_roughness").value("motion"), "record": 60}
 
 
@@ -69,7 +69,7 @@ class MovieBox:
         ui.run_javascript(f"setTimeout(() => {{{shown}}}, 100)")
 
     def refresh(self) -> None:
-        """Show the present inputs; a movie of other inputs is dimmed, and words say so."""
+        """Show the present inputs; a movie of other inputs is dimmed, and words state it."""
         table = self._session.inputs.value("motion")
         on = isinstance(table, Mapping)
         if on != self._on or self._keys is None or not on:

@@ -40,8 +40,8 @@ def script(name: str) -> str:
 def weakly(method: Callable[[Any], Any]) -> Callable[[Any], Any]:
     """Function that calls a method for as long as its object lives.
 
-    The framework keeps the routes of uploads and the functions that they call long after the page has ended.
-    With this function it does not keep the page, too.
+    The framework keeps the routes of uploads and the functions that they call long after the end of a page.
+    With this function it does not keep the page as well.
 
     Examples
     --------
@@ -245,7 +245,7 @@ class Choices:
             mark(element, "primary", on=name == chosen)
 
     def offer(self, names: Collection[str]) -> None:
-        """Hide all buttons but these; a hidden one is released."""
+        """Hide all buttons except these; a hidden one is released."""
         for name, element in self._buttons.items():
             element.set_visibility(name in names)
         if self.chosen not in names:
@@ -285,7 +285,7 @@ class Strip:
         self._numbers.text = " · ".join(filter(None, [bound, *numbers]))
 
     def dim(self, *, dimmed: bool) -> None:
-        """Dim the answer while it is that of earlier inputs."""
+        """Dim the answer while it belongs to earlier inputs."""
         mark(self._box, "old", on=dimmed)
 
 

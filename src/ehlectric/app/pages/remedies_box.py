@@ -36,7 +36,7 @@ class RemediesBox:
     def __init__(self, session: Session) -> None:
         self._session = session
         self._pressed = False  # whether a remedy was just pressed, whose effect is brought into sight
-        self._oil = ""  # oil of the list; empty for the first one that is another than that of the bearing
+        self._oil = ""  # oil of the list; empty for the first that differs from the bearing's oil
         self.latest_answer: LatestAnswer[Both, RemedyAnswer] = LatestAnswer(
             lambda both: self._answer(REMEDY_QUICK, both),
             [lambda both: self._answer(REMEDY_WHOLE, both)],

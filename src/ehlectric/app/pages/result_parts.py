@@ -15,7 +15,7 @@ from ehlectric.quantities.verdict import Verdict
 
 
 class Panel:
-    """Verdict, the number that decides, and beside them the figure that shows why."""
+    """Verdict, the number that decides, and next to them the figure that shows why."""
 
     def __init__(self, leading: Iterable[str], waits: str) -> None:
         with ui.element("div").classes("panel").props('data-testid="panel"') as self._box:
@@ -38,7 +38,7 @@ class Panel:
             self._waits.text = text
 
     def empty(self, text: str) -> None:
-        """Show no figure, and say in its place what would show one."""
+        """Show no figure, and describe instead what would show one."""
         for box in self.figures.values():
             box.show(None)
         say(self._waits, text)
@@ -52,7 +52,7 @@ class Panel:
         self._facts.content = facts_html(deciding.facts)
 
     def lead(self, name: str, shown: Figure | None) -> None:
-        """Show the figure that decides, of a name; without one the verdict has the whole width."""
+        """Show the figure that decides, of a name; without one the verdict takes the whole width."""
         say(self._waits, "")
         for other, box in self.figures.items():
             box.show(shown if other == name else None)
@@ -208,7 +208,7 @@ class FigureBox:
         self._box.set_visibility(False)
 
     def dim(self, *, dimmed: bool) -> None:
-        """Dim the figure while it is that of earlier inputs."""
+        """Dim the figure while it belongs to earlier inputs."""
         mark(self._box, "stale", on=dimmed)
 
     def show(self, shown: Figure | None) -> None:

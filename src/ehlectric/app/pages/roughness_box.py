@@ -296,7 +296,7 @@ class RoughnessBox:
             self._use.disable()
 
     async def _put(self) -> None:
-        """Put the surface of the draft into the inputs, in place of the one before on the same body."""
+        """Put the surface of the draft into the inputs, instead of the previous surface of this body."""
         if self._answer is not None:
             kept = [
                 table for table in _tables(self._session) if table.get("surface") != self._draft["surface"]

@@ -29,15 +29,15 @@ class SolvingTexts:
     show_solved: str
     show_quick: str
     back: str  # button that goes back to the inputs of the last answer
-    # Sentences on inputs that have changed since: next to a quick answer, while a solution runs, and when it
-    # is done.
+    # Sentences on inputs that have changed since: next to an immediate answer, while a solution runs, and
+    # when it is done.
     earlier: str
     running: str
     done: str
     # Sentence on a cancelled solution, and words before an error.
     cancelled: str
     failed: str
-    # What an error has where only a quick answer lacks what is asked for; empty where none has.
+    # Addition to an error if only an immediate answer lacks what is asked for; empty without one.
     beyond: str = ""
 
 

@@ -261,7 +261,7 @@ class RangesForm:
         options: Mapping[str, str] | None = None,
         test: str = "",
     ) -> None:
-        """Field of a varied input; ``key`` is that of its text."""
+        """Field of a varied input; ``key`` is the key of its text."""
         self._axes[key] = control(test or key, label, typed, options)
         self._axes[key].show(text=_texts(self._inputs)[key])
 
@@ -301,7 +301,7 @@ _NOTHING = Verdict("grey", "nothing-solved"), "Run fills the map."
 _RUNNING = Verdict("grey", "solving"), "The verdict follows with the last of them."
 
 
-# Words above a map that is not that of the present inputs.
+# Words above a map that does not belong to the present inputs.
 _OLD = (
     "The inputs have changed, or the result to show needs further numbers: Run computes them. This is the "
     "map of the ones before."
@@ -596,7 +596,7 @@ class SweepPage:
             await self._set(inputs)
 
     async def _set(self, inputs: Inputs, *, begins: bool = False) -> None:
-        """Take over inputs; those without varied ones get the usual ranges."""
+        """Take over inputs; inputs without varied keys get the usual ranges."""
         self._request += 1
         request = self._request
         if inputs.value("vary"):
@@ -791,7 +791,7 @@ class SweepPage:
     def _end(self, job: Job) -> None:
         """Say how a job has ended, after the last look at its points."""
         if self._submitted is not self._ran:
-            # The job ended before its sweep was in the database, which still has that of the map.
+            # The job ended before its sweep was in the database, which still contains the sweep of the map.
             self._submitted = self._ran
         if job.state == "cancelled" and not job.of:
             self.state.text = "Stopped before the first point was done."
@@ -806,7 +806,7 @@ class SweepPage:
         self._tell_state()
 
     async def _read(self, *, running: bool = False) -> None:
-        """Look at the points, and show them if they are those of the submitted sweep."""
+        """Look at the points, and show them if they belong to the submitted sweep."""
         begun, inputs = time.monotonic(), self._submitted
         if inputs is None:
             return

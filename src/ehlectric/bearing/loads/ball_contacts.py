@@ -1,8 +1,8 @@
 """Contacts of balls with grooves: stiffness over the contact angle, and load over the approach; SI units.
 
-The stiffness K of Q = K delta^(3/2) is that of the exact Hertz ellipse. It is proportional to E' sqrt(D), and
-depends beyond that only on the diameter ratio D/d_m, the osculation of the groove and the contact angle. It
-is therefore interpolated over the contact angle once for each geometry, with E' and D of 1.
+The stiffness K of Q = K delta^(3/2) follows from the exact Hertz ellipse. It is proportional to E' sqrt(D),
+and depends beyond that only on the diameter ratio D/d_m, the osculation of the groove and the contact angle.
+It is therefore interpolated over the contact angle once for each geometry, with E' and D of 1.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from ehlectric.formulas.hertz import dry_contact
 # is below 1e-11, except where a handful of balls fill their pitch circle.
 _DEGREE = 24
 
-# Terms of the polynomial below this are left out: less than the rounding error of log K.
+# Terms of the polynomial below this are dropped: less than the rounding error of log K.
 _SMALL = 1e-15
 
 _TINY = np.finfo(float).tiny
@@ -175,7 +175,7 @@ class Spans:
         return self.axial * over, np.maximum(self.radial, 0.0) * over
 
     def contacts(self, offset: Numbers, laws: Array) -> Contacts:
-        """Contacts whose stiffness is that of their angle.
+        """Contacts with the stiffness at their angle.
 
         ``offset``, length at first touch [m]; ``laws``, coefficients of ln K, shape (m, ...).
         """

@@ -77,7 +77,7 @@ class BallEquilibrium(BearingEquilibrium):
     # Displacement of the inner ring from where both grooves face each other [m]; play up to A sin a_0
     axial_displacement: Numbers
     # moment and lateral_moment: moments that keep the ring from tilting, sums of R_i Q_i sin a_i times cos
-    # psi and sin psi [N m]; of a pair without that of the distance of its rows.
+    # psi and sin psi [N m]; of a pair without the moment due to the distance of its rows.
     moment: Numbers
     lateral_moment: Numbers
 
@@ -283,7 +283,9 @@ class _Points(BallPoints):
         )
 
     def stiffness(self, first: Array, mixed: Array, second: Array) -> tuple[Array, ...]:
-        """Stiffness of the ring [N/m] from those of the balls: components 00, 01, 02, 11, 12 and 22."""
+        """Stiffness of the ring [N/m] from the stiffnesses of the balls: components 00, 01, 02, 11, 12 and
+        22.
+        """
         mixed = self.sign * mixed
         along, across = second * self.cosine, mixed * self.cosine
         parts = (
@@ -318,7 +320,7 @@ def _ring_step(missing: Array, stiffness: tuple[Array, ...], reach: Array) -> tu
     return step, limited
 
 
-# Steps of the ring alone for the initial guess, and the relative imbalance at which they end.
+# Steps of only the ring for the initial guess, and the relative imbalance at which they end.
 _FIRST_STEPS, _ROUGH = 12, 1e-2
 
 
@@ -326,7 +328,7 @@ def _first_span(points: _Points, touch: Array, stiffness: Array) -> tuple[Array,
     """Length of the span of the most loaded ball, and the cosine of its angle, shape (n,).
 
     Its load is five times the mean radial load (Stribeck), and its share of the axial load. ``touch`` is the
-    length at first touch, and ``stiffness`` that of both contacts.
+    length at first touch, and ``stiffness`` the stiffness of both contacts.
     """
     axial, radial = np.abs(points.load[0]), points.load[1]
     cosine = points.free_cosine
@@ -462,7 +464,7 @@ def _placed(points: _Points, state: _State, centres: Array) -> tuple[Array, Span
 
 
 def _forces(points: _Points, state: _State) -> _Forces:
-    """Contacts and unbalanced forces; stiffnesses and cage speed are those of the contact angles."""
+    """Contacts and unbalanced forces; stiffnesses and cage speed follow from the contact angles."""
     place, spans = _placed(points, state, points.centres(state.ring))
     contacts = spans.contacts(points.offsets, points.laws)
     outward = points.outward(_mean_cosine(contacts))
@@ -497,7 +499,7 @@ class _Linear:
         self._points, self._offset = points, np.add.reduce(points.offsets, axis=0)
         self._inner, self._series = inner.tangent, in_series(inner, outer)
         first, self._mixed, second = (x + y for x, y in zip(self._inner, outer.tangent, strict=True))
-        # Balls that hardly touch have no stiffness: this small one keeps the matrices regular.
+        # Balls that barely touch have no stiffness: this small one keeps the matrices regular.
         little = 1e-13 * (inner.load + outer.load + forces.state.outward) / self._offset + _LITTLE
         self._first, self._second = first + little, second + little
         self._over = 1.0 / np.maximum(determinant(self._first, self._mixed, self._second), little**2)
@@ -711,7 +713,7 @@ def _solved(points: _Points) -> tuple[_Forces, IntArray]:
     return _forces(points, record.state), record.steps
 
 
-# Halvings of the interval of a contact angle in which that of a preload lies.
+# Halvings of the interval of a contact angle in which the angle of a preload lies.
 _HALVINGS = 60
 
 
@@ -736,7 +738,7 @@ def _closed(bearing: BallBearing, laws: Array) -> Numbers:
         depth = np.maximum(0.0, radial / np.cos(middle) - touch)
         less = stiffness * depth**1.5 * np.sin(middle) < each
         low, high = np.where(less, middle, low), np.where(less, high, middle)
-    # Without a preload the balls just touch, but for an axial play of both rows together.
+    # Without a preload the balls just touch, except for an axial play of both rows together.
     angle = np.where(each > 0.0, 0.5 * (low + high), free)
     return np.asarray(radial * np.tan(angle) - 0.5 * rows.endplay)
 
@@ -770,7 +772,7 @@ def ball_equilibrium(
     ``density`` [kg/m^3]. Both, the operation and the dimensions of the bearing are floats, or arrays of shape
     (...) that broadcast. Returns forces that balance to 1e-9 of the load plus the centrifugal force. Of a
     single bearing, raises InputError where it cannot carry the load, and ConvergenceError where the iteration
-    does not converge; such points of many are not ``balanced``, and those without equilibrium are NaN.
+    does not converge; such points of many are not ``balanced``, and points without equilibrium are NaN.
 
     Examples
     --------

@@ -67,7 +67,7 @@ class Grooves:
 
     @property
     def sunk(self) -> Array:
-        """Approach of the outer contact under the centrifugal force alone [m]."""
+        """Approach of the outer contact under only the centrifugal force [m]."""
         return np.asarray((self.outward / self.outer_stiffness) ** (2.0 / 3.0))
 
     def contacts(self, p: Array, g: Array) -> tuple[Contacts, Contacts]:
@@ -163,7 +163,9 @@ def first_guess(grooves: Grooves, g: Array) -> Array:
 
 
 def _start(grooves: Grooves, g: Array, guess: Array | None) -> Array:
-    """Initial guess: positions ``guess`` where both contacts are loaded, else those of the first guess."""
+    """Initial guess: positions ``guess`` where both contacts are loaded, else the positions of the first
+    guess.
+    """
     if guess is None:
         return first_guess(grooves, g)
     inner, outer = grooves.contacts(guess, g)

@@ -1,7 +1,7 @@
 """Loads of four-point contact ball bearings: equilibrium of inner ring and balls, for many bearings at once.
 
-The model is that of `ball_loads`, with two arcs per ring: the inner ring is displaced, but not tilted. Each
-ball moves in its plane through the bearing's axis, under the forces of up to four Hertz contacts and its
+The model is the model of `ball_loads`, with two arcs per ring: the inner ring is displaced, but not tilted.
+Each ball moves in its plane through the bearing's axis, under the forces of up to four Hertz contacts and its
 centrifugal force. Friction and the gyroscopic moment are neglected. Arcs have no shoulders, and go on beyond
 the middle of their arch; that matters only where an arch has almost no ridge in its middle. SI units.
 
@@ -48,7 +48,7 @@ def _take(target: T, points: IntArray, source: T) -> None:
 def _spans(ring: Array, place: Array, apart: Array) -> Spans:
     """Vectors between the centres of balls and arcs, shape (2, 2, ...): both rings, both diagonals.
 
-    ``ring`` is the middle of the inner arch and ``place`` that of the ball, both (axial, radial), shape
+    ``ring`` is the middle of the inner arch and ``place`` the middle of the ball, both (axial, radial), shape
     (2, ...) [m]; ``apart`` is S_i and S_o, shape (2, ...) [m].
     """
     axial, radial = (np.stack([ring[k] - place[k], place[k]])[:, np.newaxis] for k in (0, 1))
@@ -92,7 +92,7 @@ class _Balls:
 
     @property
     def sunk(self) -> Array:
-        """Approach of both outer contacts under the centrifugal force alone [m], at the angle of touch."""
+        """Approach of both outer contacts under only the centrifugal force [m], at the angle of touch."""
         cosine = np.sqrt(1.0 - (self.apart[1] / self.offsets[1]) ** 2)
         both = np.sum(self.stiffness[1], axis=0) * cosine
         return np.asarray((self.outward / both) ** (2.0 / 3.0))
@@ -114,8 +114,8 @@ class _Balls:
         There the smallest gap of the four contacts is as large as it can be; of balls without play, the
         largest approach is as small as it can be. As both arcs of a ring have the same offset, the closer one
         belongs to the side on which the ball lies. Between the middles of both arches, the contacts to watch
-        are those of the longer diagonal. The place sought is the middle of its play, or the place on the
-        border of that strip that is as close to both of its arcs.
+        are the contacts of the longer diagonal. The place sought is the middle of its play, or the place on
+        the border of that strip that is as close to both of its arcs.
         """
         side = np.where(self.ring[0] < 0.0, -1.0, 1.0)
         width, height = np.abs(self.ring[0]), np.maximum(self.ring[1], 0.0)
@@ -150,7 +150,7 @@ def _between(out: Array, back: Array, height: Array, offsets: Array) -> Array:
 # Newton steps of the balls, and shorter trials of a step.
 _MOST_STEPS, _MOST_TRIALS = 60, 40
 
-# A step that overshoots is shortened until the force along it is at most this part of that at its start,
+# A step that overshoots is shortened until the force along it is at most this part of the force at its start,
 # forward or backward. The ends of the interval for its length move by at least the second part of it: where
 # another contact begins on the way, the force is far from linear.
 _OVERSHOOT, _SHIFT = 0.5, 0.3
@@ -198,7 +198,8 @@ def _stepped(balls: _Balls, place: Array, pull: _Pull) -> tuple[Array, _Pull]:
     pull = _Pull.of(balls, there)
     now = np.sum(pull.force * step, axis=0)
     on = np.flatnonzero(pull.moving & (now < -_OVERSHOOT * slope))
-    # Interval of the part of the step, and the forces at its ends over that at the start of the step.
+    # Interval of the part of the step, and the forces at its ends divided by the force at the start of the
+    # step.
     low, ahead = np.zeros_like(slope), np.ones_like(slope)
     high, back = np.ones_like(slope), now / np.where(slope > 0.0, slope, 1.0)
     for _ in range(_MOST_TRIALS):
@@ -294,7 +295,9 @@ class _Points(BallPoints):
         return np.stack([np.add.reduce(value, axis=0) for value in values])
 
     def forces(self, force: tuple[Array, Array], tangent: tuple[Array, Array, Array]) -> tuple[Array, Array]:
-        """Forces on rings, shape (n, 3), and their derivatives, shape (n, 3, 3), from those at each ball."""
+        """Forces on rings, shape (n, 3), and their derivatives, shape (n, 3, 3), from the forces at each
+        ball.
+        """
         first, mixed, second = tangent
         toward = np.stack(np.broadcast_arrays(self.cosine, self.sine))
         stiffness = np.empty((self.shape[1], 3, 3))
@@ -339,8 +342,8 @@ def _first_ring(points: _Points, stiffness: Array, outward: Array) -> Array:
     """Displacements of rings roughly in balance, shape (3, n) [m].
 
     Both contacts of a diagonal have an approach along the line through their arcs' centres, where the
-    approach of the outer contact under the centrifugal force adds to the clearance. ``stiffness`` is that of
-    the inner and the outer contacts, shape (2, n).
+    approach of the outer contact under the centrifugal force adds to the clearance. ``stiffness`` is the
+    stiffness of the inner and the outer contacts, shape (2, n).
     """
     inner, outer = stiffness
     series = (inner ** (-2.0 / 3.0) + outer ** (-2.0 / 3.0)) ** -1.5
@@ -366,7 +369,7 @@ def _first_ring(points: _Points, stiffness: Array, outward: Array) -> Array:
 
 def _mean_cosine(contacts: Contacts) -> Array:
     """Mean of cos a over all diagonals, weighted with their load on the inner ring unless all are 0, shape
-    (n,); the direction of a diagonal is the mean of those of its two contacts.
+    (n,); the direction of a diagonal is the mean direction of its two contacts.
     """
     sine, cosine = (np.add.reduce(value, axis=0) for value in (contacts.sine, contacts.cosine))
     length = np.hypot(sine, cosine)
@@ -483,7 +486,7 @@ def four_point_equilibrium(
 ) -> BallEquilibrium:
     """Equilibrium of the inner ring and of all balls of a four-point contact ball bearing.
 
-    Arrays of the result have the shape (..., 2 Z): the Z balls on the diagonal that is loaded by a positive
+    Resulting arrays have the shape (..., 2 Z): the Z balls on the diagonal that is loaded by a positive
     axial load on the inner ring, with positive contact angles, and then the same Z balls on the other one.
     The sum of Q_i sin a_i over all of them is the axial load, and the sum of Q_i cos a_i cos psi is the
     radial load. The sums over both diagonals of a ball are Q_o sin a_o = Q_i sin a_i and
@@ -499,7 +502,7 @@ def four_point_equilibrium(
     ``density`` [kg/m^3]. Both, the operation and the dimensions of the bearing are floats, or arrays of shape
     (...) that broadcast. Returns forces that balance to 1e-9 of the load plus the centrifugal force. Raises
     ConvergenceError for a single bearing whose iteration does not converge; such points of many are not
-    ``balanced``, and those without load are NaN.
+    ``balanced``, and points without load are NaN.
 
     T. A. Harris and M. N. Kotzalas, Advanced Concepts of Bearing Technology, 5th ed., 2006, chapters 1 and 3,
     doi:10.1201/9781420006582.

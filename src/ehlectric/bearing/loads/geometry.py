@@ -1,9 +1,10 @@
 """Geometry of ball and roller bearings, radii of their contacts, speeds and inertial forces; SI units.
 
-A groove is a circular arc with a radius somewhat larger than that of the ball. The centre of the inner groove
-lies radially outside the ball's centre, and that of the outer groove radially inside. The contacts follow
-from the positions of these three centres. Angles are measured from the radial plane, and are positive where
-the inner ring is pushed towards positive axial positions. Raceways of roller bearings are cylinders.
+A groove is a circular arc with a radius somewhat larger than the radius of the ball. The centre of the inner
+groove lies radially outside the ball's centre, and the centre of the outer groove radially inside. The
+contacts follow from the positions of these three centres. Angles are measured from the radial plane, and are
+positive where the inner ring is pushed towards positive axial positions. Raceways of roller bearings are
+cylinders.
 
 The elements roll without sliding on both rings, and the cage turns with them. Both rings may turn; all speeds
 are positive in the same sense of rotation. The formulas have one contact angle for both contacts of an
@@ -122,7 +123,7 @@ class Rows:
     number: int = 1
     # Axial force with which the rows are pressed against each other without load [N].
     preload: Numbers = 0.0
-    # Axial play of the inner ring from one row to the other, in place of a preload [m].
+    # Axial play of the inner ring from one row to the other, instead of a preload [m].
     endplay: Numbers = 0.0
 
     @property
@@ -161,7 +162,7 @@ class _Bearing(ABC):
 
     @property
     def groups(self) -> int:
-        """Groups of as many contacts as there are elements in a row: those of each row and each track."""
+        """Groups of as many contacts as there are elements in a row: of each row and each track."""
         return self.rows.number * self.tracks
 
     @property
@@ -347,9 +348,9 @@ class FourPointBearing(BallBearing):
     """Four-point contact ball bearing with one row of balls: the grooves of both rings are gothic arches.
 
     The left and the right half of an arch are arcs with centres on either side of its middle. A ball has two
-    diagonals: each leads from the centre of an arc of the outer ring to that of the opposite arc of the inner
-    ring. The first diagonal carries positive axial loads on the inner ring, and the second one negative ones.
-    Both carry radial loads. With the rings concentric and centred axially, the vector along the first
+    diagonals: each leads from the centre of an arc of the outer ring to the centre of the opposite arc of the
+    inner ring. The first diagonal carries positive axial loads on the inner ring, and the second one negative
+    ones. Both carry radial loads. With the rings concentric and centred axially, the vector along the first
     diagonal has the axial component S and the radial component A cos a. Its length is A when a small axial
     load has moved the ring by A sin a - S, and again when a small radial load has moved it by P_d/2. So
 
@@ -416,7 +417,7 @@ class FourPointBearing(BallBearing):
 
     @property
     def tracks(self) -> int:
-        """Contacts of a ball with one ring: those of both diagonals."""
+        """Contacts of a ball with one ring, on both diagonals."""
         return 2
 
     @property
@@ -446,8 +447,8 @@ class FourPointBearing(BallBearing):
 @dataclass(frozen=True)
 class ThrustBallBearing(BallBearing):
     """Thrust ball bearing with one row of balls between two washers, whose grooves face each other along the
-    axis. ``inner`` is the washer of the shaft and ``outer`` that of the housing; the contact angle is 90
-    degrees.
+    axis. ``inner`` is the washer of the shaft and ``outer`` the washer of the housing; the contact angle is
+    90 degrees.
 
     Raises InputError where the balls do not fit on their pitch circle, or a value is out of range.
 
@@ -536,7 +537,7 @@ class RollerBearing(_Bearing):
 
     @property
     def thrust(self) -> bool:
-        """Whether the contacts have an angle of 90 degrees, so that they carry axial loads alone."""
+        """Whether the contacts have an angle of 90 degrees, so that they carry only axial loads."""
         return is_thrust(self.contact_angle)
 
     @property

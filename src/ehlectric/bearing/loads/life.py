@@ -20,7 +20,7 @@ _MILLION = 1e6
 _SLOW = 1000.0
 _RATED_SLOW, _RATED_FAST = 45000.0, 4500.0
 
-# Viscosity ratios for which the life modification factor holds, and those at which its formula changes.
+# Viscosity ratios for which the life modification factor holds, and ratios at which its formula changes.
 LOWEST_RATIO, _HIGHEST_RATIO = 0.1, 4.0
 _CHANGES = (0.4, 1.0)
 
@@ -152,7 +152,7 @@ def equivalent_load(radial: float, axial: float, contact_angle: float, axial_par
     return float(x * radial + y * axial) if axial > e * radial else radial
 
 
-# The same of bearings with two rows that face each other: Y up to e, and X and Y above.
+# Factors of bearings with two rows that face each other: Y up to e, and X and Y above.
 _PAIR_X_15, _PAIR_X = 0.72, (0.70, 0.67, 0.63, 0.60, 0.57, 0.54)
 _PAIR_LOW_15 = (1.65, 1.57, 1.46, 1.38, 1.34, 1.26, 1.14, 1.12, 1.12)
 _PAIR_HIGH_15 = (2.39, 2.28, 2.11, 2.00, 1.93, 1.82, 1.66, 1.63, 1.63)
@@ -163,8 +163,9 @@ def equivalent_load_of_pair(radial: float, axial: float, contact_angle: float, a
     """Equivalent dynamic load P of two rows of balls that face each other, by ISO 281 [N]: F_r + Y_1 F_a, and
     X F_r + Y_2 F_a where F_a is above e F_r.
 
-    The arguments are those of ``equivalent_load``, with the static rating of both rows in ``axial_part``.
-    Makers use it for four-point contact bearings, too. NaN for contact angles below 15 and above 45 degrees.
+    The arguments are the arguments of ``equivalent_load``, with the static rating of both rows in
+    ``axial_part``. Makers also use it for four-point contact bearings. NaN for contact angles below 15 and
+    above 45 degrees.
 
     Examples
     --------
@@ -195,8 +196,8 @@ def equivalent_load_of_rollers(
     With e = 1.5 tan(a), one row has F_r up to e F_r, and 0.4 F_r + 0.4 cot(a) F_a above; two rows have
     F_r + 0.45 cot(a) F_a, and 0.67 F_r + 0.67 cot(a) F_a above.
 
-    ``radial`` F_r and ``axial`` F_a [N]; ``contact_angle`` a [rad], 0 of cylindrical rollers, which carry F_r
-    alone; ``rows``, 1 or 2.
+    ``radial`` F_r and ``axial`` F_a [N]; ``contact_angle`` a [rad], 0 of cylindrical rollers, which carry
+    only F_r; ``rows``, 1 or 2.
 
     Examples
     --------
@@ -346,7 +347,7 @@ def ball_ratings(
     grooves: tuple[Numbers, Numbers],
     contact_angle: Numbers = 0.0,
 ) -> ElementRatings:
-    """Ratings of a ball with both rings, Q_ci and Q_ce of ISO/TS 16281, from that of the bearing.
+    """Ratings of a ball with both rings, Q_ci and Q_ce of ISO/TS 16281, from the rating of the bearing.
 
     Q_ci = C/(0.407 Z cos(a)^0.7) (1 + c^(10/3))^0.3 and Q_ce = C/(0.389 Z cos(a)^0.7) (1 + c^(-10/3))^0.3
     with c = 1.044 ((1 - g)/(1 + g))^1.72 (f_i/f_e (2 f_e - 1)/(2 f_i - 1))^0.41. ``rating`` C of one row [N];
@@ -374,7 +375,7 @@ def ball_ratings(
 def roller_ratings(
     rating: Numbers, elements: int, ratio: Numbers, contact_angle: Numbers = 0.0
 ) -> ElementRatings:
-    """Ratings of a roller with both rings by ISO/TS 16281, from that of the bearing, without slices.
+    """Ratings of a roller with both rings by ISO/TS 16281, from the rating of the bearing, without slices.
 
     Q_ci = C/(0.378 Z cos(a)^(7/9)) (1 + c^(9/2))^(2/9) and Q_ce = C/(0.364 Z cos(a)^(7/9))
     (1 + c^(-9/2))^(2/9) with c = 1.038 ((1 - g)/(1 + g))^(143/108). ``rating`` C of one row [N]; ``elements``
@@ -413,12 +414,12 @@ def reference_life(
     """Basic reference rating life L_10r of ISO/TS 16281 [revolutions], shape (...); infinite without load.
 
     The inner ring turns under a load that stands still. ``loads``, of all n elements with the inner and the
-    outer ring [N], shape (..., n) each, zeros included, those of all ``rows`` one after the other;
-    ``ratings`` are those of one row, of shape (...).
+    outer ring [N], shape (..., n) each, zeros included, all ``rows`` one after the other;
+    ``ratings`` are the ratings of one row, of shape (...).
 
     Balls: ((Q_ci/Q_ei)^(-10/3) + (Q_ce/Q_ee)^(-10/3))^(-9/10) with the mean of power 3 of the loads with the
-    turning and of power 10/3 of those with the standing ring. Rollers: powers 9/2, 8/9, 4 and 9/2, so that
-    their life falls with the power 4 of the load, in place of the 10/3 of the basic life.
+    turning ring and of power 10/3 of the loads with the standing ring. Rollers: powers 9/2, 8/9, 4 and 9/2,
+    so that their life falls with the power 4 of the load, instead of the power 10/3 of the basic life.
 
     Examples
     --------

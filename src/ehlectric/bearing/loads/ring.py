@@ -185,7 +185,7 @@ class Batch(Generic[G]):
         cls, bearing: G, operation: Operation, modulus: Numbers, density: Numbers, able: Booleans
     ) -> Batch[G]:
         """Batch of numbers of shape (...). ``able``: where the bearing can carry the load; points with a
-        number that is not finite are left out, too.
+        number that is not finite are also skipped.
         """
         numbers = (*bearing.dimensions, *vars(operation).values(), modulus, density)
         shape: tuple[int, ...] = np.broadcast_shapes(*map(np.shape, numbers))

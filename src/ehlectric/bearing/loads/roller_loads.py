@@ -80,7 +80,7 @@ class RollerEquilibrium(BearingEquilibrium):
 
     @property
     def holds_axially(self) -> bool:
-        """Whether the raceways hold the ring along the axis; those of cylindrical rollers do not."""
+        """Whether the raceways hold the ring along the axis; raceways of cylindrical rollers do not."""
         return bool(np.any(self.inner_angle))
 
 
@@ -159,8 +159,8 @@ class _Profile:
         return np.take(half, across, axis=-1)
 
     def bottom(self, outward: Array) -> Array:
-        """Depth at which an outer contact carries the centrifugal force alone [m], shape (n,)."""
-        # Upper bound: at this depth the slice that touches first carries the force alone. From there
+        """Depth at which an outer contact carries only the centrifugal force [m], shape (n,)."""
+        # Upper bound: at this depth the slice that touches first carries the whole force. From there
         # Newton's method for a convex function does not overshoot.
         depth = (outward / self.stiffness) ** (1.0 / _POWER) + self.least_relief
         for _ in range(_MOST_STEPS):
@@ -178,7 +178,7 @@ class _Points:
 
     profile: _Profile
     outward: Array  # centrifugal force on each roller [N], shape (n,)
-    bottom: Array  # depth of outer contacts that carry the centrifugal force alone [m], shape (n,)
+    bottom: Array  # depth of outer contacts that carry only the centrifugal force [m], shape (n,)
     # cosine and sine of the position of each roller, by the cosine of the contact angle, shape (elements, n).
     cosine: Array
     sine: Array
@@ -192,7 +192,7 @@ class _Points:
         """Points of a batch; relief of all slices, shape (slices,) or (n, slices)."""
         bearing, operation = batch.bearing, batch.operation
         shape = (batch.signs.size, batch.number)
-        # The stiffness of the standard is that of two equal contacts in series.
+        # The standard's stiffness holds for two equal contacts in series.
         stiffness = 2.0**_POWER * line_stiffness(bearing.roller_length, batch.modulus) / relief.shape[-1]
         profile = _Profile.of(stiffness, relief)
         sine, cosine = _sine_and_cosine(bearing)
@@ -302,7 +302,7 @@ class _Rollers:
 
     profile: _Profile
     outward: Array  # centrifugal force [N]
-    bottom: Array  # depth of an outer contact under the centrifugal force alone [m]
+    bottom: Array  # depth of an outer contact under only the centrifugal force [m]
     interference: Array  # sum of the depths of both contacts [m]
 
     def shared(self, guess: Array) -> list[Array]:
@@ -311,7 +311,7 @@ class _Rollers:
 
         Newton's method between bounds, from a guess of the depths [m]. An outer contact carries at least
         the centrifugal force, and at least the load of the inner contact. Its depth is at most the sum of
-        half the interference and the depth under the centrifugal force alone, because loads grow faster than
+        half the interference and the depth under only the centrifugal force, because loads grow faster than
         depths.
         """
         half = 0.5 * self.interference
@@ -375,7 +375,7 @@ def _closed(bearing: RollerBearing, profile: _Profile, sine: Numbers) -> Numbers
     if rows.number == 1:
         return 0.0
     force = np.atleast_1d(np.asarray(rows.preload, dtype=float) / bearing.elements / sine)
-    # An axial play is that of both rows together.
+    # An axial play is the play of both rows together.
     return 2.0 * profile.bottom(force) - 0.5 * rows.endplay * sine
 
 
@@ -408,7 +408,7 @@ def least_axial_load(bearing: RollerBearing, radial: Numbers) -> Numbers:
     (...).
 
     A radial load F_r on one roller leans on the ring with F_r tan(a) along the axis; on the two rollers
-    beside the line of the load it is 1/cos(180 deg/Z) times as much. It is minus infinity for a pair and for
+    next to the line of the load it is 1/cos(180 deg/Z) times as much. It is minus infinity for a pair and for
     cylindrical rollers, which need none, and 0 for a thrust bearing.
     """
     if bearing.rows.number > 1 or not bearing.carries_axial:
@@ -469,7 +469,7 @@ def roller_equilibrium(
     At a displacement (x, y, z) of the ring, a roller at the angle psi is compressed by
     (x cos psi + y sin psi - P_d/2) cos a + z sin a with the contact angle a, the sum over both contacts; with
     -z in a second row, and there with the depth of the preload in both rows. Slice k of a contact with the
-    depth d carries q_k = c (d - P_k)^(10/9), with the relief P_k. The stiffness of the standard is that of
+    depth d carries q_k = c (d - P_k)^(10/9), with the relief P_k. The stiffness of the standard holds for
     two equal contacts in series, so c is 2^(10/9) c_L over the number of slices. The outer contact also
     carries the part F_c cos a of the centrifugal force.
 
@@ -478,7 +478,7 @@ def roller_equilibrium(
     (...) that broadcast; ``slices``, number of slices of a roller, odd and at least 31. Returns forces that
     balance to 1e-9 of the load plus the centrifugal force. Raises InputError where the number of slices is
     out of range. Of a single bearing, raises InputError where it cannot carry the load, and ConvergenceError
-    where the iteration does not converge; such points of many are not ``balanced``, and those without
+    where the iteration does not converge; such points of many are not ``balanced``, and points without
     equilibrium are NaN.
 
     Examples

@@ -7,8 +7,8 @@ ball is as far from the middle of both. With the offsets e = (f - 1/2) D and the
     tan(b_i) + tan(b_o) = Z F_c/F_a,    (e_i + d_i) sin(b_i) = (e_o + d_o) sin(b_o),    Q = F_a/(Z cos(b)).
 
 Each washer carries half of the centrifugal force where both grooves are alike. The washers stay parallel, and
-the gyroscopic moment, which friction holds, is neglected. So is the spin of the balls on the washers, which
-raises the losses but does not change the film of pure rolling.
+the gyroscopic moment, which friction holds, is neglected. The spin of the balls on the washers is also
+neglected; it raises the losses but does not change the film of pure rolling.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ def check_thrust_loads(_bearing: ThrustBallBearing, operation: Operation) -> Non
         raise InputError("axial_load", got=got, takes="one above 0, which presses the washers together")
 
 
-# Halvings of the interval of a slope, and rounds in which the stiffnesses take on those of the angles.
+# Halvings of the interval of a slope, and rounds in which the stiffnesses follow the angles.
 _HALVINGS, _ROUNDS = 52, 3
 
 
@@ -95,8 +95,8 @@ def thrust_ball_equilibrium(
 
     ``modulus``, reduced modulus E' of ball and washer [Pa]; ``density`` [kg/m^3]; both, the operation and the
     dimensions of the bearing are floats, or arrays of shape (...) that broadcast. The contact angle of the
-    washer of the shaft is above 90 degrees, and that of the other one below by as much. Raises InputError
-    where a single bearing cannot carry its load; such points of many are NaN.
+    washer of the shaft is above 90 degrees, and the angle of the other washer is below by as much. Raises
+    InputError where a single bearing cannot carry its load; such points of many are NaN.
 
     Examples
     --------
@@ -135,7 +135,7 @@ def thrust_ball_equilibrium(
         (offset + depth) * np.cos(aside)
         for offset, depth, aside in zip(of_batch.offsets, depths, asides, strict=True)
     ]
-    # The distance of both grooves equals that of the ball from each of them up to rounding.
+    # The distance of both grooves equals the distance of the ball from each of them up to rounding.
     residual = np.abs(loads[0] * np.sin(asides[0]) + loads[1] * np.sin(asides[1]) - outward)
 
     def both(values: Sequence[Numbers]) -> Array:

@@ -17,7 +17,7 @@ from ehlectric.bearing.loads.roller_loads import RollerEquilibrium
 Equilibrium: TypeAlias = BallEquilibrium | RollerEquilibrium
 
 
-# Fields of equilibria with a value per element, and those with a value per slice of each element.
+# Fields of equilibria with a value per element, and fields with a value per slice of each element.
 _SIDES = ("inner", "outer")
 _OF_ELEMENTS = {f"{side}_{name}" for side in _SIDES for name in ("load", "angle", "approach", "gap")}
 _OF_ELEMENTS |= {"gyroscopic_moment"}
@@ -28,7 +28,7 @@ def mirrored(at: Equilibrium, position: Array, rows: int = 1) -> Equilibrium:
     """Equilibrium with the cage at the opposite angle, mirrored about the plane through axis and radial load.
 
     ``position`` are the angles of the elements, with the cage at the pitch less its angle [rad], shape
-    (..., elements), those of all ``rows`` one after the other.
+    (..., elements), all ``rows`` one after the other.
     """
     values = vars(at)
     number = at.position.shape[-1]
@@ -46,11 +46,11 @@ def mirrored(at: Equilibrium, position: Array, rows: int = 1) -> Equilibrium:
 
 
 def around_in_rows(positions: Sequence[Array], rows: int) -> tuple[Array, IntArray]:
-    """Angles of all elements at several positions of the cage from 0 to 2 pi, and the order in which those of
-    each row ascend, all rows one after the other.
+    """Angles of all elements at several positions of the cage from 0 to 2 pi, and the order in which the
+    angles of each row ascend, all rows one after the other.
 
     ``positions``, angles of the elements of all ``rows``, one row after the other, at each position of the
-    cage [rad], shape (elements,) each. Both results have the shape (positions elements,).
+    cage [rad], shape (elements,) each. The shape of both is (positions elements,).
 
     Examples
     --------

@@ -59,7 +59,7 @@ def lubricant(name: str) -> dict[str, Any]:
 def solid_names(*, rolling: bool = False, thermal: bool = False) -> list[str]:
     """Names of solids that a file can use as materials.
 
-    Only those of rings and elements if ``rolling``, and only those with known thermal properties if
+    Only materials of rings and elements if ``rolling``, and only materials with known thermal properties if
     ``thermal``.
     """
     names = [name for name in _names("solid") if not rolling or _read("solid", name)["solid"]["rolling"]]

@@ -41,8 +41,8 @@ def clearance_range(kind: str, clearance_class: ClearanceClass, bore: float) -> 
     """Range of the radial internal clearance [m] of a new, unmounted bearing with a cylindrical bore [m].
     Raises InputError if the table of the kind has no bearing of this bore.
 
-    The table is that of ISO 5753-1 as the general catalogues of SKF and NSK print it, which agree; that of
-    cylindrical roller bearings is also that of needle roller bearings with an inner ring.
+    The table is the table of ISO 5753-1 as the general catalogues of SKF and NSK print it, which agree; the
+    table of cylindrical roller bearings also holds for needle roller bearings with an inner ring.
 
     Examples
     --------

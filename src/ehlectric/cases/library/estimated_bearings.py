@@ -48,7 +48,7 @@ _SAME_BALLS = {
     "628": "609", "629": "6000", "637": "6000", "638": "6000", "639": "6200",
 }  # fmt: skip
 
-# Pitch diameter of balls and of tapered rollers over the mean of bore and outside diameter.
+# Pitch diameter of balls and of tapered rollers divided by the mean of bore and outside diameter.
 PITCH_RATIO = 1.0
 
 # Least and largest ball over the difference of outside diameter and bore; of balls and rollers in all series.
@@ -61,8 +61,8 @@ _MOST_FILLED = 0.95
 # digits, and the rounded factors f_0 of ISO 76. One ball more or less changes the rating by 3 % or more.
 _SAME_STATIC = 0.025
 
-# Units of the deviation of dynamic ratings of other makers, and of their balls from those of the series, in
-# those of their static ratings; and the largest deviation of balls that is taken, in per cent.
+# Units of the deviation of dynamic ratings of other makers, and of their balls from the balls of the series,
+# in units of their static ratings; and the largest deviation of balls that is taken, in per cent.
 _OTHER_MAKER, _MOST_MISSED = 5.0, 6.0
 
 # Gap between two rollers over their diameter: of cylindrical rollers of reinforced design (E), and of tapered
@@ -102,7 +102,7 @@ class SeriesBearing:
     name: str
     kind: str
     # bore, outer_diameter, width: boundary dimensions, the bore of a needle bearing without an inner ring
-    # being the diameter of the shaft; width of a tapered roller bearing, that of both rings together [m].
+    # being the diameter of the shaft; width of a tapered roller bearing, over both rings together [m].
     bore: float
     outer_diameter: float
     width: float
@@ -185,9 +185,9 @@ def estimated_geometry(
 ) -> EstimatedGeometry:
     """Elements of a bearing from its dimensions and load ratings.
 
-    ``dynamic`` and ``static``, ratings of another maker that replace those of the series [N]; radial ratings
-    with two rows of a four-point contact bearing. Raises
-    InputError where no elements that fit between the rings have both ratings.
+    ``dynamic`` and ``static``, ratings of another maker that replace the ratings of the series [N]; radial
+    ratings with two rows of a four-point contact bearing. Raises InputError where no elements that fit
+    between the rings have both ratings.
 
     Dynamic ratings of other makers contain factors of their own, so that the ratio of both ratings would give
     wrong diameters. Therefore balls remain the balls of the series, unless the static rating differs by more
@@ -247,7 +247,7 @@ def _balls(bearing: SeriesBearing, target: Target, rules: Rules) -> EstimatedGeo
 
 
 def _four_point(bearing: SeriesBearing, target: Target, rules: Rules) -> EstimatedGeometry:
-    """Balls from axial ratings, as those of one row with the radial ratings that belong to them."""
+    """Balls from axial ratings, as the balls of one row with the corresponding radial ratings."""
     radial = replace(target, dynamic=_FOUR_POINT[0] * target.dynamic, static=_FOUR_POINT[1] * target.static)
     return _balls(bearing, radial, rules)
 
@@ -358,8 +358,8 @@ def _roller_of_ratio(
 ) -> float:
     """Roller diameter whose rollers have the dynamic rating with the length that has the static one [m].
 
-    The dynamic rating goes by Z^(3/4) and L^(7/9), the static one by Z L. Of both together hardly anything is
-    left but the diameter, so that a usual number is enough here. ``space``, half of the difference of
+    The dynamic rating goes by Z^(3/4) and L^(7/9), the static one by Z L. Together they determine almost
+    only the diameter, so that a usual number is enough here. ``space``, half of the difference of
     diameters that the rollers and both rings share [m].
     """
     if target.near is not None:
@@ -399,8 +399,8 @@ class EstimateError:
     roller_length: float = 0.0
 
 
-# Largest deviations of leaving out each bearing of the library of known geometry, rounded up, by
-# benchmarks/estimated_bearings.py: of balls those of the 209 of another maker and of the 6205. Cylindrical
+# Largest deviations if each bearing of the library of known geometry is omitted in turn, rounded up, by
+# benchmarks/estimated_bearings.py: of balls the 209 of another maker and the 6205 deviate most. Cylindrical
 # rollers have printed raceways, and one roller more or less changes their length by 7 % at most. Other kinds
 # have no known bearing, and the widest of all; only what is printed of them is exact.
 _BALLS_OFF = EstimateError(element_diameter=0.065, pitch_diameter=0.015)
@@ -416,7 +416,7 @@ ESTIMATE_ERRORS: Mapping[str, EstimateError] = {
     "thrust needle roller": EstimateError(pitch_diameter=0.015, roller_length=0.08),
 }
 
-# Kinds of which no bearing of known geometry is left out.
+# Kinds of which no bearing of known geometry is omitted in turn.
 WITHOUT_KNOWN = (
     "four-point contact ball",
     "thrust ball",
@@ -505,7 +505,7 @@ _SOURCES = (
 
 
 def estimated_file(name: str, dynamic: float | None = None, static: float | None = None) -> dict[str, Any]:
-    """Tables ``bearing`` and ``source`` of a bearing of a series, as a file of the library has them.
+    """Tables ``bearing`` and ``source`` of a bearing of a series, as a file of the library contains them.
 
     Examples
     --------

@@ -84,7 +84,7 @@ def _source(entry: Mapping[str, Any]) -> Source:
 
 
 def weakest(sources: Iterable[Source], keys: Iterable[str]) -> Kind | None:
-    """Kind of the weakest source among those of some keys; none where the keys have no source."""
+    """Kind of the weakest source among the sources of some keys; none where the keys have no source."""
     names = set(keys)
     kinds = [source.kind for source in sources if names & set(source.keys)]
     return max(kinds, key=KINDS.index, default=None)
@@ -113,7 +113,7 @@ class LibraryOil:
     needs: tuple[str, ...] = ()
 
     def values(self) -> dict[str, Any]:
-        """Values of the oil as the file has them, by dotted key."""
+        """Values of the oil as the file contains them, by dotted key."""
         return values_of(self.table)
 
     @property

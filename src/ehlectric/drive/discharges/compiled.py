@@ -1,8 +1,8 @@
 """Functions that numba compiles, with their types kept.
 
 Compiled functions stay on the disk for the next run. Numba takes one as up to date if the file of its source
-is, but it contains the functions that it calls, from other files too. The folder of the compiled functions is
-therefore named by the contents of all files of the package ``drive``. Where no folder can be written to,
+is, but it also contains the functions that it calls from other files. The folder of the compiled functions is
+therefore named by the contents of all files of the package ``drive``. If no folder can be written to,
 functions are compiled in every run. With NUMBA_DISABLE_JIT, as for debuggers, nothing is compiled.
 """
 
@@ -80,13 +80,13 @@ def compile_for(function: Callable[..., Any], arguments: tuple[Any, ...], say: C
 
 
 class _CompileListener(event.Listener):
-    """Listener that tells once that a function is being compiled."""
+    """Listener that reports once that a function is being compiled."""
 
     def __init__(self, say: Callable[[str], None], function: Any) -> None:
         self.say, self.function, self.called = say, function, False
 
     def on_start(self, event: Any) -> None:
-        """Tell it at the begin of the function, and not of those that it calls."""
+        """Report at the start of the function, and not for functions that it calls."""
         if not self.called and event.data["dispatcher"] is self.function:
             self.called = True
             self.say("compiling the simulation of discharges, once on this machine")
@@ -121,14 +121,14 @@ def _not_kept(reason: str) -> None:
 def _folder(chosen: str) -> Path | None:
     """First folder for compiled functions that can be written to; None if none can.
 
-    That of NUMBA_CACHE_DIR, which is ``chosen``, that of the package, or that of the user.
+    The folder of NUMBA_CACHE_DIR, which is ``chosen``, of the package, or of the user.
     """
     name = f"compiled-{contents_of(Path(__file__).parent.parent)}"
     for base in _bases(chosen):
         try:
             folder = base / name
             folder.mkdir(parents=True, exist_ok=True)
-            # Permissions alone do not tell it: the disk may be mounted for reading only.
+            # Permissions do not suffice: the disk may be mounted for reading only.
             tempfile.TemporaryFile(dir=folder).close()
         except OSError:
             continue

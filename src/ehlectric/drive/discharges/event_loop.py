@@ -63,8 +63,8 @@ def add_parabola(means: Array, start: float, duration: float, first: float, midd
 
     Each mean is weighted by a triangle, which is 1 at a time of the mean and 0 at those before and after it.
 
-    ``means``, means at evenly spaced times; the time after the last one is that of the first one again,
-    shape (n,); ``first``, ``middle`` and ``last``, voltage at its begin, in its middle and at its end [V].
+    ``means``, means at evenly spaced times; the time after the last one is the first one again,
+    shape (n,); ``first``, ``middle`` and ``last``, voltage at its start, in its middle and at its end [V].
     """
     straight, bend = last - first, 2.0 * (first + last - 2.0 * middle)
     at, end = start, start + duration
@@ -89,7 +89,7 @@ def spectrum_of(means: Array) -> Array:
 
     A triangular mean multiplies the Fourier coefficient of line m by sinc(m/n)^2, with
     sinc(x) = sin(pi x)/(pi x), which is divided out. Sampling adds the coefficients of lines n - m, n + m and
-    so on; that of line n - m has the weight (m/(n - m))^2.
+    so on; the coefficient of line n - m has the weight (m/(n - m))^2.
 
     Examples
     --------
@@ -137,7 +137,7 @@ class Films(NamedTuple):
 
 
 class State(NamedTuple):
-    """Where a march stands; it is changed in place."""
+    """State of a march; it is changed in place."""
 
     x: Array  # states of the circuit, shape (n,)
     ring: Complex  # amplitude of the ringing [V], shape (1,)
@@ -341,8 +341,8 @@ _NOTHING, _BROKEN, _OUT = range(3)
 
 # Abscissae and weights of Gauss and Legendre on (0, 1) for charge and energy of an arc, and the exponent at
 # which a mode is over. Rate times duration of a panel, L, leaves an error of 5.8e-31 L^21 in the integral of
-# an exponential, which has fallen to exp(-E), and 1e6 times as much in that of its square: for 3e-12, L is
-# the smaller one of 4 exp(2 E/21) and 7.4 exp(E/21).
+# an exponential, which has fallen to exp(-E), and 1e6 times as much in the integral of its square: for 3e-12,
+# L is the smaller one of 4 exp(2 E/21) and 7.4 exp(E/21).
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(10)
 _OF_SQUARE, _OF_MODE, _ORDER, _GONE = 4.0, 7.4, 21.0, 40.0
 POINTS, WEIGHTS = 0.5 * (_POINTS + 1.0), 0.5 * _WEIGHTS

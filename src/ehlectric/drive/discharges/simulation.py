@@ -39,7 +39,7 @@ _ROUGH, _SILENT = 5e-4, 1e-4
 # Voltage up to which a histogram reaches at first, over the highest one; it widens as voltages ask for.
 _NARROWEST = 2.0**-12
 
-# Relative difference of times that are the same.
+# Relative difference of times that count as equal.
 _SAME = 1e-9
 
 # First events of which a typical one has the trace.
@@ -206,7 +206,7 @@ def _around(
     before: tuple[State, _Random],
     event: float,
 ) -> Array:
-    """Trace around the time of an event [s], by a second march through the begin of its chunk."""
+    """Trace around the time of an event [s], by a second march from the start of its chunk."""
     state, random = before
     start = float(state.time[0])
     ends = start + np.cumsum(chunk.duration)
@@ -222,7 +222,7 @@ def _around(
 
 
 def _state(size: int) -> State:
-    """State at the start: nothing is charged but by the source."""
+    """State at the start: only the source charges anything."""
     return State(
         x=np.zeros(size),
         ring=np.zeros(1, dtype=complex),
@@ -262,7 +262,7 @@ def _meters(measuring: Measuring) -> Meters:
 
 
 def _traced(measuring: Measuring, meters: Meters) -> Array:
-    """Rows of the trace that are filled; times from the begin of the measured time."""
+    """Rows of the trace that are filled; times from the start of the measured time."""
     trace: Array = meters.trace[: int(meters.traced[0])].copy()
     trace[:, 0] -= measuring.start
     return trace

@@ -182,7 +182,7 @@ def crossing(piece: Complex, film: int, start: float, end: float, level: float, 
     """First time in (start, end) at which abs(voltage) RISES to a level, or FALLS to it; -1 if at none.
 
     No crossing is stepped over: each step is one in which the bound of the second derivative allows none.
-    Where the voltage is not turned away from the level, the steps converge as those of Newton's method do.
+    If the voltage is not turned away from the level, the steps converge as in Newton's method.
     """
     t = start
     for _ in range(_STEPS):
@@ -203,8 +203,8 @@ def crossing(piece: Complex, film: int, start: float, end: float, level: float, 
     return t
 
 
-# Terms of the power series of modes that change little in a piece, and of those below another change. The
-# first term that is left out is that of the slope of the source, change^(n - 2) 2/n! of what it does.
+# Terms of the power series of modes that change little in a piece, and of modes below another change. The
+# first omitted term belongs to the slope of the source, change^(n - 2) 2/n! of what it does.
 _POWERS, _FEW, _SLOWEST = 10, 5, 1e-4
 
 
@@ -236,7 +236,7 @@ def empty_piece_voltages(modes: int) -> PieceVoltages:
 def unfold(piece: Complex, duration: float, course: PieceVoltages) -> None:
     """Write the voltages over a piece as a power series and exponentials, by which many times are quick.
 
-    A mode that hardly changes in the duration goes into the series, with an error below 2e-14 of its size; of
+    A mode that changes little in the duration goes into the series, with an error below 2e-14 of its size; of
     another one the series has the steady part.
     """
     course.powers[:] = 0.0
