@@ -128,7 +128,7 @@ class InputError(ValueError):
 
     @classmethod
     def missing(cls, key: str, takes: str) -> Self:
-        """Error of a required key that is missing."""
+        """Return the error of a required key that is missing."""
         return cls(key, takes=takes)
 
     @property
@@ -138,25 +138,25 @@ class InputError(ValueError):
 
     @classmethod
     def unknown(cls, key: str, nearest: str) -> Self:
-        """Error of a key that does not exist; ``nearest`` is the existing key that it may mean, or empty."""
+        """Return the error of an unknown key; ``nearest`` is the key that it may mean, or empty."""
         if not nearest:
             return cls.worded(short(key), "unknown key; no known key has a similar name")
         return cls.worded(short(key), f"unknown key; the nearest known one is {nearest}", takes=nearest)
 
     @classmethod
     def worded(cls, key: object, text: str, *, got: object = None, takes: str | None = None) -> Self:
-        """Error whose line has a free text after the key; ``got`` and ``takes`` are attributes only."""
+        """Return an error with free text after the key; ``got`` and ``takes`` are only attributes."""
         error = cls(key, text)
         error.got, error.takes = got, takes
         return error
 
     def with_text(self, key: str | None, text: str) -> Self:
-        """Copy of the error with another key and text, but the same ``got`` and ``takes``."""
+        """Return a copy of the error with another key and text, and with its ``got`` and ``takes``."""
         return self.worded(key, text, got=self.got, takes=self.takes)
 
     @classmethod
     def together(cls, errors: Sequence[InputError]) -> InputError:
-        """Error with the key of the first of several errors, whose line also has what the others say.
+        """Return an error with the key of the first of several errors, whose line contains all texts.
 
         Examples
         --------
@@ -176,7 +176,7 @@ class InputError(ValueError):
         return joined
 
     def under(self, table: str) -> Self:
-        """Copy of the error with its key in a table; an error without a key gets the table as its key.
+        """Return a copy of the error with its key in a table; without a key, the table is the key.
 
         Examples
         --------

@@ -101,7 +101,7 @@ class BearingResult(Shown):
         return known(float, shaft_voltage(self.solution))
 
     def capacitance(self, fill: float | str | None = None) -> float:
-        """Capacitance of the bearing from ring to ring, with smooth films, mean over cage positions.
+        """Return the capacitance from ring to ring with smooth films, mean over cage positions.
 
         Parameters
         ----------
@@ -126,7 +126,7 @@ class BearingResult(Shown):
         return float(capacitance(self.solution, fill))
 
     def breaks(self) -> dict[str, Any]:
-        """Breakdown voltages over the positions of the cage [V], and their ratios to the shaft voltage.
+        """Return breakdown voltages over cage positions [V], and their ratios to the shaft voltage.
 
         Values are None where there is no breakdown voltage or no shaft voltage.
         """
@@ -232,7 +232,7 @@ class BearingResult(Shown):
         return run_duty(self.case) if self.stored_duty is None else self.stored_duty
 
     def summary(self, *, probable: bool = True) -> dict[str, Any]:
-        """Results nested as in summary.json, SI units; None instead of NaN.
+        """Return the results nested as in summary.json, SI units; None instead of NaN.
 
         Without ``probable`` the table ``uncertainty`` is None and the verdict does not follow the
         probability of breakdown, which saves a second or two.
@@ -260,7 +260,7 @@ class BearingResult(Shown):
         return summary
 
     def to_xarray(self) -> xr.Dataset:
-        """Dataset of loads, films, capacitances and voltages over cage positions, rings and elements.
+        """Return loads, films, capacitances and voltages over cage positions, rings and elements.
 
         Returns
         -------
@@ -270,7 +270,7 @@ class BearingResult(Shown):
         return dataset_of(self.solution, self.duty)
 
     def to_dataframe(self) -> pd.DataFrame:
-        """Contacts as a table of pandas, a row per element and ring, with the cage at its first position.
+        """Return the contacts as a table of pandas, a row per element and ring, cage at its first position.
 
         Returns
         -------
@@ -291,7 +291,7 @@ class BearingResult(Shown):
         return frame
 
     def key_numbers(self) -> tuple[str | None, ...]:
-        """Designation, speed, capacitance, voltages and state, as texts."""
+        """Return designation, speed, capacitance, voltages and state as texts."""
         voltage, shaft = self.breaks()["first_break"], self.shaft_voltage
         capacitance = amount(self.capacitance(), "F")
         if capacitance_is_bound(self.solution):

@@ -281,7 +281,7 @@ class BearingCase(CaseFile, book="bearing_file"):
 
     @classmethod
     def missing_table_hint(cls, key: str, given: Mapping[str, Any]) -> str:
-        """Text with the key by which a file without the table of its bearing is a bearing file."""
+        """Return the text with the key by which a file without the table of its bearing is a bearing file."""
         sign = bearing_key(given) if key == "bearing" else None
         return "" if sign is None else f", [bearing], as the file looks like that of a bearing: it has {sign}"
 
@@ -292,7 +292,7 @@ class BearingCase(CaseFile, book="bearing_file"):
         return with_stated_ranges(tables, partial(_quantity, cls)) if isinstance(tables, Mapping) else tables
 
     def all_inputs(self) -> dict[str, Any]:
-        """Tables in SI units, also with the Rq that follows from an Ra."""
+        """Return the tables in SI units, also with the Rq that follows from an Ra."""
         tables = self.to_dict()
         return {**tables, "bearing": {**tables["bearing"], "composite_rq": self.bearing.composite_rq}}
 

@@ -236,7 +236,7 @@ class Case(CaseFile, book="case_file"):
             )
 
     def described_toml(self) -> str:
-        """TOML text of the case; it names laws of the user's own, so that no reader takes it for complete."""
+        """Return the TOML text of the case; it names user laws, so that no reader takes it for complete."""
         return self.toml_text(**({} if self._laws is None else {LAWS: self._laws.names}))
 
     @classmethod

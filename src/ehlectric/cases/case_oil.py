@@ -700,7 +700,7 @@ def _of_table(
 
 
 def oil(source: str | Path | Mapping[str, Any], temperature: str | float | None = None) -> Oil:
-    """Oil at a temperature: its numbers, and its laws as functions of pressure.
+    """Return an oil at a temperature: its numbers, and its laws as functions of pressure.
 
     Parameters
     ----------

@@ -109,7 +109,7 @@ class DriveCase(CaseFile, book="drive_file"):
         return {key: value for key, value in given.items() if value is not None}
 
     def all_inputs(self) -> dict[str, Any]:
-        """Tables in SI units, also with the Rq of both bearings that follows from an Ra."""
+        """Return the tables in SI units, also with the Rq of both bearings that follows from an Ra."""
         return self.to_dict() | {end: getattr(self, end).all_inputs() for end in ENDS}
 
     @property
@@ -135,7 +135,7 @@ class DriveCase(CaseFile, book="drive_file"):
         return self
 
     def variants(self) -> tuple[Self, ...]:
-        """Changed copies of the drive, one for each of its remedies."""
+        """Return changed copies of the drive, one for each of its remedies."""
         return tuple(self._changed(number, remedy) for number, remedy in enumerate(self.remedies, 1))
 
     def _changed(self, number: int, remedy: Remedy) -> Self:

@@ -266,7 +266,7 @@ class FilmFactors(Shown):
         return {name: unit if name in _OF_QUANTITY else COLUMNS[name].unit for name in self.columns}
 
     def summary(self) -> dict[str, Any]:
-        """Values as in measured.json, SI units; None instead of NaN."""
+        """Return the values as in measured.json, SI units; None instead of NaN."""
         slope, uncertainty = self.slope or (None, None)
         return {
             "schema": SCHEMA,
@@ -286,7 +286,7 @@ class FilmFactors(Shown):
         }
 
     def to_dataframe(self) -> pd.DataFrame:
-        """Rows as a table of pandas, the same as measured.csv.
+        """Return the rows as a table of pandas, as in measured.csv.
 
         Returns
         -------
@@ -304,7 +304,7 @@ class FilmFactors(Shown):
         return frame
 
     def contents(self) -> dict[str, Content]:
-        """Content of measured.json and measured.csv by their names."""
+        """Return the content of measured.json and measured.csv by their names."""
         units = self.units()
         heads = [column_head(name, unit) for name, unit in units.items()]
         columns = [

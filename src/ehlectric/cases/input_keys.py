@@ -46,7 +46,6 @@ _OF_DRIVES = ("drive", "source", "circuit", "breakdown")
 
 
 def _tables_in(model: type[Table]) -> Iterator[type[Table]]:
-    """A table and all tables within it."""
     yield model
     for field in model.known_keys().values():
         if inner := table_of(field.annotation):

@@ -87,7 +87,6 @@ class Roughness(StatedRa, book="roughness"):
         return {name for name, field in fields if getattr(self, name) != field.default}
 
     def _check_generator(self) -> None:
-        """Check the keys of the generator."""
         if self.generator not in GENERATORS:
             raise InputError(
                 "generator", got=shown(self.generator), takes=f"one of {', '.join(map(repr, GENERATORS))}"

@@ -96,7 +96,6 @@ def _refuse_with_drive(options: Mapping[str, str | None]) -> None:
 def _bearing(
     file: InputFile, contacts: str, arc: Arc | None, speeds: str | None, progress: Progress, *, motor: bool
 ) -> Netlist:
-    """Netlist of a bearing file."""
     from ehlectric.drive import check_strength, drive_of, solve_at_speeds, speeds_of, subcircuit_of
     from ehlectric.runs import by_kind
 
@@ -111,7 +110,6 @@ def _bearing(
 
 
 def _drive(file: InputFile, contacts: str, progress: Progress) -> Netlist:
-    """Netlist of a drive file."""
     from ehlectric.drive import drive_netlist
     from ehlectric.runs import by_kind
 

@@ -160,7 +160,6 @@ def _tables(outcome: RunOutcome[Result | PointResult]) -> Iterator[Table]:
 
 
 def _transient_tables(outcome: RunOutcome[object]) -> Iterator[Table]:
-    """Table of a transient contact."""
     from ehlectric.tables.measured_tables import table_of
     from ehlectric.tables.motion_tables import run_rows
 

@@ -232,7 +232,6 @@ def _named(elements: Iterator[Element]) -> Iterator[tuple[str, Element]]:
 
 
 def _parameters(name: str, element: Element) -> Iterator[str]:
-    """Lines of the parameters of an element."""
     letter, unit = _KINDS[element.kind]
     value = 1.0 / element.value if letter == "R" else element.value
     yield f".param {Parameter(name, value, unit, f'{element.first} to {element.second}').line}"

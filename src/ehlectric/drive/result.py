@@ -88,7 +88,7 @@ class DriveResult(Shown):
         return drive_verdict(self.case, summary, self.warnings)
 
     def summary(self) -> dict[str, Any]:
-        """Results nested as in summary.json, SI units; None instead of NaN."""
+        """Return the results nested as in summary.json, SI units; None instead of NaN."""
         remedies = [(variant.title, variant.changes, variant.tables) for variant in self.variants]
         summary = whole_summary(self.solution, remedies, self.warnings, self.seconds, self.version)
         return summary if self.duty is None else with_cycle(summary, self.duty)
@@ -116,7 +116,7 @@ class DriveResult(Shown):
         return events
 
     def to_dataframe(self) -> pd.DataFrame:
-        """Discharges as a table of pandas; ``attrs["units"]`` has the unit of each column of numbers."""
+        """Return the discharges as a table of pandas; ``attrs["units"]`` contains the units of columns."""
         import pandas as pd
 
         frame = pd.DataFrame(self.events(), columns=["bearing", *EVENT_COLUMNS])
@@ -124,7 +124,7 @@ class DriveResult(Shown):
         return frame
 
     def spectrum(self) -> pd.DataFrame:
-        """One-sided amplitude spectrum of the shaft voltage over the measured time, as in spectrum.csv.
+        """Return the one-sided amplitude spectrum of the shaft voltage, as in spectrum.csv.
 
         The shaft voltage is the voltage of the rotor against the frame, which is the voltage across the films
         of a bearing without a coating.
@@ -162,12 +162,12 @@ class DriveResult(Shown):
         return frame
 
     def to_xarray(self) -> xr.Dataset:
-        """Dataset of the result, as drive.nc holds it; SI units."""
+        """Return the dataset of the result, as drive.nc contains it; SI units."""
         duties = (self.duty, *self.remedy_duties)
         return dataset_of(self.solution, self.remedies, duties, self.seconds, self.version)
 
     def key_numbers(self) -> tuple[str | None, ...]:
-        """Rates of both bearings and state, as texts."""
+        """Return the rates of both bearings and the state as texts."""
         tables = drive_summary(self.solution)
         rates = (
             f"{name} {readable(tables[end]['events_per_second'])} discharges/s"

@@ -133,7 +133,6 @@ def film_around(result: BearingResult, ax: Axes | None = None) -> Axes:
 
 
 def _draw_around(result: BearingResult, panel: Panel, ax: Axes | None) -> Axes:
-    """Draw a panel around the shaft."""
     ax = _polar_or_new(result, ax)
     for line in draw_curves(panel.curves, ax):
         # The marks of contacts without load lie on the inner circle.

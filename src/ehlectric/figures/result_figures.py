@@ -55,7 +55,7 @@ def default_figure(result: AnyResult, **options: Any) -> tuple[str, dict[str, An
 
 
 def figure(result: AnyResult, name: str, *, style: str = "screen", **options: Any) -> Figure:
-    """Figure of a result.
+    """Draw a figure of a result.
 
     Parameters
     ----------
@@ -100,7 +100,7 @@ def figure(result: AnyResult, name: str, *, style: str = "screen", **options: An
 
 
 def figure_names(result: AnyResult) -> list[str]:
-    """Names of the figures that a result has.
+    """Return the names of the figures of a result.
 
     Figures of a bearing include its figures over speed, which are drawn from contacts that are not solved.
     Figures of a sweep are maps and lines of each value that has a name, over the first varied keys; ``x`` and

@@ -228,5 +228,4 @@ class Oil:
 
 
 def _at_zero(law: PressureLaw) -> Numbers:
-    """Value of a law at zero pressure."""
     return as_float(law(np.zeros(()))[0])

@@ -78,7 +78,7 @@ class Laws:
         }
 
     def at(self, temperature: float, max_pressure: float) -> SampledLaws:
-        """Laws at a temperature, sampled over pressure.
+        """Return the laws at a temperature, sampled over pressure.
 
         Parameters
         ----------

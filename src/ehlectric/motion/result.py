@@ -44,15 +44,15 @@ class MotionResult(Shown, MotionRun):
         return warnings_of(self.summary())
 
     def summary(self) -> dict[str, Any]:
-        """Key figures in SI units, as nested tables with the keys of summary.json."""
+        """Return key figures in SI units, as nested tables with the keys of summary.json."""
         return summary_of(self.dataset)
 
     def to_xarray(self) -> xr.Dataset:
-        """Dataset of all values with their units, the same as motion.nc."""
+        """Return the dataset of all values with their units, as in motion.nc."""
         return self.dataset
 
     def to_dataframe(self) -> pd.DataFrame:
-        """Time steps as a table of pandas.
+        """Return the time steps as a table of pandas.
 
         Returns
         -------
@@ -66,7 +66,7 @@ class MotionResult(Shown, MotionRun):
         return frame
 
     def key_numbers(self) -> tuple[str | None, ...]:
-        """Time steps, minimum film, maximum field and state, as texts."""
+        """Return time steps, minimum film, maximum field and state as texts."""
         steps = self.dataset.sizes["step"] - 1
         strongest = amount(float(np.max(self.values("max_strength"))), "V/m")
         field = MOTION_BOOK[self.case.contact.geometry]["field.max_strength"]

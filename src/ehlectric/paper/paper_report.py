@@ -142,7 +142,6 @@ def numbers(study: Study, tables: Mapping[str, PaperTable]) -> dict[str, str]:
 
 
 def _column(table: PaperTable, head: str) -> list[float]:
-    """Numbers of a column of a table."""
     place = table.heads.index(head)
     return [float(row[place]) for row in table.rows]
 

@@ -94,7 +94,7 @@ class ResultWarning:
 
     @classmethod
     def of(cls, code: str, situation: str = "", /, **values: object) -> Self:
-        """Warning with the text of its code in ``warning_texts.toml``, filled with ``values`` by their names.
+        """Return the warning with its text of ``warning_texts.toml``, filled with ``values`` by their names.
 
         A code with several texts has one for each situation in which it is given.
 

@@ -49,7 +49,6 @@ def _entries(kind: str) -> Mapping[str, Mapping[str, Any]]:
 
 
 def _quantity(fields: Mapping[str, Any], geometry: str) -> Quantity:
-    """Quantity of an entry for a geometry."""
     chosen = {
         name: value[geometry] if isinstance(value, dict) else value
         for name, value in fields.items()

@@ -112,12 +112,12 @@ class Verdict:
         return assumed_text(self.assumptions, self.bound, self.where)
 
     def sentences(self, without: tuple[str, ...] = ()) -> tuple[str, ...]:
-        """Sentences of the reasons, without some codes."""
+        """Return the sentences of the reasons, without some codes."""
         kept = (statement for statement in self.reasons if statement.code not in without)
         return tuple(capital(statement_text(statement, self.where)) for statement in kept)
 
     def rest(self, reasons: int | None = None) -> str:
-        """Sentences after the first words; ``reasons``, number of reasons, or all of them."""
+        """Return the sentences after the first words; ``reasons``, number of reasons, or all of them."""
         return " ".join(filter(None, (self.numbers, *self.sentences()[:reasons], self.assumed)))
 
     @property
@@ -127,7 +127,7 @@ class Verdict:
         return " ".join(filter(None, (f"{self.lead}{answer}", *self.sentences(), self.assumed)))
 
     def lines(self) -> Iterator[tuple[str, str]]:
-        """Lines: heading and operating point without a label, then labels with their texts.
+        """Return the lines: heading and operating point without a label, then labels with their texts.
 
         Examples
         --------
@@ -142,7 +142,7 @@ class Verdict:
             yield "model", assumed_text(self.assumptions, self.bound, self.where, form="brief")
 
     def as_data(self) -> dict[str, Any]:
-        """Entries of ``summary.json``: text, level, and codes and values of all statements."""
+        """Return the entries of ``summary.json``: text, level, and codes and values of all statements."""
         stated = (self.answer, *self.reasons, *self.assumptions)
         reasons = [statement.as_data() for statement in stated if statement is not None]
         return {"verdict": self.text, "verdict_level": self.level, "verdict_reasons": reasons}

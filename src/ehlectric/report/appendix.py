@@ -136,7 +136,6 @@ def _equal(value: Any, other: Any) -> bool:
 
 
 def _is_default(key: str, value: Any) -> bool:
-    """Whether a value is the default of its key."""
     if end_and_key(key)[1] == "contacts":
         return bool(value == BearingCase.known_keys()["contacts"].default)
     try:

@@ -316,7 +316,6 @@ def pdf_of(report: Report) -> bytes:
 
 
 def _story(report: Report) -> Iterator[Flowable]:
-    """Flowables of a report."""
     first, *others = report.sections
     if first.single_page:
         yield first_page(report)

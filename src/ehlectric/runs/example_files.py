@@ -21,7 +21,7 @@ def examples_folder() -> Path:
 
 
 def example(name: str) -> Path:
-    """Path of an example that comes with ehlectric, or of a surface or measurement that it needs.
+    """Return the path of an example that comes with ehlectric, or of a surface or measurement that it needs.
 
     Parameters
     ----------

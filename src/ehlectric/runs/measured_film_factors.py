@@ -77,7 +77,7 @@ def film_factors(
     progress: Progress = silent,
     workers: int | None = None,
 ) -> FilmFactors:
-    """Film factors that explain a measurement: capacitance of a bearing, or film of a contact.
+    """Compute the film factors that explain a measurement: capacitance of a bearing, or film of a contact.
 
     The film factor is the film thickness divided by the isothermal, fully flooded film thickness. It contains
     heat, starvation and grease; ``film_factor`` and ``supply`` of the case are not used. Other than the key

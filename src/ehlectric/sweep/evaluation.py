@@ -122,7 +122,6 @@ def _key_of_end(key: str, end: str) -> str | None:
 
 
 def _values(key: str, values: Any) -> Any:
-    """Values of one key at all points."""
     if isinstance(values, np.ndarray) and values.ndim == 1 and values.size:
         return values
     if isinstance(values, str) or not isinstance(values, Sequence) or not len(values):

@@ -203,7 +203,7 @@ class SweepResults(Shown, SweepPoints):
     result_kind: ClassVar[ResultKind] = "sweep"
 
     def values(self, key: str) -> Array:
-        """Value of a key of the summary at every point.
+        """Return the value of a key of the summary at every point.
 
         Parameters
         ----------
@@ -243,7 +243,7 @@ class SweepResults(Shown, SweepPoints):
         raise InputError.unknown(key, alike[0] if alike else nearest(key, within or known))
 
     def summary(self) -> dict[str, Any]:
-        """Number of points of each status, and the design of the sweep.
+        """Return the number of points of each status, and the design of the sweep.
 
         Returns
         -------
@@ -269,7 +269,7 @@ class SweepResults(Shown, SweepPoints):
         return self._toml(self.case.to_toml())
 
     def described_toml(self) -> str:
-        """TOML text of the sweep for a report; it names laws of the user's own."""
+        """Return the TOML text of the sweep for a report; it names laws of the user's own."""
         return self._toml(self.case.described_toml())
 
     def _toml(self, case: str) -> str:
@@ -288,11 +288,11 @@ class SweepResults(Shown, SweepPoints):
         return tomli_w.dumps(table | {"case": tomllib.loads(case), "vary": axes | ranges})
 
     def to_xarray(self) -> xr.Dataset:
-        """Dataset of inputs and results, over the varied keys in a "grid" design, the same as sweep.nc."""
+        """Return inputs and results over the varied keys in a "grid" design, as in sweep.nc."""
         return dataset_of(self)
 
     def to_dataframe(self) -> pd.DataFrame:
-        """Points as a table of pandas, a row for each.
+        """Return the points as a table of pandas, a row for each.
 
         Returns
         -------
@@ -309,7 +309,7 @@ class SweepResults(Shown, SweepPoints):
         return frame
 
     def key_numbers(self) -> tuple[str | None, ...]:
-        """Number of points, varied keys and states, as texts."""
+        """Return the number of points, varied keys and states as texts."""
         counts = self.summary()
         others = [f"{counts[status]} {status}" for status in ("not converged", "failed", "open")]
         return (
@@ -346,7 +346,6 @@ def write_tables(results: SweepResults, folder: str | Path) -> list[Path]:
 
 
 def _write_parquet(columns: Mapping[str, list[Any]], file: BinaryIO) -> None:
-    """Write columns as Parquet."""
     import pyarrow
     from pyarrow import parquet
 

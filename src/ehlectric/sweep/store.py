@@ -285,7 +285,6 @@ def _parsed(rows: Sequence[tuple[Any, ...]]) -> Iterator[tuple[Any, Any]]:
 
 
 def _json(text: Any, name: str) -> Any:
-    """Value of a JSON text."""
     if not isinstance(text, str):
         raise UnfitError(f"{name} is not a text")
     try:

@@ -72,7 +72,6 @@ def check_varied(key: str, case: SweptCase, varied: Collection[str] = ()) -> Non
 
 
 def _check_drive(key: str, case: DriveCase, varied: Collection[str]) -> None:
-    """Check a key of a drive."""
     end, inner = end_and_key(key)
     if not is_of_drive(key) and key != "title":
         raise InputError.unknown(key, _nearest(key))
@@ -472,7 +471,7 @@ class Sweep(Tabled, Table):
         return math.prod(lengths) if self.design == "grid" else lengths[0]
 
     def points(self) -> Iterator[dict[str, Any]]:
-        """Inputs of every point by dotted key of the case, in SI units, in the order of the design."""
+        """Return the inputs of every point by dotted key, in SI units, in the order of the design."""
         if self.design == "sobol":
             whole = [key for key in self.vary if isinstance(number_of(input_field(key)), Count)]
             return sobol(self.ranges, self.samples or 0, self.seed, whole)

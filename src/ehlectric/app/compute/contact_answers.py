@@ -208,7 +208,6 @@ def answer_of(result: Result | PointResult) -> ContactAnswer:
 
 
 def _verdict(result: Result | PointResult) -> Verdict:
-    """Verdict of the command."""
     if not result.converged:
         return no_verdict(Statement.of("status", status=result.film.status), code="not-converged")
     return result.verdict or _NO_STRENGTH

@@ -808,7 +808,6 @@ def ball_equilibrium(
 def _equilibrium(
     batch: Batch[BallBearing], points: _Points, forces: _Forces, steps: IntArray
 ) -> BallEquilibrium:
-    """Equilibrium of all points of a batch."""
     contacts = forces.contacts
     angles = np.arctan2(contacts.sine, contacts.cosine)
     # The moments are about the centre of the circle of groove centres, which the contact forces pass through.

@@ -541,7 +541,6 @@ def _equilibrium(
     residual: Array,
     steps: IntArray,
 ) -> BallEquilibrium:
-    """Equilibrium of all points of a batch."""
     elements, number = points.shape
 
     def both(values: Array) -> Array:
