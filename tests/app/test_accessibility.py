@@ -103,7 +103,7 @@ def test_form_and_answer_are_used_by_the_keyboard_alone(page):
     assert page.evaluate("() => document.activeElement.dataset.testid") == "slider-bearing-radial_load"
     # Help opens at its button, and Escape closes it there.
     keys.press("Shift+Tab")
-    text = page.get_by_text("As it grows, the capacitance rises, the films get thinner")
+    text = page.get_by_text("If the value increases, the capacitance rises, the films get thinner")
     for key, count in (("Enter", 1), ("Escape", 0), ("Space", 1), ("Escape", 0)):
         keys.press(key)
         assert wait_until(lambda count=count: text.count() == count), key

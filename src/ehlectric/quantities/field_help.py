@@ -1,4 +1,4 @@
-"""Help of the fields of the app: what an input is, its usual values, and what follows as it grows.
+"""Help for the fields of the app: meaning of an input, usual values, and effects if the input increases.
 
 The entry of an input has its meaning, usual values and effects; ``field_help.toml`` has the words of the
 effects, which a test compares with solved examples, and of the sources of usual values.
@@ -59,7 +59,7 @@ def help_text(key: str) -> str:
     >>> help_text("motor.rise_time").partition(". ")[2]
     'Usual: 0.05 to 0.1 µs (assumed for typical inverters).'
     >>> help_text("bearing.outer_ring_temperature").rpartition(". ")[2]
-    'As it grows, the capacitance rises, the films get thinner and the breakdown voltage falls.'
+    'If the value increases, the capacitance rises, the films get thinner and the breakdown voltage falls.'
     """
     entry = input_at(key)
     if entry is None:
@@ -87,4 +87,4 @@ def _effect_text(about: Help) -> str:
     words = [effect(name)["rises"] for name in about.rises] + [effect(name)["falls"] for name in about.falls]
     if not words:
         return ""
-    return "as it grows, " + " and ".join(filter(None, [", ".join(words[:-1]), words[-1]]))
+    return "if the value increases, " + " and ".join(filter(None, [", ".join(words[:-1]), words[-1]]))

@@ -193,7 +193,7 @@ class Field:
     kind: Literal["number", "count", "choice", "text", "alternatives"] = "number"
     choices: tuple[str, ...] = ()  # values of a choice; empty where they are in the library
     note: str = ""  # what a user must know next to the field
-    help: str = ""  # what the input is, its usual values, and what follows as it grows
+    help: str = ""  # meaning of the input, usual values, and effects of a larger value
     # Label of the entry of a choice that stands for values of one's own, without a name of the library.
     custom_label: str = ""
     alternatives: tuple[Alternative, ...] = ()
