@@ -53,7 +53,7 @@ def test_the_bearing_page_has_the_output_of_its_command(bearing_output):
 
 def kind_commands():
     """Commands of the bearings of several kinds, and the lines that the page has of their output."""
-    shown = [block.splitlines() for block in blocks("reference/bearing.md", "text") if block.startswith("$")]
+    shown = [block.splitlines() for block in blocks("bearing_kinds.md", "text") if block.startswith("$")]
     return {command.removeprefix("$ ehlectric "): lines for command, *lines in shown}
 
 
