@@ -16,7 +16,7 @@ def pages() -> list[Path]:
 
 
 def page(name: str) -> str:
-    """Return the text of the page with a file name, such as ``"oils.md"`` or ``"reference/bearing.md"``.
+    """Return the text of the page with a file name, such as ``"oils.md"`` or ``"howto/discharge.md"``.
 
     Raises LookupError unless exactly one page below docs matches.
     """

@@ -15,7 +15,7 @@ from tests.helpers.places import ROOT
 @pytest.mark.slow
 def test_the_script_of_the_guide_runs_as_a_file(tmp_path):
     """Interference presses all rollers nearly alike: few contacts to solve, and yet in several processes."""
-    page = pages.page("reference/bearing.md")
+    page = pages.page("python_bearings.md")
     (script,) = pages.blocks(page, "python")
     (named,) = re.findall(r'from_toml\("(.*?)"\)', script)
     assert (ROOT / named).is_file()

@@ -44,7 +44,7 @@ def test_the_page_of_oils_has_the_output_of_its_command(tmp_path):
 
 @pytest.mark.slow
 def test_the_bearing_page_has_the_output_of_its_command(bearing_output):
-    verdict, totals, contacts, *_ = blocks("reference/bearing.md", "text")
+    verdict, totals, contacts, *_ = blocks("bearing_output.md", "text")
     (probability,) = blocks("howto/probability.md", "text")
     assert words(verdict) in bearing_output
     for line in (*totals.splitlines(), *contacts.splitlines(), *probability.splitlines()):

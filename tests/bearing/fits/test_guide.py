@@ -14,8 +14,8 @@ from tests.helpers.places import ROOT
 
 
 def test_the_example_of_the_guide_has_the_numbers_of_the_guide():
-    page = pages.page("reference/bearing.md")
-    section = page.partition("(bearing-fits)=")[2].partition("### \\[lubricant.temperature\\]")[0]
+    page = pages.page("bearing_file.md")
+    section = page.partition("(bearing-fits)=")[2].partition("## \\[bearing.pair\\]")[0]
     (table,) = re.findall(r"^```toml\n(.*?)^```", section, flags=re.S | re.M)
     (printed,) = re.findall(r"^```text\n(.*?)^```", section, flags=re.S | re.M)
     rest = BearingCase.from_toml(ROOT / "examples" / "bearing_6208.toml").to_dict()
