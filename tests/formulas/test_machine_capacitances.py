@@ -89,7 +89,7 @@ def test_a_machine():
     plate = epsilon_0 * 3.5 * 36 * 0.12 * 50e-3 / 0.3e-3
     assert found.winding_frame == pytest.approx(plate)
     plates = 36 * epsilon_0 * 0.12 * 3e-3 / (0.5e-3 + 2e-3 / 2.0)
-    assert plates / found.winding_rotor == pytest.approx(3.4, abs=0.05)  # as docs/howto/drive.md says
+    assert plates / found.winding_rotor == pytest.approx(3.4, abs=0.05)  # as docs/theory/drive.md says
     smooth = 2.0 * math.pi * epsilon_0 * 0.12 / math.log(110.0 / 109.0)
     assert 0.8 * smooth < found.rotor_frame < smooth
     longer = machine_capacitances(replace(MACHINE, length=0.24))
