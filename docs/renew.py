@@ -43,6 +43,13 @@ def _tutorial(command: str, run: Run, folder: Path, *, grade: int = 46) -> str:
     return run(shlex.split(command), folder)
 
 
+def _contact(command: str, run: Run, folder: Path) -> str:
+    """Output of a command for the contact of its tutorial."""
+    case = block_with('title = "Ball on disc, 20 N, 60 °C"', "toml")
+    (folder / "contact.toml").write_text(case, "utf-8")
+    return run(shlex.split(command), folder)
+
+
 def _fits(command: str, run: Run, folder: Path, *, inner: int = 85) -> str:
     """Output of a command for the bearing with fits, at a temperature of its inner ring [degC]."""
     example = (ROOT / "examples" / "bearing_6208.toml").read_text("utf-8")
@@ -74,6 +81,9 @@ RUNS: Mapping[str, Callable[[Run, Path], str]] = {
     "fits": partial(_fits, f"bearing bearing.toml --contacts formula {_SOLVED}"),
     "even": partial(_fits, f"bearing bearing.toml --contacts formula {_SOLVED}", inner=70),
     "coated": partial(_coated, f"bearing bearing.toml --contacts atlas {_SOLVED}"),
+    "contact_check": partial(_contact, "check contact.toml"),
+    "contact": partial(_contact, "run contact.toml --no-plots -o out"),
+    "drive": partial(_example, "drive examples/drive.toml --no-plots -o out"),
     "index": partial(_example, f"bearing examples/bearing_6208.toml {_SOLVED}"),
 }
 

@@ -94,7 +94,7 @@ class Texts:
     @cached_property
     def pages(self) -> list[Path]:
         """Return the pages of the documentation that are written by hand."""
-        generated = {"_build", "_generated", "auto_gallery"}
+        generated = {"_build", "_generated", "api", "auto_gallery"}
         return [file for file in sorted((self.root / "docs").rglob("*.md")) if not generated & {*file.parts}]
 
     @cached_property

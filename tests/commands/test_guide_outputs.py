@@ -178,3 +178,18 @@ def test_the_discharge_page_has_the_output_of_its_case(tmp_path):
     for line in table.splitlines():
         assert words(line) in printed
     assert words(verdict) in printed
+
+
+@pytest.mark.slow
+def test_the_sweep_of_the_first_contact_is_solved_at_all_points(tmp_path):
+    (case,) = (block for block in blocks("first_contact.md", "toml") if "[contact]" in block)
+    (sweep,) = (block for block in blocks("first_contact.md", "toml") if "[vary]" in block)
+    (tmp_path / "contact.toml").write_text(case, encoding="utf-8")
+    (tmp_path / "speeds.toml").write_text(sweep, encoding="utf-8")
+    assert "points solved 6 of 6" in printed_by("sweep", "speeds.toml", "-o", "o", cwd=tmp_path)
+
+
+def test_the_file_of_the_first_drive_is_the_example_whose_numbers_the_page_contains(tmp_path):
+    printed_by("init", "drive.toml", "--kind", "drive", "--no-schema", cwd=tmp_path)
+    example = (ROOT / "examples" / "drive.toml").read_text("utf-8")
+    assert (tmp_path / "drive.toml").read_text("utf-8") == example
