@@ -17,13 +17,13 @@ _HEADINGS: dict[str, str] = data_file("ehlectric.quantities", "form_fields.toml"
 
 @cache
 def bearing(name: str) -> dict[str, Any]:
-    """Table of a bearing of the library, or of the designation of a maker; empty for another name."""
+    """Return the table of a library bearing or of a maker's designation; empty for another name."""
     return library.bearing(name) if name in library.bearing_names() else _read(name)[1]
 
 
 def designated(text: str) -> dict[str, str]:
-    """Name of the bearing with the designation of a maker, the designation, and its class of clearance, by
-    key of ``bearing``; the text itself where there is no such bearing.
+    """Return the bearing name for a maker's designation, the designation, and its clearance class, by key of
+    ``bearing``; the text itself without such a bearing.
 
     Examples
     --------

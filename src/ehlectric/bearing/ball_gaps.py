@@ -59,7 +59,7 @@ class DomainLaw:
         )
 
     def states(self, ends: Ends, unit: UnitContact) -> IntArray:
-        """States of the ends of domains, as digits of a number to the base of three."""
+        """Return the states of domain ends as digits of a number to the base of three."""
         least = (self.inlet, self.outlet, self.side(unit.ratio))
         total: IntArray = np.zeros((), dtype=np.intp)
         for end, near, most in zip(ends, least, self.rule.most, strict=True):

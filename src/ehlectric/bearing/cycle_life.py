@@ -121,8 +121,8 @@ def minimum_static_safety(case: BearingCase, radial: Array, axial: Array) -> flo
 
 
 def _miner(total: float, duration: Array, life: Any, counted: Mask) -> float | None:
-    """Life [s] of a cycle of a duration ``total`` [s] from the lives [s] of its rows that are counted; None
-    if one of these lives is unknown.
+    """Return the life [s] of a cycle with the duration ``total`` [s] from the lives [s] of its counted rows;
+    None if one of these lives is unknown.
     """
     if life is None:
         return None

@@ -57,7 +57,7 @@ def edges_of(time: Array) -> Array:
 
 
 def stretches_of(within: Mask) -> list[tuple[int, int]]:
-    """Places of the first row of each stretch of rows, and of the row after its last one.
+    """Return the places of the first row of each stretch, and of the row after it.
 
     Examples
     --------

@@ -362,8 +362,8 @@ def _given(case: BearingCase, cycle: Cycle) -> dict[str, Array]:
 
 
 def rows_of(case: BearingCase, cycle: Cycle) -> tuple[DutyRows, PointValues]:
-    """Rows of a cycle of a bearing with estimated contacts, and the values of rows that are no standstill,
-    with reasons by the places of the rows.
+    """Return the rows of a cycle for a bearing with estimated contacts, and the values of rows without
+    standstill, with reasons by row.
     """
     given, time = _given(case, cycle), cycle.time
     moves = _moves(given["speed"])

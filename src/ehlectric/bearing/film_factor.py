@@ -1,4 +1,4 @@
-"""Film factor of the contacts of a bearing by heat and by the supply of oil, and the friction of rolling.
+"""Film factor of bearing contacts due to heat and oil supply, and the rolling friction.
 
 The friction is the hydrodynamic rolling resistance of all contacts, from one solved contact of each ring.
 Spin and slip of the balls, cage, ribs, seals, churned oil and hysteresis of the steel add to it, and are not

@@ -1,4 +1,4 @@
-"""Capacitance of the gaps of many elements of bearings of one size, by polynomials through few integrals.
+"""Capacitance of many elements' gaps in bearings of one size, by polynomials through few integrals.
 
 On the raceway of one bearing the capacitance around a film that is a dry gap widened by a number depends on
 the contact angle, on the semi-axis b of the dry contact, on this number, and on the domain of the film. The
@@ -163,7 +163,7 @@ class _Contacts:
         return 1.0 if np.ndim(self.race.ball_radius) == 0 else self.race.ball_radius
 
     def varying(self, rows: Any = slice(None)) -> list[Array]:
-        """Values of what varies of the contacts ``rows``, in the order of the variables of the tables."""
+        """Return the varying values of the contacts ``rows``, in the order of the table variables."""
         sizes: dict[str, Any] = {
             "pitch_radius": np.log(self.race.pitch_radius / self.length),
             "first_angle": self.race.first_angle,

@@ -142,7 +142,7 @@ class Raceway:
         return replace(self, **spread) if spread else self
 
     def at(self, points: IntArray | Mask | slice) -> Raceway:
-        """Raceways of some of the points; ``points``, an index of arrays of shape (...)."""
+        """Return the raceways of some points; ``points`` is an index into arrays of shape (...)."""
         numbers = {name: value for name, value in vars(self).items() if np.ndim(value) > 0}
         return replace(self, **{name: value[points] for name, value in numbers.items()}) if numbers else self
 

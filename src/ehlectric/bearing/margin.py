@@ -350,7 +350,7 @@ class Effect:
 
     @property
     def size(self) -> float:
-        """Size of the effect: logarithm of the ratio of both margins; infinite where one of them is 0."""
+        """Size of the effect: logarithm of the margin ratio; infinite where a margin is 0."""
         low, high = sorted((self.low_margin, self.high_margin))
         return math.inf if low <= 0.0 else math.log(high / low)
 

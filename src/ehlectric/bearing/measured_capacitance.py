@@ -402,7 +402,7 @@ def _half_width(
     factor: float,
     corrected: Callable[[FilmState], FilmState],
 ) -> float:
-    """Half of the difference of ln(capacitance) between both ends of a range, at the inputs of a row."""
+    """Return half the difference in ln(capacitance) between both ends of a range, at the inputs of a row."""
     ends = []
     for end in (entry.low, entry.high):
         changes = dict(row)

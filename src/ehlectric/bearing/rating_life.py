@@ -221,7 +221,7 @@ _RULES: dict[str, _Rules] = {
 
 @dataclass(frozen=True)
 class RatedLoads:
-    """Ratings of a bearing, or of both bearings of a pair, and their load, of shape (...) [N]."""
+    """Ratings of a bearing or of a bearing pair, and their load, shape (...) [N]."""
 
     dynamic_rating: Numbers
     static_rating: Numbers

@@ -185,7 +185,7 @@ class BearingResult(Shown):
 
     @property
     def all_warnings(self) -> tuple[ResultWarning, ...]:
-        """Warnings of the bearing, of its probability of breakdown, and of its duty cycle, each once.
+        """Warnings about the bearing, its breakdown probability and its duty cycle, each once.
 
         It computes the probability and the duty cycle when it is first asked for.
         """
@@ -317,7 +317,7 @@ class BearingResult(Shown):
 
 
 def contact_units() -> dict[str, str]:
-    """SI unit of each column of numbers of the table of contacts; empty for a dimensionless one."""
+    """Return the SI unit of each numeric column in the contact table; empty for a dimensionless one."""
     return {name: quantity.unit for name, quantity in ELEMENT_KEYS.items() if name not in _LABELS}
 
 

@@ -1,4 +1,4 @@
-"""Ranges of the inputs of a bearing: ranges of its file, and the usual ranges of the others."""
+"""Input ranges of a bearing: ranges of its file, and the usual ranges for other inputs."""
 
 from __future__ import annotations
 

@@ -122,8 +122,8 @@ def codes_of(solution: BearingSolution) -> Iterator[tuple[str, Mask]]:
 
 
 def _contact_codes(solution: BearingSolution) -> Iterator[tuple[str, Mask]]:
-    """Codes of warnings of estimated contacts of many points, and which points have them, shape (...):
-    contacts outside the atlas, pressures that deform steel, and laws of the oil beyond their range.
+    """Yield warning codes for estimated contacts at many points, and the points that have them, shape (...):
+    contacts outside the atlas, pressures that deform steel, and oil laws beyond their range.
 
     The texts of a single bearing name the contacts; see ``contact_warnings``.
     """

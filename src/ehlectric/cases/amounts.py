@@ -196,7 +196,7 @@ class Amount(Bounds):
 
 @dataclass(frozen=True)
 class Amounts:
-    """Pydantic annotation of a list of quantities of one kind, parsed to a tuple of floats in SI units."""
+    """Pydantic annotation for a list of like quantities, parsed to a tuple of floats in SI units."""
 
     each: Amount
     least: int = 1
@@ -263,7 +263,7 @@ N = TypeVar("N", Amount, Count)
 
 
 def with_bounds(kind: type[N], entry: object) -> N:
-    """Amount or count with the unit and the bounds of an entry of the book, or of a parameter of a law."""
+    """Return the amount or count with the unit and bounds of a book entry or law parameter."""
     names = (field.name for field in fields(kind))
     return kind(**{name: getattr(entry, name) for name in names})
 

@@ -1,4 +1,4 @@
-"""Inputs of a case by dotted key: field, type of number, unit, and what the book of inputs says of them."""
+"""Inputs of a case by dotted key: field, number type, unit, and their entry in the book of inputs."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ def _entry(table: str, name: str) -> Quantity | None:
 
 
 def descriptions(table: str) -> dict[str, str]:
-    """Return the meanings of the keys of a table of ``TABLES`` or of "sweep", in Markdown.
+    """Return what the keys of a table in ``TABLES``, or of "sweep", mean, in Markdown.
 
     Examples
     --------

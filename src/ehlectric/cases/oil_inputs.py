@@ -59,7 +59,7 @@ OPTIONAL_LAWS = ("conductivity_law", "thermal_conductivity_law", "heat_capacity_
 
 
 def law_parameters(*choices: str) -> dict[str, Parameter]:
-    """Parameters of the laws of a lubricant, by name, as the tables of laws are at the time of the call.
+    """Return the parameters of lubricant laws by name, from the law tables at the time of the call.
 
     ``choices`` are keys of ``LAWS``, such as "density_law"; without any, the laws of all keys count.
 

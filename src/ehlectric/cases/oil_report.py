@@ -486,8 +486,8 @@ def oil_report(
     temperatures: Sequence[str | float] = (),
     pressures: Sequence[str | float] = (),
 ) -> OilReport:
-    """Report on every property of an oil of the library, of a file or of a table. Properties of which a value
-    is missing are marked. Raises InputError if there is no such oil, or a temperature is outside its range.
+    """Report on every property of an oil from the library, a file or a table. Properties of which a value is
+    missing are marked. Raises InputError if there is no such oil, or a temperature is outside its range.
 
     Examples
     --------

@@ -116,7 +116,7 @@ def refuse_another_oil(oil: Properties, other: Properties, names: Mapping[str, s
 
 
 def _value(oil: Properties, path: str) -> Any:
-    """Value of a key of an oil, or of a key of its data sheet; None if the oil does not give it."""
+    """Return the value of a key in an oil or in its data sheet; None if the oil does not give it."""
     value: Any = oil
     for name in path.split("."):
         value = getattr(value, name, None)

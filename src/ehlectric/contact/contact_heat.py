@@ -1,4 +1,4 @@
-"""Heat and shear of the film of a contact: input of the solver; numbers, files and warnings of results."""
+"""Heat and shear in the film of a contact: solver input; numbers, files and warnings of results."""
 
 from __future__ import annotations
 

@@ -221,7 +221,7 @@ def spots_of(film: Film | PointFilm) -> Spots:
 
 
 def hertz_weights(film: Film | PointFilm, semi_axes: tuple[float, ...]) -> Array:
-    """Area [m^2] of each node's part of the Hertz ellipse, or width [m] of its part of the Hertz zone."""
+    """Return each node's area [m^2] within the Hertz ellipse, or width [m] within the Hertz zone."""
     return areas_by_zone(film.axes, semi_axes)["hertz"]
 
 

@@ -101,7 +101,7 @@ def strength_interval(margin: float) -> tuple[float, float]:
 
 
 def sampling_error(probability: float, number: int) -> float:
-    """Half of Wilson's interval of a share of random points at a confidence of 95 %.
+    """Return half of Wilson's interval for a share of random points, at a confidence of 95 %.
 
     Examples
     --------

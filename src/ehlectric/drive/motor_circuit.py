@@ -274,8 +274,8 @@ def oscillations(circuit: Circuit, bearings: Sequence[BearingElement]) -> list[t
 def states_of(
     circuit: Circuit, bearings: Sequence[BearingElement], breakdown: Breakdown, *, touches: bool
 ) -> list[StateSpace]:
-    """State equations of the circuit in all of its states, in the order in which a march numbers them: each
-    state of the first and the second film, and each position of the elements of both bearings.
+    """Return the state equations for all circuit states, in the order in which a march numbers them: each
+    state of the first and second film, and each position of both bearings' elements.
     """
     arc = 1.0 / breakdown.arc_resistance
     doing = [[0.0, arc, 1.0 / bearing.touch_resistance][: 3 if touches else 2] for bearing in bearings]

@@ -195,7 +195,7 @@ class Variant:
 
 
 def _parts(report: Progress, number: int) -> Iterator[Progress]:
-    """Progress of each of a number of simulations as parts of the whole one."""
+    """Yield the progress of each simulation as a part of the whole progress."""
     for part in range(number):
 
         def progress_of_part(done: int, of: int, text: str, part: int = part) -> None:

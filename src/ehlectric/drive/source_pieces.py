@@ -69,7 +69,7 @@ def edges(
 
 
 def _knots(interval: Steps, rise: float, ringing: Ringing | None) -> Array:
-    """Times, changes of slope, jumps, and amplitudes of ringing of the steps of an interval, shape (m, 4)."""
+    """Return times, slope changes, jumps and ringing amplitudes of the steps in an interval, shape (m, 4)."""
     count, none = interval.time.size, np.zeros(interval.time.size)
     excited = none if ringing is None else ringing.overshoot * interval.step
     if rise == 0.0:

@@ -135,7 +135,7 @@ def _duty(variant: int) -> StoredDuty[DriveDuty]:
 
 
 def duties_of(dataset: xr.Dataset, remedies: int) -> tuple[DriveDuty | None, tuple[DriveDuty, ...]]:
-    """Results of the duty cycle of a drive, None without one, and of each of its remedies, in a dataset that
+    """Return the duty-cycle results of a drive, None without a cycle, and of each remedy, from a dataset that
     ``dataset_of`` made. Files of version 1.0 have no cycles of remedies.
 
     Raises UnfitError if a variable or an attribute is missing, or is not as it was written.

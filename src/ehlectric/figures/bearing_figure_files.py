@@ -143,8 +143,8 @@ def margin(result: BearingResult) -> str:
 
 
 def duty_cycle(result: BearingResult) -> str:
-    """Sentence: share of the time of a duty cycle with breakdown expected; and a line with the shares of the
-    states of lubrication.
+    """Return a sentence with the time share of expected breakdown in a duty cycle, and a line with the shares
+    of lubrication states.
     """
     assert result.duty is not None
     summary = result.duty.summary()

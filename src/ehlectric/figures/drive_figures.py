@@ -348,8 +348,8 @@ def has_spectrum(result: DriveResult) -> bool:
 
 
 def highest_lines(result: DriveResult) -> tuple[Array, Array]:
-    """Largest line of the spectrum in each of many parts of a decade of frequency. Returns frequency [Hz] and
-    amplitude [V] of each of these lines, in the order of frequency, shape (m,).
+    """Return the largest spectral line in each of many parts of a frequency decade. Returns frequency [Hz]
+    and amplitude [V] of each of these lines, in the order of frequency, shape (m,).
     """
     amplitudes = result.solution.record.spectrum
     lines = np.arange(1, amplitudes.size)
@@ -379,7 +379,7 @@ Variant = tuple[str, list[dict[str, Any]]]
 
 
 def variants(result: DriveResult) -> Iterator[Variant]:
-    """Name, and summaries of the drive as it is and of each remedy: of each bearing, and of their sums."""
+    """Yield the name and the summaries of the unchanged drive and each remedy: per bearing, and sums."""
     solutions = [(AS_IT_IS, result.solution), *((title, remedied) for title, _, remedied in result.remedies)]
     for name, solution in solutions:
         yield name, [*(end_summary(solution, b) for b in range(len(ENDS))), both_summary(solution)]
@@ -670,7 +670,7 @@ _NARROW = 0.05
 
 
 def distribution_of(result: DriveResult, name: str) -> tuple[Along, Panel]:
-    """How a quantity of the discharges of both bearings is distributed [% of the discharges of each]."""
+    """Return the distribution of a discharge quantity in both bearings [% of the discharges in each]."""
     about, column = EVENT_KEYS[name], QUANTITIES[name]
     values = [np.abs(events_of(result, b)[:, column]) for b in range(2)]
     edges, log = bins_of(np.concatenate(values))

@@ -1,4 +1,4 @@
-"""Panels over a duty cycle with bands of the states of the films: of a bearing, and of a drive."""
+"""Panels over a duty cycle with bands for the film states, for bearings and drives."""
 
 from __future__ import annotations
 
@@ -104,7 +104,7 @@ def _panel(
 
 
 def _bands(rows: DutyRows | DriveDutyRows, touching: float) -> Iterator[Area]:
-    """Bands of the times in each state, of the thinner film of two, between the edges of the rows."""
+    """Yield bands of the times in each state of the thinner film, between the row edges."""
     edges = np.repeat(_unit(rows)[0] * edges_of(rows.time), 2)[1:-1]
     thinner = np.min(rows.state.reshape(rows.time.size, -1), axis=1)
     for state, name, colour, opacity in _BANDS:

@@ -1,4 +1,4 @@
-"""Names of the files of figures, of every kind of result.
+"""File names of the figures for every kind of result.
 
 The functions that draw them stand in tables by these names; this module is imported without matplotlib.
 """
@@ -95,7 +95,7 @@ SENSITIVITY_FIGURE = "sensitivity.png"
 
 
 def map_files(value: str, at: Mapping[str, str] | None = None) -> tuple[str, str]:
-    """Names of the files of the map and of the lines of a value of a sweep.
+    """Return the file names of a value's map and lines in a sweep.
 
     Examples
     --------

@@ -258,7 +258,7 @@ def _heading(report: OilReport, over: str, pressure: float) -> str:
 
 
 def _legend(ax: Axes, report: OilReport, *, ends: bool) -> None:
-    """Legend of the temperatures, of the ends of ranges if there are any, and of the pressures."""
+    """Draw the legend: temperatures, ends of ranges if there are any, and pressures."""
     entries: list[Line2D] = []
     if any(kelvin is not None for kelvin in report.temperatures):
         entries = [line for line in ax.get_lines() if not str(line.get_label()).startswith("_")]

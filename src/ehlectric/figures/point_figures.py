@@ -423,8 +423,8 @@ def field_deviation(result: PointResult, axes: Sequence[Axes] | None = None) -> 
 
 
 def roughness(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
-    """Draw maps of the sum of the roughness of both surfaces, and of the change it makes to the film. Returns
-    the first axes, with the heights; peaks of either surface are positive.
+    """Draw maps of the summed roughness of both surfaces, and of the film change due to it. Returns the first
+    axes, with the heights; peaks of either surface are positive.
     """
     window, film, heights = film_window(result), result.film, result.roughness.sum(axis=0)
     factor, unit = unit_for(float(np.max(np.abs(heights))), "m", least=1.0)

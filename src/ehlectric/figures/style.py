@@ -304,7 +304,7 @@ def name_over(ax: Axes, text: str, *, converged: bool = True) -> None:
 
 
 def broken(line: str, size: float, room: float, *, math: bool = False) -> list[str]:
-    """Parts of a line of text of a size, each of which fits into ``room`` if its words do [pt]; ``math``,
+    """Break a line of text into parts, each of which fits into ``room`` if its words do [pt]; ``math``,
     whether parts between dollar signs are formulas.
 
     Examples

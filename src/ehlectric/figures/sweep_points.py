@@ -1,6 +1,4 @@
-"""Marks of the points of a sweep, labels on lines of equal value and with units, titles, and shares of
-time.
-"""
+"""Marks for sweep points, labels on lines of equal value and with units, titles, and shares of time."""
 
 from __future__ import annotations
 

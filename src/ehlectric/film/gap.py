@@ -39,7 +39,7 @@ class Gap:
         return float(np.vdot(self.level.weights, pressure))
 
     def change(self, dp: Array, dh00: float) -> tuple[Array, float]:
-        """Change of H (nx, ny) and of the load by a change of P (nx, ny) and of H00."""
+        """Return the changes in H (nx, ny) and load due to changes in P (nx, ny) and H00."""
         return self.level.deflection(dp) + dh00, self.load(dp)
 
     def along(self, distance: int | NDArray[np.int64]) -> Array:

@@ -1,4 +1,4 @@
-"""Content of oil in the gap, of films with a supply of oil and of films that form again behind a cavity.
+"""Film content in the gap, for films with an oil supply and films that form again downstream of a cavity.
 
 Oil that fills only a part of the gap is carried along by the surfaces. Every node fulfils the complementarity
 condition of Elrod and Adams in the whole domain:

@@ -148,7 +148,7 @@ def _inner_lines(mesh: Mesh) -> slice:
 
 
 def poiseuille_weight(flow: Flow, mesh: Mesh) -> Array:
-    """Diagonal of the Poiseuille term at fixed eps: the sum of the conductances of the faces of a node.
+    """Return the diagonal of the Poiseuille term at fixed eps: the summed conductances of a node's faces.
     Returns sum of eps/dX^2 and eps/dY^2 over the faces, zero in the end rows, shape (nx, ny).
     """
     weight = np.zeros_like(flow.coefficients.eps)

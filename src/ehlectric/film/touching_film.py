@@ -259,7 +259,7 @@ class TouchingJacobian:
         )
 
     def right_side(self, now: Touching, to_ambient: Array, given: Array) -> tuple[Array, Array]:
-        """Right sides of the rows of Q (nx, ny), and of the rows of the oil (nx, ny).
+        """Return the right sides of the Q rows (nx, ny) and the oil rows (nx, ny).
 
         ``to_ambient`` (nx, ny) is the change of P at the nodes that oil does not fill, and ``given`` (nx, ny)
         the change of Q at the nodes where it is known.

@@ -1,5 +1,4 @@
-"""Statistics of touching asperities: pressure, area and number of spots, share of the load and of time,
-resistance.
+"""Statistics of touching asperities: pressure, area and number of spots, load and time shares, resistance.
 
 The spectral moments m0, m2 and m4 are the mean squares of height, slope and curvature along a line over the
 surface. For an isotropic Gaussian surface they give density, radius and heights of its summits.
@@ -383,7 +382,7 @@ def summit_deviation(rq: Numbers, bandwidth: Numbers) -> Numbers:
 
 
 def summit_separation(separation: ArrayLike, rq: Numbers, bandwidth: Numbers) -> Array:
-    """Distance of the mean plane of the summits for a distance of the mean plane of the surface.
+    """Return the distance to the mean summit plane for a distance to the mean surface plane.
 
     Summits lie higher than the surface. For an isotropic Gaussian surface their mean height above the mean
     plane is 4 Rq/sqrt(pi alpha), with Nayak's bandwidth alpha = m0 m4/m2^2.

@@ -289,7 +289,7 @@ _USUAL_SHARE, _LAST_STEP = 0.65, 1e-9
 
 
 def _log_ratios(target: Array) -> Array:
-    """Logarithms of k of contacts with logarithms of Ry/Rx, none of which is a circle, by Newton's method.
+    """Return ln(k) for ln(Ry/Rx) of contacts, none of which is a circle, by Newton's method.
 
     With P = R_D(0, k^2, 1) and Q = R_D(0, 1, k^2), whose derivatives follow from both of them, the slope of
     ln(P/Q) over ln(k) is 3 - D (k^2/P + 1/Q), D = (P - Q)/(k^2 - 1).

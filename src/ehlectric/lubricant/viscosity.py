@@ -247,7 +247,7 @@ def reciprocal_asymptotic_alpha(law: PressureLaw) -> Numbers:
 
 
 def unfinished_share(law: PressureLaw) -> Numbers:
-    """Share of the integral of alpha* that a further range of pressure of the same length would add, at most.
+    """Return the largest share that another pressure range of equal length would add to the alpha* integral.
     ``law``, ln(eta/eta0) and its derivative by pressure [1/Pa], as a function of the pressure [Pa]. Returns
     share, dimensionless, a float or an array of shape (...) as ``reciprocal_asymptotic_alpha`` does; far
     below 1e-4 for an oil.

@@ -108,7 +108,7 @@ def _typical(entry: Mapping[str, Any]) -> tuple[float, float] | None:
 
 @cache
 def attributes(name: str) -> Mapping[str, Any]:
-    """Values of an attribute by dotted key, of the entries that have it; of both bodies of a contact.
+    """Return an attribute's values by dotted key, for entries that have it and for both bodies.
 
     Examples
     --------
@@ -149,7 +149,7 @@ def aliases() -> Mapping[str, tuple[str, ...]]:
 
 
 def form(name: str) -> Mapping[str, tuple[str, ...]]:
-    """Keys of the groups of a form of the app, by the titles of the groups.
+    """Return the keys of each group in a form of the app, by group title.
 
     Examples
     --------

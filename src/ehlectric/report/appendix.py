@@ -386,7 +386,7 @@ def limit_section(case: SweptCase) -> Section:
 
 
 def source_section(case: SweptCase) -> Section:
-    """Section of the sources of library values, of materials, of equations, and of standards."""
+    """Return the section with the sources of library values, materials, equations and standards."""
     blocks: list[Block] = []
     numbered = enumerate(_sources(inputs_of(case)), 1)
     values = tuple(

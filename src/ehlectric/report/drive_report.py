@@ -153,7 +153,7 @@ def event_blocks(result: DriveResult) -> Iterator[Block]:
 
 
 def number_tables(summary: Summary) -> Iterator[Table | Text]:
-    """Tables of what was simulated, of both bearings side by side, and of limits of the current density."""
+    """Yield tables: the simulation, both bearings side by side, and limits of the current density."""
     yield from row_tables(whole_rows(summary), "simulation")
     heads = ("quantity", *NAMES_OF_ENDS.values(), "unit")
     for caption, rows in end_cells(summary):
@@ -217,7 +217,7 @@ def changed_inputs(
 
 
 def _leaves(changed: str, was: Mapping[str, Any], now: Mapping[str, Any]) -> list[str]:
-    """Keys of the values of a changed key: the name of the base for a table with a base of the library."""
+    """Return the keys of a changed key's values: the base name for a table with a library base."""
     first, *_ = of_both_ends(changed)
     under = [key for key in dict.fromkeys((*was, *now)) if key.startswith(f"{first}.")]
     if first in was or first in now or not under:
@@ -244,7 +244,7 @@ def swept_values(results: SweepResults) -> tuple[str, ...]:
 
 
 def listed_values(results: SweepResults) -> tuple[str, ...]:
-    """Keys of the summary that the table of the points has: of equal bearings with the bounds of the rate."""
+    """Return the summary keys in the table of points: for equal bearings with the bounds of the rate."""
     ends = _ends(results)
     keys = SWEEPS["equal_bearings_listed" if len(ends) == 1 else "drive_listed"]
     return ("drive.events_per_second", *(key for end in ends for key in at_ends(keys, [end])))

@@ -197,7 +197,7 @@ def life_texts(bearings: Mapping[str, Iterable[Row]]) -> Iterator[Text]:
 
 
 def _bearing_key(key: str) -> str:
-    """Key of a number of a bearing for the number of a bearing at an end of a drive."""
+    """Return the bearing key for a number at one end of a drive."""
     return key.removeprefix("end.").replace("duty_", "duty.", 1) if key.startswith("end.") else key
 
 
@@ -251,7 +251,7 @@ def _basis(entry: Mapping[str, Any]) -> str:
 
 
 def _value(case: BearingCase, key: str, value: Any) -> str:
-    """Value of an input of the analysis of a margin; of the films how they were computed."""
+    """Return the value of an input in the margin analysis; for films, the method."""
     if key == FILMS:
         return HOW[case.contacts]
     if isinstance(value, int | float) and key != OF_TABLE:
@@ -260,8 +260,8 @@ def _value(case: BearingCase, key: str, value: Any) -> str:
 
 
 def usual_range(case: BearingCase | DriveCase, key: str) -> str:
-    """Usual range of an input of a bearing; a capacitance of the circuit of a drive has the range of the
-    motor of a bearing.
+    """Return the usual range of a bearing input; a capacitance in a drive circuit has the range of a
+    bearing's motor.
     """
     end, inner = end_and_key(key)
     bearing = case.bearings[ENDS.index(end) if end in ENDS else 0] if isinstance(case, DriveCase) else case

@@ -86,7 +86,7 @@ class Picture:
 
 @dataclass(frozen=True)
 class WarningLine:
-    """Warnings of a result of one kind: severity, code, what the code means, and the text of each of them."""
+    """Warnings of one kind in a result: severity, code, meaning of the code, and each text."""
 
     severity: Severity
     code: str

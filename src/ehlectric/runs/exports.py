@@ -162,7 +162,7 @@ def _points(dataset: xr.Dataset, dims: tuple[str, ...], height: xr.DataArray) ->
 
 
 def cells(sizes: tuple[int, ...]) -> IntArray:
-    """Corners of all cells of a grid of points in the order of C, in the order of VTK.
+    """Return the corners of all cells in VTK order, for grid points in C order.
 
     Examples
     --------

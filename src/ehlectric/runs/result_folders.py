@@ -129,10 +129,9 @@ def _points(path: Path) -> tuple[int, int] | None:
 
 
 def stored_result(path: str | Path) -> Path:
-    """File from which the figures of a result are drawn, of a file or of a folder of any kind. Returns a
+    """Return the file from which a result's figures are drawn, for a file or folder of any kind. Returns a
     NetCDF file, which need not exist where moving roughness has only a journal yet, or the database of a
-    sweep. Raises InputError if the file cannot be read, or if the folder
-    has no result or several.
+    sweep. Raises InputError if the file cannot be read, or if the folder has no result or several.
     """
     path, names = Path(path), (CONTACT_NETCDF, BEARING_NETCDF, DRIVE_NETCDF, MOTION, SWEEP)
     if not path.is_dir():

@@ -73,7 +73,7 @@ _OF_KINDS: Mapping[str, Callable[[xr.Dataset, Path], AnyResult]] = {
 
 
 def load(path: str | Path) -> AnyResult:
-    """Load the result of a contact, of a bearing, of a drive or of a contact with moving roughness.
+    """Load the result of a contact, a bearing, a drive or a contact with moving roughness.
 
     Parameters
     ----------

@@ -55,7 +55,7 @@ _SOON = 3.0
 
 @dataclass
 class Remaining:
-    """Estimate of the time that is left of a part of a job, from the steps of the part that are done.
+    """Remaining time for a part of a job, estimated from its finished steps.
 
     Parts are distinguished by the number of their steps. The time counts down between two steps. It is
     not known where the present step takes longer than all steps that are left were to take: the last contact

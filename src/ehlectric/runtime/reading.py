@@ -95,7 +95,7 @@ def read_bytes(
 
 
 def blocks(path: str | Path, *, most: int, size: int = 8_000_000) -> Iterator[bytes]:
-    """Content of a regular file of at most ``most`` bytes, in blocks of a size; none of an empty file.
+    """Yield a regular file of at most ``most`` bytes in blocks of a size; nothing for an empty file.
 
     A larger file is refused before it is read. Raises an InputError.
     """

@@ -90,7 +90,7 @@ def _variables(group: Any) -> Iterator[Any]:
 
 
 def _declared(variable: Any) -> int:
-    """Size of the values of a variable, or of one chunk of it where that is larger [bytes].
+    """Return the size of a variable's values, or of one chunk where that is larger [bytes].
 
     A chunk is always read as a whole, so that a large one fills the memory also for a few values.
     """

@@ -230,7 +230,7 @@ def _leaves(things: Any) -> Iterator[Any]:
 
 
 def _value(entry: Stored, value: Any) -> Any:
-    """Value of a field from the value of its variable: numbers of Python, masks of booleans."""
+    """Convert the value of a variable to the value of its field: Python numbers, boolean masks."""
     if entry.rule == "0 or 1":
         value = value.astype(bool)
     elif entry.rule == "0 to 1":

@@ -163,7 +163,7 @@ def solve_batch(batch: Batch) -> list[Outcome] | None:
 
 
 def seconds_of(sweep: Sweep) -> float | None:
-    """Time of a sweep of bearings with estimated contacts on one core [s], from the time of some of its
+    """Estimate the time on one core [s] for a sweep over bearings with estimated contacts, from some of its
     points.
 
     None where these points are no valid cases.

@@ -122,8 +122,8 @@ def case_key(case: SweptCase, uncertainty_samples: int | None = None) -> str:
 
 
 def text_of(table: Mapping[str, Any], uncertainty_samples: int | None = None) -> str:
-    """JSON text of the tables of a case without its title and its duty cycle, which no point of a sweep
-    depends on; ``case_key`` is the hash of such a text.
+    """Return the JSON text of a case's tables without title and duty cycle, on which no sweep point depends;
+    ``case_key`` is the hash of such a text.
     """
     known = {key: value for key, value in table.items() if key not in ("title", "duty")}
     if uncertainty_samples is not None:

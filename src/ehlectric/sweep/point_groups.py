@@ -1,4 +1,4 @@
-"""Groups of the points of a sweep of bearings that differ in quantities only, and keys of all their cases."""
+"""Groups of sweep points whose bearings differ only in quantities, and keys of all their cases."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Sensitivity analysis of a sweep: spread of a value over the ranges of its inputs, and share of each."""
+"""Sensitivity analysis of a sweep: spread of a value over its input ranges, and each input's share."""
 
 from __future__ import annotations
 

@@ -89,7 +89,7 @@ def _check_drive(key: str, case: DriveCase, varied: Collection[str]) -> None:
 
 
 def _nearest(key: str) -> str:
-    """Key of a drive that is nearest to a key of another kind of file; a key of a bearing stands for both."""
+    """Return the drive key nearest to a key of another file kind; a bearing key stands for both bearings."""
     if key.partition(".")[0] not in BearingCase.known_keys():
         return nearest_key(key, DriveCase)
     return any_of([key_of_drive(meaning) for meaning in meant(key, BearingCase)])

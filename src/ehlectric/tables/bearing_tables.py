@@ -1,6 +1,4 @@
-"""Rows of the totals of a bearing: films, meter, asperities, bounds, and tables of the contacts of its
-elements.
-"""
+"""Rows of bearing totals: films, meter, asperities, bounds, and tables of the element contacts."""
 
 from __future__ import annotations
 

@@ -132,7 +132,7 @@ def remedied(summary: Summary) -> list[tuple[str, Summary]]:
 def remedy_cells(
     drives: Sequence[tuple[str, Summary]], *, intervals: bool = True
 ) -> Iterator[tuple[str, ...]]:
-    """Heads of the table of remedies, then the cells of both bearings of each drive, and of their sums.
+    """Yield the heads of the remedy table, then for each drive the cells of both bearings and their sums.
 
     ``drives``, titles and tables, as ``remedied`` returns them. Quantities that no drive has are omitted.
     """
@@ -157,8 +157,8 @@ RATES = head_of(DRIVE_BOOK[_RATE])
 
 
 def remedy_rates(summary: Summary) -> Iterator[tuple[str, ...]]:
-    """Heads of the short table of remedies, then a row for each drive: discharges in a second of each bearing
-    and of both, as ``RATES`` names them, and if there is a duty cycle, discharges of both over the cycle.
+    """Yield the heads of the short remedy table, then a row for each drive: discharges per second at each
+    bearing and at both, as ``RATES`` names them, and with a duty cycle, discharges of both over the cycle.
     """
     places = {**NAMES_OF_ENDS, BOTH: BOTH}
     columns = [(_RATE, end) for end in places]

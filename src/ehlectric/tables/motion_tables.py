@@ -1,4 +1,4 @@
-"""Rows of the tables of transient contacts: of a schedule before a run, and of a run."""
+"""Rows for tables of transient contacts: the schedule before a run, and the run."""
 
 from __future__ import annotations
 

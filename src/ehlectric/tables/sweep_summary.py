@@ -1,4 +1,4 @@
-"""Rows of the table of a sweep, of the spread of a value, and the table of its sensitivity indices."""
+"""Rows for a sweep and the spread of a value, and the table of its sensitivity indices."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ _NUMBER = re.compile(r"\d[\d.e+-]*")
 
 
 def sweep_rows(results: SweepResults) -> list[Row]:
-    """Rows of the numbers of points of each status, with the reasons of those that are not solved. Returns a
-    row for each status, followed by rows for the most frequent reasons of the points with this status.
+    """Return the rows with the number of points for each status, and the reasons for unsolved points. Returns
+    a row for each status, followed by rows for the most frequent reasons of the points with this status.
     """
     rows = []
     for status in ("solved", "not converged", "failed"):

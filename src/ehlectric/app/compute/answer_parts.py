@@ -113,8 +113,8 @@ Change = Callable[[str, str], str]
 
 
 def case_of(table: Mapping[str, Any], folder: Path | None = None) -> AnyCase:
-    """Case of a bearing or of a contact from the tables of a page; ``drive_of`` takes the tables of a drive.
-    Raises InputError if the tables are no valid case, or name another file.
+    """Return the case of a bearing or contact from the tables of a page; drives use ``drive_of``. Raises
+    InputError if the tables are no valid case, or name another file.
     """
     if kind_of(table) == "drive":
         raise InputError("file", "is a drive file", takes="the case of a contact or a bearing")

@@ -32,7 +32,7 @@ _GEOMETRY = (*(f"bearing.{name}" for name in DIMENSIONS), "bearing.contact_angle
 
 
 class Memory:
-    """Last values of groups that can be switched off, of user-defined entries of lists, and of alternatives.
+    """Last values of optional groups, of user-defined list entries, and of alternatives.
 
     Examples
     --------

@@ -328,7 +328,7 @@ def _is_of_kind(changes: Mapping[str, Any]) -> bool:
 
 
 def groups_for(case: Inputs) -> Sequence[Group]:
-    """Groups of fields of a case: of a drive, of a bearing, or of a contact of its geometry."""
+    """Return the groups of fields of a drive, a bearing, or a contact with its geometry."""
     if case.value("drive_end"):
         return DRIVE_GROUPS
     return BEARING_GROUPS if case.value("bearing") else groups_of(geometry_of(case))

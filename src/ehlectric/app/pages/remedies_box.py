@@ -31,7 +31,7 @@ Both = tuple[Inputs, Inputs]
 
 
 class RemediesBox:
-    """Place of the buttons, of the table of the pressed one, and of the link into its drive."""
+    """Place for the buttons, the table of the pressed button, and the link into its drive."""
 
     def __init__(self, session: Session) -> None:
         self._session = session

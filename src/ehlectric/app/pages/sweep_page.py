@@ -125,7 +125,7 @@ class RangesForm:
             self._message.text = str(error)
 
     def _in_unit(self, key: str, text: str) -> str:
-        """Text of an error of a range with its bounds in the unit of the field of its input."""
+        """Return the error text of a range, with bounds in the unit that the field shows."""
         field = self._field_of(key.removeprefix("vary.").rpartition(".")[0])
         return text if field is None else in_field_unit(field, text)
 

@@ -718,7 +718,7 @@ _HALVINGS = 60
 
 
 def _closed(bearing: BallBearing, laws: Array) -> Numbers:
-    """Axial distance of the groove centres of each row of a pair without load [m], shape (...); 0 of one row.
+    """Return the unloaded axial distance of a row's groove centres in a pair [m], shape (...); 0 for one row.
 
     Under the preload F of Z balls at rest, K (l - A)^(3/2) sin a = F/Z with the length l = A cos a_0/cos a
     and the stiffness K of both contacts together. ``laws``, coefficients of ln K, shape (m, 2, n).

@@ -40,7 +40,7 @@ T = TypeVar("T")
 
 
 def _take(target: T, points: IntArray, source: T) -> None:
-    """Take the values of some of the points, the last dimension of arrays, from another of the same class."""
+    """Take the values of some points, the last dimension of arrays, from another instance."""
     for each in fields(target):  # type: ignore[arg-type]
         getattr(target, each.name)[..., points] = getattr(source, each.name)
 
@@ -436,8 +436,8 @@ _LOOSE = 1e-3
 
 
 def _round(points: _Points, state: _State, aim: Array) -> tuple[_State, Array, IntArray]:
-    """State in balance for the stiffnesses and centrifugal forces of the last one, the largest change of the
-    cosines of the contact angles, and numbers of steps of the rings.
+    """Return the balanced state for the last stiffnesses and centrifugal forces, the largest change in the
+    cosines of contact angles, and the numbers of ring steps.
     """
     scale = points.size + state.outward
     # First steps are limited to about the approach under the load: longer ones would miss light contacts.

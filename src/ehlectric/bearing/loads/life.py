@@ -440,7 +440,7 @@ def reference_life(
 
 
 def _power_mean(loads: ArrayLike, power: float, rows: int) -> Array:
-    """Mean of a power of the loads of all elements of each row, shape (..., rows) [N]."""
+    """Return the power mean of the element loads in each row, shape (..., rows) [N]."""
     values = np.asarray(loads, dtype=float)
     each = values.reshape(*values.shape[:-1], rows, -1)
     mean: Array = np.mean(each**power, axis=-1) ** (1.0 / power)

@@ -235,7 +235,7 @@ class Batch(Generic[G]):
         return self.spread_rows(np.moveaxis(values, -1, 0))
 
     def spread_rows(self, rows: Array | IntArray) -> Any:
-        """Rows of all points, shape (n, ...), as an array of the shape of the points and of a row."""
+        """Reshape the rows of all points, shape (n, ...), to the shape of the points and a row."""
         values: Any = rows
         if not self.able.all():
             values = np.full((self.able.size, *rows.shape[1:]), np.nan)

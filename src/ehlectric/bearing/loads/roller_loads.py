@@ -368,8 +368,8 @@ def _sine_and_cosine(bearing: RollerBearing) -> tuple[Numbers, Numbers]:
 
 
 def _closed(bearing: RollerBearing, profile: _Profile, sine: Numbers) -> Numbers:
-    """Sum of the depths of both contacts of a roller without load [m]: by the preload of a pair, or negative
-    by its play.
+    """Return the sum of both contact depths of an unloaded roller [m]: due to a pair's preload, or negative
+    due to its play.
     """
     rows = bearing.rows
     if rows.number == 1:

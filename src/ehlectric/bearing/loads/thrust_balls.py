@@ -91,7 +91,7 @@ def _slopes(
 def thrust_ball_equilibrium(
     bearing: ThrustBallBearing, operation: Operation, modulus: Numbers, density: Numbers
 ) -> BallEquilibrium:
-    """Equilibrium of the washer of the shaft and of all balls, of shape (..., elements).
+    """Return the equilibrium of the shaft washer and all balls, of shape (..., elements).
 
     ``modulus``, reduced modulus E' of ball and washer [Pa]; ``density`` [kg/m^3]; both, the operation and the
     dimensions of the bearing are floats, or arrays of shape (...) that broadcast. The contact angle of the

@@ -83,7 +83,7 @@ class Parts:
 
 @cache
 def known_bearings() -> Mapping[str, None]:
-    """Names of the bearings of the library and of the usual series, names of the library first."""
+    """Return the bearing names of the library, then of the usual series."""
     return dict.fromkeys((*library.bearing_names(), *series()))
 
 

@@ -228,7 +228,7 @@ class Target:
     near: float | None = None  # diameter near which the elements are [m]; None for ratings of the series
 
     def miss(self, dynamic: float, static: float, diameter: float) -> float:
-        """Distance of ratings [N] of elements of a diameter [m] from the target, in units of 1 %."""
+        """Return how far the ratings [N] for an element diameter [m] are from the target, in units of 1 %."""
         parts = [static / self.static - 1.0, dynamic / self.dynamic - 1.0]
         if self.near is not None:
             parts = [parts[0], parts[1] / _OTHER_MAKER, (diameter / self.near - 1.0) / _OTHER_MAKER]
@@ -450,7 +450,7 @@ def is_estimated(base: str | None) -> bool:
 
 
 def estimated_bearing(name: str, dynamic: float | None = None, static: float | None = None) -> dict[str, Any]:
-    """Table ``bearing`` of a bearing of a series, in the form of a file of the library, SI units.
+    """Return the table ``bearing`` of a series bearing, in the form of a library file, SI units.
 
     ``dynamic`` and ``static``, ratings that replace the usual ones of the series [N].
 

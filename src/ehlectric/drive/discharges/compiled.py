@@ -149,7 +149,7 @@ def _bases(chosen: str) -> Iterator[Path]:
 
 
 def contents_of(folder: Path) -> str:
-    """Short hash of the contents of all Python files of a folder and of those in it."""
+    """Return a short hash of all Python files in a folder and its subfolders."""
     digest = hashlib.sha256()
     for path in sorted(folder.rglob("*.py")):
         digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")

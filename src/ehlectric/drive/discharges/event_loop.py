@@ -372,7 +372,7 @@ class Work(NamedTuple):
 
 
 def work_of(size: int, events: int) -> Work:
-    """Arrays for a circuit of a number of states, and a table of a number of events."""
+    """Allocate the arrays for a number of circuit states, and a table for a number of events."""
     return Work(
         piece=np.zeros((ROWS, size + FURTHER), dtype=np.complex128),
         course=empty_piece_voltages(size + FURTHER),

@@ -173,7 +173,7 @@ class Groups:
 
     @property
     def domain(self) -> tuple[Numbers, Numbers]:
-        """Length of the inlet and half of the width of the domain of the atlas, both in b.
+        """Inlet length and half the width of the atlas domain, both in b.
 
         The width of a line contact is without meaning, and zero.
         """
