@@ -105,12 +105,10 @@ class Texts:
         groups = {
             name: [line for file in files for line in self._markdown(file)] for name, files in pages.items()
         }
-        modules = [
-            (self._name(file), file.read_text(encoding="utf-8"))
-            for file in sorted((self.root / "src").rglob("*.py"))
+        groups["docstrings"] = [
+            line for docstring in self.docstrings for line in _lines_of_docstring(docstring)
         ]
-        groups["docstrings"] = [line for name, text in modules for line in _lines_of_docstrings(name, text)]
-        groups["comments"] = [line for name, text in modules for line in _comments(name, text)]
+        groups["comments"] = [line for name, text in self._modules for line in _comments(name, text)]
         groups["data"] = [line for file in self._data_files() for line in self._data(file)]
         return groups
 
@@ -143,11 +141,14 @@ class Texts:
         return next((number for number, line in enumerate(lines, 1) if words in line), 1)
 
     @cached_property
-    def docstrings(self) -> list[Line]:
-        """Return the docstrings as they are."""
+    def _modules(self) -> list[tuple[str, str]]:
         files = sorted((self.root / "src").rglob("*.py"))
-        by_file = ((self._name(file), _docstrings(file.read_text(encoding="utf-8"))) for file in files)
-        return [Line(name, line, text) for name, docstrings in by_file for line, text in docstrings]
+        return [(self._name(file), file.read_text(encoding="utf-8")) for file in files]
+
+    @cached_property
+    def docstrings(self) -> list[Line]:
+        """Return the docstrings as they are, with the number of their first line."""
+        return [Line(name, line, words) for name, text in self._modules for line, words in _docstrings(text)]
 
 
 def _prose_of_markdown(lines: list[str]) -> Iterator[tuple[int, str]]:
@@ -201,11 +202,10 @@ def _docstrings(text: str) -> Iterator[tuple[int, str]]:
             yield constant.lineno, constant.value
 
 
-def _lines_of_docstrings(name: str, text: str) -> Iterator[Line]:
-    for first, docstring in _docstrings(text):
-        for number, line in enumerate(docstring.splitlines(), first):
-            if not line.strip().startswith((">>>", "...")):
-                yield Line(name, number, re.sub(r"``[^`]*``", "K", line))
+def _lines_of_docstring(docstring: Line) -> Iterator[Line]:
+    for number, line in enumerate(docstring.text.splitlines(), docstring.line):
+        if not line.strip().startswith((">>>", "...")):
+            yield Line(docstring.file, number, re.sub(r"``[^`]*``", "K", line))
 
 
 def _comments(name: str, text: str) -> Iterator[Line]:
