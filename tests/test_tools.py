@@ -93,7 +93,7 @@ def test_a_line_of_the_source_breaks_a_rule(tmp_path, rule, name, line, message)
     ("rule", "name", "entry"),
     [
         ("codes_of_warnings", "warning_codes.toml", "not-converged"),
-        ("texts_of_warnings", "warning_texts.toml", "regime.line"),
+        ("texts_of_warnings", "warning_texts.toml", "regime"),
         ("texts_of_verdicts", "verdict_texts.toml", "speeds-below-1"),
     ],
 )
@@ -103,6 +103,25 @@ def test_an_entry_that_no_module_uses_is_found_with_its_line(tmp_path, rule, nam
     lines = (ROOT / file).read_text(encoding="utf-8").splitlines()
     places = [fault.line for fault in getattr(lint_house, rule)(tmp_path) if fault.file == file]
     assert any(lines[place - 1].lstrip("[").startswith(entry) for place in places)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("the film is thin. Use more grid.nodes.", None),
+        ("the film is thin. No action is needed.", None),
+        ("the film is thin.", "action"),
+        ("the film is thin. Use more grid.nodes", "action"),
+        ("the film is thin. Use more grid.nodes." + 40 * " more", "47 words"),
+    ],
+)
+def test_a_text_of_a_warning_is_short_and_says_what_to_do(tmp_path, text, message):
+    package(tmp_path, "a.py", "x = 0")
+    file = lint_house.PACKAGE / "quantities/warning_texts.toml"
+    (tmp_path / file).write_text(f'[regime]\nexplanation = "Thin."\ntext = "{text}"\n', encoding="utf-8")
+    faults = [fault.message for fault in lint_house.words_of_warnings(tmp_path)]
+    assert bool(faults) == (message is not None)
+    assert all(message in fault for fault in faults[:1])
 
 
 def test_a_name_of_a_face_that_no_other_package_imports_is_found(tmp_path):

@@ -1,17 +1,17 @@
-"""Codes of warnings: each known, each with a text, a sentence and an explanation."""
+"""Codes of warnings: each known, each with a text and a sentence."""
 
 import pytest
-from docs import pages
 
 from ehlectric.quantities.result_warnings import CODES, ResultWarning
 from tests.helpers.places import ROOT
 from tools.lint_house import FOREIGN_CODES, data
 
 
-def test_every_code_is_explained():
-    """The page of troubleshooting says in its own words what each means and what to do."""
-    page = pages.page("warnings.md")
-    assert [code for code in CODES if f"`{code}`" not in page] == []
+def test_severe_warnings_begin_with_do_not_use():
+    """Programs that do not know the code of a later version find it by these words."""
+    texts = data(ROOT, "quantities/warning_texts.toml")
+    for code in (code for code in texts if CODES[code].severity == "severe"):
+        assert {text[:10] for name, text in texts[code].items() if name != "explanation"} == {"do not use"}
 
 
 def test_every_code_has_its_text():

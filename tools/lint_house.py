@@ -24,6 +24,14 @@ PACKAGE = Path("src/ehlectric")
 WORDS_IN_NAMES = Path("tools/words_in_names.toml")
 
 MOST_WORDS = 30  # of one entry of the changelog
+MOST_WORDS_OF_A_WARNING = 40
+
+# What a text of a warning asks of its reader, or the advice in one of its values.
+ACTION = re.compile(
+    r"(?i)(?:[.,;:] |\band |\bor )(?:accept|change|check|compare|complete|cut|do not|double|extend|follow|"
+    r"give|halve|increase|keep|lower|measure|narrow|omit|raise|remove|rename|report|save|set|solve|state|treat|"
+    r"try|use|widen)\b|\{advice\}|No action is needed"
+)
 
 # Codes of warnings that only files of later versions give.
 FOREIGN_CODES = {"not-usable", "unclassified"}
@@ -170,7 +178,8 @@ def _warning_modules(root: Path) -> list[Module]:
 
 def codes_of_warnings(root: Path) -> Iterator[Fault]:
     """Yield warnings whose code is unknown or computed, and codes that no module uses."""
-    codes = data(root, "quantities/warning_codes.toml")["codes"]
+    topics = data(root, "quantities/warning_codes.toml")["codes"].values()
+    codes = {code for topic in topics for code in topic}
     used: set[object] = set()
     for module in _warning_modules(root):
         used |= {node.value for node in module.nodes if isinstance(node, ast.Constant)}
@@ -184,7 +193,7 @@ def codes_of_warnings(root: Path) -> Iterator[Fault]:
             elif not isinstance(code, ast.Constant) and ast.unparse(code) not in ("code", "warning.code"):
                 yield Fault(module.file, call.lineno, "write the code of a warning as a literal")
     file = PACKAGE / "quantities/warning_codes.toml"
-    for code in codes.keys() - used - FOREIGN_CODES:
+    for code in codes - used - FOREIGN_CODES:
         yield Fault(file, _line_of(root, file, code), f"no module gives the code {code!r}; delete it")
 
 
@@ -192,8 +201,9 @@ def _texts_of_warnings(root: Path) -> dict[tuple[str, str], set[str]]:
     """Return the names of the values in each text, by code and situation."""
     named = {}
     for code, entry in data(root, "quantities/warning_texts.toml").items():
-        for situation, text in entry.items() if isinstance(entry, dict) else [("", entry)]:
-            named[code, situation] = {name for _, name, _, _ in string.Formatter().parse(text) if name}
+        for situation in entry.keys() - {"explanation"}:
+            fields = string.Formatter().parse(entry[situation])
+            named[code, situation] = {name for _, name, _, _ in fields if name}
     return named
 
 
@@ -205,7 +215,7 @@ def _warnings_given(root: Path) -> Iterator[tuple[Module, ast.Call, tuple[Any, A
         calls += [(call, call.args[1:]) for call in module.calls("WarningCondition.of")]
         for call, arguments in calls:
             keys = [each.value if isinstance(each, ast.Constant) else None for each in arguments]
-            code, situation = (*keys, "")[:2]
+            code, situation = (*keys, "text")[:2]
             yield module, call, (code, situation)
 
 
@@ -233,8 +243,22 @@ def texts_of_warnings(root: Path) -> Iterator[Fault]:
             )
     file = PACKAGE / "quantities/warning_texts.toml"
     for code, situation in texts.keys() - used:
-        name = f"{code}.{situation}" if situation else code
-        yield Fault(file, _line_of(root, file, name), f"no warning has the text {name}; delete it")
+        name = code if situation == "text" else f"{code}.{situation}"
+        yield Fault(file, _line_of(root, file, f"[{code}]"), f"no warning has the text {name}; delete it")
+
+
+def words_of_warnings(root: Path) -> Iterator[Fault]:
+    """Yield texts of warnings that are too long, or do not say what to do."""
+    file = PACKAGE / "quantities/warning_texts.toml"
+    for code, entry in data(root, "quantities/warning_texts.toml").items():
+        for situation in entry.keys() - {"explanation"}:
+            text, line = entry[situation], _line_of(root, file, f"[{code}]")
+            if (count := len(text.split())) > MOST_WORDS_OF_A_WARNING:
+                message = f"{situation} has {count} words; a warning has at most {MOST_WORDS_OF_A_WARNING}"
+                yield Fault(file, line, message)
+            if not ACTION.search(text) or not text.endswith("."):
+                message = f"end {situation} with an action, or with 'No action is needed.'"
+                yield Fault(file, line, message)
 
 
 def warnings_with_written_texts(root: Path) -> Iterator[Fault]:
@@ -439,6 +463,7 @@ RULES = (
     actions_of_the_workflows,
     codes_of_warnings,
     texts_of_warnings,
+    words_of_warnings,
     warnings_with_written_texts,
     keys_in_texts_of_errors,
     signs_of_bounds,

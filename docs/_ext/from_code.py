@@ -23,6 +23,7 @@ from oil_tables import oil_pages
 from result_keys import summary_pages
 from sphinx.application import Sphinx
 from sphinx.errors import ExtensionError
+from warning_pages import warning_pages
 
 import ehlectric
 from ehlectric import Case, solve
@@ -37,7 +38,6 @@ from ehlectric.commands.command_line import app as commands
 from ehlectric.formulas import load_ratings as ratings
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import read_motion
-from ehlectric.quantities.result_warnings import CODES
 from ehlectric.quantities.units import printed
 from ehlectric.sweep import sweep_inputs
 
@@ -207,15 +207,11 @@ def _write(app: Sphinx) -> None:
     pages["estimated_bearings"] = _estimated_bearings(Path(app.srcdir) / "data" / "estimated_bearings.csv")
     for name, file in (("bearing", "bearing_6208"), ("motion", "moving_roughness")):
         pages[f"{name}_example"] = _example(Path(app.srcdir).parent / "examples" / f"{file}.toml")
-    pages["warning_codes"] = table_text(
-        ["code", "severity", "what it means"],
-        [[f"`{code}`", cause.severity, cause.meaning] for code, cause in CODES.items()],
-    )
     for geometry in _CONTACTS:
         result = solve(_small(geometry))
         pages[f"variables_{geometry}"] = _variables(result.to_xarray())
     pages["variables_motion"] = _variables(_moved(_small("line")))
-    pages |= summary_pages() | oil_pages()
+    pages |= summary_pages() | oil_pages() | warning_pages()
     for name, text in pages.items():
         path = folder / f"{name}.md"
         if not path.exists() or path.read_text(encoding="utf-8") != text:

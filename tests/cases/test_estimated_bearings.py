@@ -292,7 +292,7 @@ def test_the_estimate_is_in_the_range_of_the_margin():
     ("base", "text"),
     [
         ("6314", "8 balls of 25.4 mm on a pitch circle of 110 mm"),
-        ("32208", "the widest error of other kinds"),
+        ("32208", "the largest error of other kinds"),
     ],
 )
 def test_a_note_says_that_the_geometry_is_estimated(base, text):

@@ -115,4 +115,4 @@ def test_sensitivity_prints_and_writes_the_same(command, tmp_path):
     assert f"{index['first_order']:.3f}" in line
     assert f"{index['total']:.3f}  {low:.3f} to {high:.3f}" in line
     assert f"{found['spread']['quantiles']['0.5']:.4g}" in done.output
-    assert f"warning: {found['rows_dropped']} of 64 rows have a point that is not solved" in done.output
+    assert f"warning: {found['rows_dropped']} of 64 rows contain a point that is not solved" in done.output

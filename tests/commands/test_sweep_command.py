@@ -65,10 +65,11 @@ def told_of(rows, doubtful):
         kind = "note" if CODES[code].severity == "note" else "warning"
         meaning = CODES[code].meaning
         text += f"{kind}: {count} of {len(solved)} solved points have the {kind} {code}: "
-        text += meaning[0].lower() + meaning[1:].rstrip(".") + "\n"
+        action = "No action is needed." if kind == "note" else "Check the warnings of these points."
+        text += f"{meaning[0].lower()}{meaning[1:]} {action}\n"
     if doubtful:
-        text += f"warning: {doubtful} of {len(solved)} solved points have a film that is not to be used, "
-        text += "as their warnings say: maps and lines leave them out\n"
+        text += f"warning: {doubtful} of {len(solved)} solved points have a film that must not be used. "
+        text += "Maps and lines omit these points. Follow the warnings of these points.\n"
     return text
 
 

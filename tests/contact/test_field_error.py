@@ -66,11 +66,11 @@ def test_an_error_above_two_percent_is_a_warning(result):
     (warning,) = accuracy_warnings(grid, with_error(result, 0.031, 14).field)
     assert warning.code == "field-unresolved"
     assert "the error of the maximum field is estimated at 3.1 %" in warning.text
-    assert warning.text.endswith("raise grid.field_degree to 14, or use more grid.nodes")
+    assert warning.text.endswith("Raise grid.field_degree to 14, or use more grid.nodes.")
     (warning,) = accuracy_warnings(grid, with_error(result, 0.031, 6).field)
-    assert warning.text.endswith("too high; use more grid.nodes")
+    assert warning.text.endswith("too high. Use more grid.nodes.")
     assert "grid.field_nodes" in inaccurate_field(Grid(field_nodes=801), 0.03).text
-    assert inaccurate_field(grid, 0.03, 40, 48).text.endswith("far shorter than the film is thick")
+    assert inaccurate_field(grid, 0.03, 40, 48).text.endswith("as by a cutoff_short.")
 
 
 def test_an_error_that_should_be_known_but_is_not_is_a_warning(result):

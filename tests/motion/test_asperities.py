@@ -300,4 +300,4 @@ def test_a_run_that_the_roughness_never_fills_is_told(filled):
     share, counted = np.full(3, 0.2), np.ones(3, dtype=bool)
     found = TouchHistory(np.arange(3.0), share, share, np.ones(3), share, counted, filled)
     told = next(touch_warnings(found)).text
-    assert ("take more motion.passes" in told) != filled
+    assert ("more motion.passes" in told) != filled

@@ -567,7 +567,7 @@ def test_roughness_that_is_not_solved_held_still_has_no_maps(tmp_path, monkeypat
 def test_roughness_that_is_another_one_held_still_is_said(tmp_path):
     """Its Rq is of all that is made: three passes of it are another sample than one domain."""
     rough = {"surface": 1, "generator": "gaussian", "rq": 1e-9, "correlation_length": 6e-5, "seed": 1}
-    said = "the moving roughness differs from the stationary one"
+    said = "the moving roughness differs from the stationary roughness"
     for extra, expected in (({}, False), ({"rescale_rq": 1e-9}, True)):
         case = moving(roughness=[rough | extra], motion={"passes": 3.0, "steps": 24, "record": 2})
         run(case, tmp_path, 0)

@@ -298,7 +298,7 @@ def test_the_course_and_what_it_took():
     mind, halved = summary["warnings"]
     assert (mind, summary["rough"], summary["seconds"]) == ("mind", [], 2.5)
     assert summary["warning_codes"] == ["tunnelling", "steps-halved"]
-    assert halved.startswith("2 time steps did not converge and were halved, 2 times in all")
+    assert halved.startswith("2 time steps did not converge and were halved, 2 times in total")
     assert summary["inputs"] == case.to_dict()
     assert (summary["stationary"], summary["beside_stationary"], summary["discharge"]) == (None, None, None)
 

@@ -14,7 +14,7 @@ from tests.helpers.places import EXAMPLES
 # What texts say of a value that the program takes, by the key that gives the value.
 LABELS = {
     "bearing.rq_over_ra": r"assumed factor|assumed for Gaussian heights",
-    "lubricant.temperature.thermal_conductivity": r"conductivity of the oil is not known; assumed",
+    "lubricant.temperature.thermal_conductivity": r"conductivity of the oil is not known; [^;]* is assumed",
     "bearing.coating.thickness": r"assumed values, [^;]*thickness",
     "bearing.coating.relative_permittivity": r"assumed values, [^;]*relative_permittivity",
     "motor.second_bearing_capacitance": r"second bearing of the shaft is taken as equal",

@@ -165,9 +165,9 @@ def test_nothing_is_above_a_cut(extend):
     assert f"truncate cuts {100 * share:.2g} % of the points of surface 1" in said[0]
     # 200 and 296 points: the domain reaches 0.45 mm and 0.3 mm from the middle.
     assert said[1] == (
-        "surface 1 is 87.17 µm long along x, but the domain needs 900 µm, since the map is centred "
-        f"(it is too short along y, too): it was continued by extend = '{extend}'; to avoid this, use a "
-        "larger map, change roughness.shift or raise grid.inlet"
+        "surface 1 is 87.17 µm long along x, but the domain needs 900 µm (and is also too short along y). "
+        f"The map was continued by extend = '{extend}'. Use a larger map, or change roughness.shift or raise "
+        "grid.inlet."
     )
 
 
@@ -185,7 +185,7 @@ def test_voids_are_filled_and_said(tmp_path):
     void = (51 + 160) / 2400
     assert surface.describe()["voids"] == pytest.approx(void)
     assert (
-        f"{100 * void:.2g} % of the map of surface 2 has no data; these voids were filled"
+        f"{100 * void:.2g} % of the map of surface 2 contained no data and was filled"
         in surface.warnings[0].text
     )
 
@@ -323,7 +323,7 @@ def test_shapes_finer_than_the_grid_are_said(table, message):
     else:
         assert len(said) == 1
         assert f"does not resolve {message}" in said[0] or message in said[0]
-        assert "the error estimate is not meaningful" in said[0]
+        assert "error estimate is not meaningful" in said[0]
 
 
 @pytest.mark.parametrize("orientation", [0.0, 90.0, 30.0])

@@ -133,7 +133,7 @@ def test_voids_of_the_line_that_is_used(tmp_path):
     (first, third) = surfaces_of({"surface": 1, "file": path}, {"surface": 2, "file": path, "line": 2})
     assert (first.describe()["voids"], first.warnings) == (0.0, ())
     assert third.describe()["voids"] == pytest.approx(3 / 31)
-    assert "9.7 % of the line of surface 2 has no data" in third.warnings[0].text
+    assert "9.7 % of the line of surface 2 contained no data" in third.warnings[0].text
     assert measured(case_of({"surface": 2, "file": path, "line": 2}).roughness[0]).warnings == third.warnings
 
 
@@ -161,7 +161,7 @@ def test_shapes_finer_than_the_grid_are_said(table, message):
         assert said == []
     else:
         assert len(said) == 1
-        assert f"does not resolve {message}: the error estimate is not meaningful" in said[0]
+        assert f"does not resolve {message}. The error estimate is not meaningful" in said[0]
 
 
 def test_variance_that_the_grid_misses_is_said():

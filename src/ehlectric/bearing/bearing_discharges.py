@@ -525,7 +525,7 @@ def leakage_warning_conditions(solution: BearingSolution) -> Iterator[WarningCon
         decay=lambda: amount(float(leaks.film_time_constant), "s"),
         period=lambda: _period_text(frequency),
         shaft=shaft,
-        edge=lambda: _edge_text(motor, leaks, float(shaft or 0.0)),
+        advice=lambda: _edge_text(motor, leaks, float(shaft or 0.0)),
     )
 
 
@@ -535,14 +535,14 @@ def _period_text(frequency: float | None) -> str:
         return f"{amount(1.0 / frequency, 's')}, a period of the inverter"
     longest, shortest = (amount(1.0 / at, "s") for at in TYPICAL)
     return (
-        f"{shortest} to {longest}, the periods of typical inverters; motor.switching_frequency gives that of "
-        "yours"
+        f"{shortest} to {longest}, the periods of typical inverters (give motor.switching_frequency for "
+        "your inverter)"
     )
 
 
 def _edge_text(motor: Motor, leaks: ShaftLeakage, shaft: float) -> str:
     """Voltage after an edge of the inverter as text, from the shaft voltage of the divider [V]."""
     if leaks.after_rise is None or motor.rise_time is None:
-        return "give motor.rise_time for the voltage after an edge"
+        return "Give motor.rise_time for the voltage after an edge"
     left = float(leaks.after_rise * shaft)
-    return f"after an edge of {amount(motor.rise_time, 's')} it is {readable(left)} V"
+    return f"After an edge of {amount(motor.rise_time, 's')} it is {readable(left)} V; check the conductivity"

@@ -304,7 +304,7 @@ def _index_of(oil: OilTemperature) -> str:
         return ""
     at_40, at_100 = float(oil.at_40()), float(oil.at_100())
     given = f"{readable(1e6 * oil.kinematic_viscosity_100, 4)} mm²/s at 100 °C"
-    return f"; with {given} its viscosity index is {viscosity_index(at_40, at_100):.0f}"
+    return f", which gives a viscosity index of {viscosity_index(at_40, at_100):.0f} with {given}"
 
 
 def _static_rating(bearing: Bearing) -> Numbers:

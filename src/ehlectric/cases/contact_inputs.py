@@ -26,7 +26,7 @@ def radius_doubt(key: str, radius: float) -> Iterator[ResultWarning]:
     Examples
     --------
     >>> print(*radius_doubt("reduced_radius", 14.1))
-    reduced_radius is 14.1 m, more than machine parts have: is the unit of the radii right?
+    reduced_radius is 14.1 m; machine parts have at most 1 m. Check the unit of the radii.
     """
     if radius > PLAUSIBLE["radius"].high:
         yield ResultWarning.of("radius-large", key=key, radius=radius)
@@ -40,7 +40,7 @@ def modulus_doubt(modulus: float) -> Iterator[ResultWarning]:
     Examples
     --------
     >>> print(*modulus_doubt(226e6))
-    the reduced modulus is 226 MPa, that of rubber; steel has 226 GPa: is the unit of the moduli right?
+    the reduced modulus is 226 MPa, a value of rubber; steel has 226 GPa. Check the unit of the moduli.
     """
     if modulus < PLAUSIBLE["modulus"].low:
         yield ResultWarning.of("modulus-low", modulus=modulus / 1e6)

@@ -546,10 +546,10 @@ def _warnings(oils: Sequence[KnownOil], pressure: float) -> Iterator[ResultWarni
                 known.add(warning.code)
                 # The laws warn of the Hertz pressure of a contact. Here is none, but a pressure in the oil.
                 text = warning.text.replace("the Hertz pressure", "the pressure")
-                yield replace(warning, text=at + text.removesuffix(" in this contact"))
+                yield replace(warning, text=at + text)
         try:
             PROPERTIES["relative_permittivity"].value(oil, pressure)
         except InputError as error:
             yield f"{at}{error}"
     if not depends_on_temperature(oils[0].table) and oils[0].temperature is not None:
-        yield "the viscosity of this oil is one number: it is shown as it is given, whatever the temperature"
+        yield "the viscosity of this oil is one number: it is shown as it is given, at any temperature"

@@ -22,14 +22,14 @@ from ehlectric.readable import readable
 
 @dataclass(frozen=True)
 class Plausible:
-    """Range of a quantity in machines, in its SI unit, and the question about a value outside."""
+    """Range of a quantity in machines, in its SI unit, and the advice about a value outside."""
 
     name: str
     low: float
     high: float
     unit: str  # unit in which a text shows the value
     factor: float  # from the SI unit to this unit
-    question: str
+    advice: str
 
     def shown(self, value: float) -> str:
         """Value [SI unit] with its unit."""
@@ -39,40 +39,65 @@ class Plausible:
 PLAUSIBLE: Mapping[str, Plausible] = MappingProxyType(
     {
         # Tips of force microscopes have smaller radii, and the largest rolls and gears are near 1 m.
-        "radius": Plausible("the reduced radius", 2e-5, 1.0, "m", 1.0, "is the unit of the radii right?"),
+        "radius": Plausible("the reduced radius", 2e-5, 1.0, "m", 1.0, "Check the unit of the radii"),
         # Plastics have 1 to 20 GPa; rubber carries no bearing and no gear; two diamonds have 1.2 TPa.
-        "modulus": Plausible(
-            "the reduced modulus", 1e9, 1.3e12, "GPa", 1e-9, "is the unit of the moduli right?"
-        ),
+        "modulus": Plausible("the reduced modulus", 1e9, 1.3e12, "GPa", 1e-9, "Check the unit of the moduli"),
         # Steel on steel at 5 MPa carries less than a millionth of the load of a bearing.
-        "pressure": Plausible("the Hertz pressure", 5e6, 2e10, "MPa", 1e-6, "is the unit of the load right?"),
+        "pressure": Plausible("the Hertz pressure", 5e6, 2e10, "MPa", 1e-6, "Check the unit of the load"),
         "speed": Plausible(
-            "the entrainment speed", 1e-6, 300.0, "m/s", 1.0, "is it in m/s, and no rotational speed?"
+            "the entrainment speed",
+            1e-6,
+            300.0,
+            "m/s",
+            1.0,
+            "Check that it is in m/s, and no rotational speed",
         ),
         # Petrol and liquid refrigerants have 0.2 to 0.6 mPa s, and no oil flows at 10 Pa s.
         "viscosity": Plausible(
-            "the viscosity of the oil", 2e-4, 10.0, "Pa s", 1.0, "is it in Pa s, and not in mPa s?"
+            "the viscosity of the oil", 2e-4, 10.0, "Pa s", 1.0, "Check that it is in Pa s, and not in mPa s"
         ),
         # Water has 0.5 1/GPa, and traction fluids in the cold have 60 1/GPa.
         "alpha": Plausible(
-            "the pressure-viscosity coefficient", 4e-10, 1e-7, "1/GPa", 1e9, "is it in 1/GPa, mm²/N or 1/Pa?"
+            "the pressure-viscosity coefficient",
+            4e-10,
+            1e-7,
+            "1/GPa",
+            1e9,
+            "Check the unit: 1/GPa, mm²/N or 1/Pa",
         ),
         # Glycols have 40, and water has 80.
         "permittivity": Plausible(
-            "the relative permittivity of the oil", 1.0, 90.0, "", 1.0, "is it the one of the oil?"
+            "the relative permittivity of the oil",
+            1.0,
+            90.0,
+            "",
+            1.0,
+            "Check that it is the permittivity of the oil",
         ),
         # Ionic liquids have 1 S/m.
         "conductivity": Plausible(
-            "the conductivity of the oil", 1e-17, 1.0, "S/m", 1.0, "is it in S/m, and not in pS/m?"
+            "the conductivity of the oil", 1e-17, 1.0, "S/m", 1.0, "Check that it is in S/m, and not in pS/m"
         ),
         "strength": Plausible(
-            "the dielectric strength", 1e6, 1e9, "V/µm", 1e-6, "is it in V/µm, and not in V/mm or kV/m?"
+            "the dielectric strength",
+            1e6,
+            1e9,
+            "V/µm",
+            1e-6,
+            "Check that it is in V/µm, and not in V/mm or kV/m",
         ),
         # Ground gears have 1 µm, and polished balls have 3 nm.
-        "roughness": Plausible("the roughness Rq", 5e-10, 1e-5, "µm", 1e6, "is it in µm, and not in nm?"),
+        "roughness": Plausible(
+            "the roughness Rq", 5e-10, 1e-5, "µm", 1e6, "Check that it is in µm, and not in nm"
+        ),
         # Bearings of 300 mm bore have 0.5 mm in class C5.
         "clearance": Plausible(
-            "the radial clearance", -2e-4, 6e-4, "µm", 1e6, "is it in µm, and the full diametral play?"
+            "the radial clearance",
+            -2e-4,
+            6e-4,
+            "µm",
+            1e6,
+            "Check that it is in µm, and is the full diametral play",
         ),
         # Known bearings have 0.55 to 0.95, and thrust needle rollers have 0.36.
         "filling": Plausible(
@@ -81,7 +106,7 @@ PLAUSIBLE: Mapping[str, Plausible] = MappingProxyType(
             1.1,
             "",
             1.0,
-            "are element_diameter and pitch_diameter diameters, and no radii?",
+            "Check that element_diameter and pitch_diameter are diameters, and no radii",
         ),
     }
 )
@@ -111,8 +136,8 @@ def unusual(key: str, value: Numbers | None) -> Iterator[WarningCondition]:
     Examples
     --------
     >>> from ehlectric.quantities.result_warnings import active
-    >>> print(*active(unusual("speed", 3000.0)))
-    the entrainment speed is 3000 m/s, above the 300 m/s of machines: is it in m/s, and no rotational speed?
+    >>> print(*active(unusual("speed", 3000.0)))  # doctest: +ELLIPSIS
+    the entrainment speed is 3000 m/s, above the limit of 300 m/s for machines. Check ...
     """
     if value is None:
         return
@@ -128,7 +153,7 @@ def unusual(key: str, value: Numbers | None) -> Iterator[WarningCondition]:
             value=lambda: entry.shown(float(np.ravel(value)[0])),
             side=side,
             limit=entry.shown(limit),
-            question=entry.question,
+            advice=entry.advice,
         )
 
 

@@ -171,15 +171,13 @@ def unconverged_heat(heated: HeatedFilm, max_pressure: float) -> str:
     stress = float(np.max(np.abs(heated.shear_stress)))
     if heated.rheology == "newtonian" and not stress < _CARRIED * max_pressure:
         return (
-            f"the film would have shear stresses up to {readable(stress / max_pressure, 2)} times the "
-            "Hertz pressure, "
-            f"and oils carry less than {_CARRIED:g} times: no oil is Newtonian there; give "
-            "lubricant.eyring_stress and film.rheology 'eyring'"
+            f"The film would have shear stresses up to {readable(stress / max_pressure, 2)} times the "
+            f"Hertz pressure, but oils carry less than {_CARRIED:g} times. Give lubricant.eyring_stress, and "
+            "set film.rheology to 'eyring'"
         )
     return (
-        f"its temperature and its pressure do not settle together ({reached_rise(heated)}); "
-        "more Newton steps do not change this; another number of grid.nodes may, and film.thermal = false "
-        "has no such turns"
+        f"Temperature and pressure do not converge together ({reached_rise(heated)}), also with more Newton "
+        "steps. Try another number of grid.nodes, or film.thermal = false"
     )
 
 
@@ -233,10 +231,10 @@ def _temperatures(
             "extrapolated"
         )
     if not (oil.lowest <= reached[0] and reached[1] <= oil.highest):
-        effect = ", whose effect is part of temperature_rise_error" if reached[1] > oil.highest else ""
+        effect = " (temperature_rise_error contains the effect)" if reached[1] > oil.highest else ""
         reasons.append(
-            f"its properties were taken from {_celsius(oil.lowest, oil.highest)}, and go on as straight "
-            f"lines{effect}"
+            f"its properties were sampled from {_celsius(oil.lowest, oil.highest)}, and are extrapolated "
+            f"linearly{effect}"
         )
     thicker = _thicker_from(oil, max_pressure)
     if thicker is not None and thicker < reached[1]:

@@ -257,18 +257,18 @@ def _advice(setup: Case | Setup, film: Film | PointFilm) -> str:
     """
     if setup.roughness:
         hardness = setup.contact.hardness if isinstance(setup, Case) else None
-        soft = "" if hardness is None else "raise contact.hardness or leave it out, "
+        soft = "" if hardness is None else "raise or omit contact.hardness, "
+        advice = f"{soft}lower the roughness, or raise speed or viscosity"
         return (
-            f"{soft}lower the roughness, or raise speed or viscosity; more grid.nodes help only if they are "
-            "too few for the roughness"
+            f"{advice[0].upper()}{advice[1:]}; use more grid.nodes only if they do not resolve the roughness"
         )
     if film.heated is not None and film.heated.thermal:
         return unconverged_heat(film.heated, film.scales.pressure)
     spacing = float(film.x[1] - film.x[0]) / film.scales.length
     resolved = film.central_thickness > spacing * film.scales.thickness
     if film.status == "stalled" and resolved and setup.solver.max_iterations < _MANY_STEPS:
-        return f"try solver.max_iterations = {_MANY_STEPS}"
-    return "try more grid.nodes, a lower grid.inlet, or more solver.max_iterations"
+        return f"Try solver.max_iterations = {_MANY_STEPS}"
+    return "Try more grid.nodes, a lower grid.inlet, or more solver.max_iterations"
 
 
 def _local_pressure(film: Film | PointFilm, *, rough: bool) -> Iterator[ResultWarning]:
@@ -286,10 +286,10 @@ def _local_pressure(film: Film | PointFilm, *, rough: bool) -> Iterator[ResultWa
     likely = film.max_pressure * (1.0 + _LIKELY_RISE * error)
     if not film.converged or film.scales.pressure > limit or likely <= limit:
         return
-    what, advice = "the pressure spike", "check load and radii"
+    what, advice = "the pressure spike", "Check load and radii"
     if rough:
         what = "the local pressure of the rough film"
-        advice = "asperities would be flattened; use a surface after running-in, or a longer cutoff_short"
+        advice = "Use a surface after running-in, whose asperities are flatter, or a longer cutoff_short"
     reach = f", or about {readable(largest / 1e9, 2)} GPa between the nodes," if error > 0.01 else ""
     if error > UNRESOLVED:
         reach = ", or several times more, as the grid does not resolve it,"
@@ -372,5 +372,6 @@ def inaccurate_field(
     if degree is not None and sufficient is not None and sufficient > degree:
         advice = f"raise grid.field_degree to {min(sufficient, MOST_DEGREE)}, or {advice}"
         if degree >= MOST_DEGREE:
-            advice = "the waves are far shorter than the film is thick"
+            advice = "remove waves that are far shorter than the film is thick, as by a cutoff_short"
+    advice = f"{advice[0].upper()}{advice[1:]}"
     return ResultWarning.of("field-unresolved", "inaccurate", percent=100 * error, advice=advice)

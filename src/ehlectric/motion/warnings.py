@@ -126,9 +126,9 @@ def _causes(contact: TransientContact) -> Iterator[str]:
     inlet, outlet = schedule.domain
     forwards = any(speed > 0.0 for speed in schedule.moving_speeds)
     if forwards and outlet < _CLEAR:
-        yield f"its front, one half-width long, is still in the Hertz zone; raise grid.outlet to {_CLEAR:g}"
+        yield f"its front, one half-width long, is still in the Hertz zone (raise grid.outlet to {_CLEAR:g})"
     if inlet > -_CLEAR and any(speed < 0.0 for speed in schedule.moving_speeds):
-        yield f"its front, one half-width long, is still in the Hertz zone; lower grid.inlet to {-_CLEAR:g}"
+        yield f"its front, one half-width long, is still in the Hertz zone (lower grid.inlet to {-_CLEAR:g})"
     moving = [table for table in contact.case.roughness if schedule.speed_of(table.surface)]
     keys = [key for key in _LONGER if any(getattr(table, key) not in (None, "none") for table in moving)]
     if keys:

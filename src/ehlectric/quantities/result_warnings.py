@@ -23,7 +23,7 @@ SEVERITY_WORDS: Mapping[str, str] = MappingProxyType(
 
 @dataclass(frozen=True)
 class WarningCode:
-    """Meaning of a warning code in one sentence, severity, and keys of the quantities that it concerns.
+    """Meaning of a warning code in one sentence, topic, severity, and keys of quantities that it concerns.
 
     Outputs show a warning next to those quantities; one without any concerns the whole result. The keys of
     both bearings of a drive begin with "end". Points of a sweep whose numbers are
@@ -31,6 +31,7 @@ class WarningCode:
     """
 
     meaning: str
+    topic: str
     severity: Severity = "warning"
     concerns: tuple[str, ...] = ()
     less_accurate: bool = False
@@ -38,7 +39,7 @@ class WarningCode:
 
 @cache
 def _texts() -> dict[str, Any]:
-    """Texts by code, or by code and situation."""
+    """Texts by code and situation, with the explanation of each code."""
     return data_file("ehlectric.quantities", "warning_texts.toml")
 
 
@@ -50,9 +51,10 @@ def _codes() -> Iterator[tuple[str, WarningCode]]:
         for name in names:
             yield from keys(read["groups"][name[1:]]) if name.startswith("@") else (name,)
 
-    for code, cause in read["codes"].items():
-        concerns = dict.fromkeys(keys(cause.get("concerns", [])))
-        yield code, WarningCode(**(cause | {"concerns": tuple(concerns)}))
+    for topic, causes in read["codes"].items():
+        for code, cause in causes.items():
+            concerns = dict.fromkeys(keys(cause.get("concerns", [])))
+            yield code, WarningCode(**(cause | {"topic": topic, "concerns": tuple(concerns)}))
 
 
 CODES: Mapping[str, WarningCode] = MappingProxyType(dict(_codes()))
@@ -103,8 +105,7 @@ class ResultWarning:
         >>> print(ResultWarning.of("seed-repeated", times=2, seed=5).text[:36])
         2 rough surfaces have the seed 5: th
         """
-        text = _texts()[code]
-        return cls(code, filled_in(text[situation] if situation else text, values))
+        return cls(code, filled_in(_texts()[code][situation or "text"], values))
 
     def __str__(self) -> str:
         return self.text
@@ -178,4 +179,4 @@ def _warnings(codes: tuple[str, ...], texts: tuple[str, ...]) -> tuple[ResultWar
 
 
 def _foreign(text: str) -> str:
-    return "not-usable" if "do not use" in text else "unclassified"
+    return "not-usable" if "do not use" in text.lower() else "unclassified"

@@ -156,7 +156,7 @@ def _continued(table: Roughness, surface: RoughSurface | RoughMap, domain: Domai
             length=surface.extent[axis] * 1e6,
             axis="xy"[axis],
             needed=lengths[axis] * 1e6,
-            both=" (it is too short along y, too)" if len(short) == 2 else "",
+            both=" (and is also too short along y)" if len(short) == 2 else "",
             extend=table.extend,
             change=("shift or raise grid.inlet", "shift_y or lower grid.side")[axis],
         )

@@ -466,10 +466,10 @@ def test_warning_about_temperatures_at_which_the_oil_is_not_known(hot):
     narrow = case_with("lubricant", temperature_range=["39 degC", "41 degC"])
     (text,) = told(hot, narrow, temperature_rise_error=0.0).values()
     assert "the laws of the oil hold for 39 to 41 °C" in text
-    assert "straight lines" not in text
+    assert "linearly" not in text
     beyond = {"temperature": hot.film.heated.temperature + 250.0, "temperature_rise_error": 0.0}
     (text,) = told(hot, **beyond).values()
-    assert "its properties were taken from 20 to 290 °C, and go on as straight lines" in text
+    assert "its properties were sampled from 20 to 290 °C, and are extrapolated linearly" in text
 
 
 def test_warning_about_a_rise_that_the_grid_does_not_resolve(hot):

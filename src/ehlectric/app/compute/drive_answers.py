@@ -80,7 +80,7 @@ def merged(warnings: Iterable[PageWarning]) -> tuple[PageWarning, ...]:
     for warning in warnings:
         before = by_code.get(warning.code)
         by_code[warning.code] = (
-            warning if before is None else replace(before, text=f"{before.text}. {warning.text}")
+            warning if before is None else replace(before, text=f"{before.text} {warning.text}")
         )
     return tuple(by_code.values())
 
