@@ -357,9 +357,9 @@ def _supply_factor(bearing: Bearing, oil: Oil) -> Numbers:
     if factor < _LEAST:
         raise InputError(
             "bearing.supply",
-            got=f"{bearing.supply!r}, whose rule leaves {readable(float(factor), 2)} of the flooded film at "
-            f"{1e6 * oil.viscosity / oil.density:.0f} mm^2/s and {rpm(bearing.inner_speed):.0f} rpm;",
-            takes=f"a speed and an oil of which it leaves {_LEAST:g}, or a measured number",
+            got=f"{bearing.supply!r}, whose rule gives a film of {readable(float(factor), 2)} of the flooded "
+            f"film at {1e6 * oil.viscosity / oil.density:.0f} mm^2/s and {rpm(bearing.inner_speed):.0f} rpm;",
+            takes=f"a speed and an oil that give at least {_LEAST:g}, or a measured number",
         )
     return float(factor)
 

@@ -212,7 +212,7 @@ def check_films_measured(case: BearingCase) -> None:
     if not library.solid(material)["conducting"]:
         raise InputError(
             "bearing.element_material",
-            got=f"{material!r}, whose capacitance hides that of the films;",
+            got=f"{material!r}, whose capacitance hides the capacitance of the films;",
             takes="elements that conduct, for a film factor from a measured capacitance",
         )
 

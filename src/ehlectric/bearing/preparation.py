@@ -59,7 +59,7 @@ def check_load(conditions: BearingConditions[Geometry]) -> None:
         raise InputError(
             "bearing.radial_load",
             got=f"{bearing.radial_load:g} N, with {bearing.axial_load:g} N axial;",
-            takes=f"more than {readable(float(weight), 2)} N, the weight of an element, which is left out",
+            takes=f"more than {readable(float(weight), 2)} N, the weight of an element, which is neglected",
         )
 
 

@@ -502,7 +502,7 @@ def check_contact(contact: Contact, grid: Grid | None = None) -> None:
         if speed < _LEAST_SPEED:
             raise InputError(
                 "contact",
-                f"the film would be that of an entrainment speed of {readable(float(speed))} m/s",
+                f"the film would need an entrainment speed of {readable(float(speed))} m/s",
                 takes=f"an inner_speed and a film_factor that give at least {_LEAST_SPEED:g} m/s",
             )
         for half_width, radius in contact.widths:

@@ -363,14 +363,14 @@ class BearingCase(CaseFile, book="bearing_file"):
         if external is not None and self.motor is not None:
             raise InputError(
                 "discharge.external_capacitance",
-                got=f"{external:g} F beside [motor]",
-                takes="one of the two: the capacitances of a motor are discharged, too",
+                got=f"{external:g} F and [motor]",
+                takes="one of the two: the capacitances of a motor also discharge",
             )
         if self.discharge.pit is not None and external is None and self.motor is None:
             raise InputError.worded(
                 "discharge.external_capacitance",
-                "missing; pit needs it or [motor]: a discharge also drains what is connected to the shaft; 0 "
-                "where nothing is",
+                "missing; pit needs it or [motor]: a discharge also drains what is connected to the shaft; "
+                "give 0 if nothing is connected",
             )
 
     @property
@@ -480,7 +480,7 @@ class BearingCase(CaseFile, book="bearing_file"):
         """Make a bearing case from the tables of the file at a path."""
         if "contact" in table and "bearing" not in table:
             raise InputError(
-                path, "is the file of a contact", takes="that of a bearing; ehlectric run solves it"
+                path, "is the file of a contact", takes="the file of a bearing; ehlectric run solves it"
             )
         find_files(table, path.parent)
         return cls.from_written(table)

@@ -136,7 +136,7 @@ class Pair(Table, book="bearing.pair"):
     def _check(self) -> Self:
         if (self.preload is None) == (self.axial_clearance is None):
             both = None if self.preload is None else "it and axial_clearance together"
-            raise InputError("preload", got=both, takes="either it or axial_clearance, in operation")
+            raise InputError("preload", got=both, takes="either preload or axial_clearance, in operation")
         return self
 
 
@@ -544,7 +544,8 @@ class Bearing(Table, book="bearing", named_by="base"):
         ceramic = not library.solid(self.element_material)["conducting"]
         if self.element_capacitance is not None and not ceramic:
             raise InputError.worded(
-                "element_capacitance", "is only for ceramic elements; that of conducting ones is computed"
+                "element_capacitance",
+                "is only for ceramic elements; the capacitance of steel elements is computed",
             )
         if not library.solid(self.ring_material)["conducting"]:
             raise InputError("ring_material", got=shown(self.ring_material), takes="one that conducts")
@@ -615,7 +616,9 @@ class Bearing(Table, book="bearing", named_by="base"):
             )
         if (fits.unmounted_clearance is None) == (self.clearance_class is None):
             both = None if self.clearance_class is None else "it and clearance_class together"
-            raise InputError("fits.unmounted_clearance", got=both, takes="either it or clearance_class")
+            raise InputError(
+                "fits.unmounted_clearance", got=both, takes="either unmounted_clearance or clearance_class"
+            )
         self._check_diameters("[bearing.fits]")
         assert self.bore is not None and self.outer_diameter is not None
         if fits.shaft_bore >= self.bore:

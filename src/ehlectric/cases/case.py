@@ -303,7 +303,7 @@ class Case(CaseFile, book="case_file"):
         """Make a case from the tables of the file at a path."""
         if "bearing" in table and "contact" not in table:
             raise InputError(
-                path, "is the file of a bearing", takes="that of a contact; ehlectric bearing solves it"
+                path, "is the file of a bearing", takes="the file of a contact; ehlectric bearing solves it"
             )
         find_files(table, path.parent)
         return cls.from_written(table)

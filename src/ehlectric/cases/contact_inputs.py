@@ -173,7 +173,8 @@ class Contact(Table, book="contact"):
         if self.speed_1 is not None and self.speed_2 is not None:
             if self.slide_to_roll_ratio is not None:
                 raise InputError.worded(
-                    "slide_to_roll_ratio", "follows from speed_1 and speed_2; give either it or the speeds"
+                    "slide_to_roll_ratio",
+                    "follows from speed_1 and speed_2; give either the ratio or the speeds",
                 )
             if self.speed_1 + self.speed_2 <= 0.0:
                 raise InputError(

@@ -89,8 +89,8 @@ class Discharge(Table, book="discharge"):
         if self.pit is not None and self.external_capacitance is None:
             raise InputError.worded(
                 "external_capacitance",
-                "missing; pit needs it: a discharge also drains what is connected to the contact; 0 "
-                "where nothing is",
+                "missing; pit needs it: a discharge also drains what is connected to the contact; "
+                "give 0 if nothing is connected",
             )
 
     def _check_temperature(self) -> None:
@@ -100,7 +100,7 @@ class Discharge(Table, book="discharge"):
                 raise InputError(
                     "temperature",
                     got=f"{self.temperature:g} K",
-                    takes="it only with a strength_table over temperature",
+                    takes="a temperature only with a strength_table over temperature",
                 )
             return
         low, high = table.places[0], table.places[-1]
@@ -144,7 +144,7 @@ class BearingDischarge(Discharge):
             raise InputError(
                 "temperature",
                 got=f"{self.temperature:g} K for a bearing",
-                takes="bearing.temperature in its place, at which the strength is taken",
+                takes="bearing.temperature instead, which determines the strength",
             )
 
     def at(self, temperature: Numbers, key: str = "bearing.temperature") -> Discharge:

@@ -87,7 +87,7 @@ class Source(Table, book="source"):
         if self.measured:
             if given:
                 raise InputError(
-                    given[0], got="it beside file", takes="a described source, or a measured one"
+                    given[0], got="it together with file", takes="a described source, or a measured one"
                 )
             return self
         other = [key for key in MEASURED if key != "scale" and getattr(self, key) is not None]
@@ -107,7 +107,9 @@ class Source(Table, book="source"):
             takes = "a value; or pole_pairs, with which it follows the speed; or file, a measured waveform"
             raise InputError.missing("fundamental_frequency", takes)
         if self.fundamental_frequency is not None and self.pole_pairs is not None:
-            raise InputError.worded("pole_pairs", "is given beside fundamental_frequency; give one of them")
+            raise InputError.worded(
+                "pole_pairs", "is given together with fundamental_frequency; give one of them"
+            )
         if self.modulation == "six-step":
             for key in _ONLY_BY_CARRIER:
                 if getattr(self, key) is not None:
@@ -300,7 +302,7 @@ class Breakdown(Table, book="breakdown"):
             both = self.extinction_current is not None
             raise InputError(
                 "extinction_current",
-                got="it beside extinction_voltage" if both else "none",
+                got="it together with extinction_voltage" if both else "none",
                 takes="one of extinction_current and extinction_voltage",
             )
         return self

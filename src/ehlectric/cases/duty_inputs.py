@@ -51,7 +51,7 @@ def read_cycle(path: str | Path) -> Cycle:
     time = values.pop("time")
     if not values:
         text = "has no column but the time"
-        raise InputError(read.source, text, takes=f"heads such as {CYCLE.examples}")
+        raise InputError(read.source, text, takes=f"headings such as {CYCLE.examples}")
     if time.size < 2:
         raise InputError(read.source, "has one row", takes="at least two")
     back = np.flatnonzero(np.diff(time) <= 0.0)

@@ -58,15 +58,15 @@ class Inlet(Table, book="inlet"):
                 takes="a slide-to-roll ratio from -2 to 2: one of the surfaces carries its oil away",
             )
         if self.layer_table is not None and contact.geometry == "line":
-            raise InputError("inlet.layer_table", got="that of a line contact", takes="inlet.oil_layer")
+            raise InputError("inlet.layer_table", got="a line contact", takes="inlet.oil_layer")
         if "motion" in tables and self.film_ratio is not None:
             raise InputError(
                 "inlet.film_ratio",
-                got=f"{self.film_ratio:g} beside [motion], in which the film changes with time",
+                got=f"{self.film_ratio:g} with [motion], in which the film changes with time",
                 takes="inlet.oil_layer or inlet.layer_table; the same case without [motion] finds the layer",
             )
         if "meter" in tables:
-            raise InputError("inlet", got="[inlet] beside [meter]", takes="a flooded contact there")
+            raise InputError("inlet", got="[inlet] with [meter]", takes="a flooded contact there")
 
 
 # Constants of the lubricant that each rheology needs.
@@ -105,7 +105,7 @@ class FilmPhysics(Table, book="film"):
         if self.thermal:
             if contact.temperature is None:
                 raise InputError.missing(
-                    "contact.temperature", "that of the oil in the inlet; a thermal film needs it"
+                    "contact.temperature", "the temperature of the oil in the inlet; a thermal film needs it"
                 )
             check_thermal_oil(lubricant, contact.temperature, by_law=by_law)
             for name in ("body_1", "body_2"):
@@ -134,7 +134,7 @@ def _refuse_unused(contact: Contact) -> None:
         if getattr(contact, key) is not None:
             raise InputError.worded(
                 f"contact.{key}",
-                "is used by a thermal film only; give [film] thermal = true, or contact.temperature alone",
+                "is used by a thermal film only; give [film] thermal = true, or only contact.temperature",
             )
 
 

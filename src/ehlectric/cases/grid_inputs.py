@@ -177,7 +177,7 @@ class Grid(Table, book="grid"):
         for key in ("nodes", "nodes_y", "refine"):
             if self.error is not None and getattr(self, key) is not None:
                 raise InputError(
-                    "error", got=f"error beside {key}", takes="one of them; nodes and refine go together"
+                    "error", got=f"error and {key}", takes="one of them; nodes and refine go together"
                 )
         self._check_most_nodes()
         if self.nodes_along < 8.0 * domain:
@@ -199,7 +199,7 @@ class Grid(Table, book="grid"):
         if self.target is None:
             raise InputError.worded(
                 "most_nodes",
-                "is not used beside nodes alone, which are not refined",
+                "is not used with nodes only, because such a grid is not refined",
                 takes="error, or nodes and refine",
             )
         if most < self.nodes_along:
@@ -303,7 +303,7 @@ class Motion(Table, book="motion"):
             raise InputError.worded("motion", "needs a rough surface: roughness is what moves")
         if grid.wedge == "first-order":
             raise InputError(
-                "grid.wedge", got=f"{grid.wedge!r} beside motion", takes="'third-order' or 'second-order'"
+                "grid.wedge", got=f"{grid.wedge!r} with motion", takes="'third-order' or 'second-order'"
             )
         for key in ("refine", "error", "most_nodes"):
             if getattr(grid, key) is not None:

@@ -248,7 +248,9 @@ def capacitance_of(measured: Measurement, uncertainty: float | None = None) -> M
             "a column 'capacitance [pF]', or columns 'impedance [ohm]', 'phase [deg]' and 'frequency [Hz]'",
         )
     if missing:
-        raise InputError.missing(f"{measured.source}: {missing[0]}", "a column of it beside the impedance")
+        raise InputError.missing(
+            f"{measured.source}: {missing[0]}", "a column of this quantity with the impedance"
+        )
     value, resistance = parallel_circuit(*(measured.values[name] for name in _OF_IMPEDANCE))
     stated = _of_impedance(measured)
     value = np.where(value > 0.0, value, np.nan)
@@ -353,7 +355,7 @@ def read_measurement(measured: str | Path | pd.DataFrame, book: ColumnBook = MEA
 def _without_void(source: str, rows: _Rows, places: Iterable[int]) -> tuple[_Rows, tuple[int, ...]]:
     """Rows with a value in every known column, and the lines of the other rows."""
     if not rows.cells:
-        raise InputError(source, "has no rows below its heads", takes="at least one")
+        raise InputError(source, "has no rows below its headings", takes="at least one")
     kept = [not any(is_void(row[place]) for place in places) for row in rows.cells]
     if not any(kept):
         raise InputError(source, "has no row with a number in every known column", takes="at least one")
@@ -388,7 +390,7 @@ def _of_text(path: Path, text: str, book: ColumnBook) -> _Rows:
             continue
         if len(row) != len(heads):
             raise InputError(
-                path, f"line {number} has {len(row)} columns", takes=f"{len(heads)} as in its heads"
+                path, f"line {number} has {len(row)} columns", takes=f"{len(heads)} as in its headings"
             )
         rows.append((number, row))
         if len(rows) > book.most_rows:
@@ -418,7 +420,7 @@ def _heads(path: Path, lines: list[str], book: ColumnBook) -> tuple[list[str], i
             return heads, below, dialect
     if wrong is not None:
         raise InputError(path, str(wrong))
-    raise InputError(path, "has no heads of known columns", takes=f"heads such as {book.examples}")
+    raise InputError(path, "has no headings of known columns", takes=f"headings such as {book.examples}")
 
 
 def _columns(
@@ -444,7 +446,9 @@ def _columns(
             )
         columns[place] = column
     if all(column.uncertainty for column in columns.values()):
-        raise InputError(source, "has no heads of known columns", takes=f"heads such as {book.examples}")
+        raise InputError(
+            source, "has no headings of known columns", takes=f"headings such as {book.examples}"
+        )
     return columns, tuple(head for head in ignored if head)
 
 

@@ -80,14 +80,16 @@ class Meter(StatedRa, book="meter"):
         roughness is given twice, or the contact is transient.
         """
         if moves:
-            raise InputError.worded("meter", "is not used with [motion]; a stationary contact has it")
+            raise InputError.worded("meter", "is not used with [motion], only with a stationary contact")
         if rough and self.rq is not None:
             raise InputError.worded(
-                "meter.rq", "is not used with [[roughness]], whose film has the roughness"
+                "meter.rq", "is not used with [[roughness]], whose film includes the roughness"
             )
         if self.length is not None:
             if length is not None and length != self.length:
-                raise InputError("meter.length", got=f"{self.length:g} m", takes="that of discharge.length")
+                raise InputError(
+                    "meter.length", got=f"{self.length:g} m", takes="the value of discharge.length"
+                )
             return
         if contact.geometry == "line":
             if length is None:

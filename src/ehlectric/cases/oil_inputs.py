@@ -231,7 +231,7 @@ class OilTemperature(Table, book="lubricant.temperature"):
         if viscous is not None and at is None:
             raise InputError.missing(key, "the temperature of this viscosity")
         if viscous is None and at is not None:
-            raise InputError(key, got="it without a viscosity", takes=takes)
+            raise InputError(key, got="a temperature without a viscosity", takes=takes)
         usual, elsewhere = (HOT, self.temperature_2) if number == 1 else (COLD, self.temperature_1)
         other = usual if elsewhere is None else elsewhere
         if at is not None and abs(float(at) - float(other)) < _LEAST_APART:
@@ -665,7 +665,7 @@ def check_once(oil: Properties) -> None:
     if oil.density is not None and oil.temperature is not None:
         raise InputError("density", got="density and temperature.density_15 together", takes="either of them")
     if oil.parameter("heat_capacity") is not None and oil.law("heat_capacity_law") is None:
-        raise InputError.missing("density", "it, with which heat_capacity is that of a volume")
+        raise InputError.missing("density", "the density, with which heat_capacity refers to a volume")
     if oil.thermal_expansion is not None and oil.reference_temperature is None:
         raise InputError.missing(
             "reference_temperature", "the temperature at which there is no thermal_expansion"

@@ -78,7 +78,7 @@ def spice(
         echo_files(files)
         warn(dict.fromkeys(warning for subcircuit in subcircuits for warning in subcircuit.warnings()))
         if file.kind == "drive" and bench is None:
-            say("note: the bearings alone; --bench FILE.cir also writes the inverter and the motor", err=True)
+            say("note: only the bearings; --bench FILE.cir also writes the inverter and the motor", err=True)
         for note in dict.fromkeys(note for subcircuit in subcircuits for note in subcircuit.notes):
             say(f"note: {note}", err=True)
     if not all(result.converged for subcircuit in subcircuits for result in subcircuit.results):
@@ -90,7 +90,7 @@ def _refuse_with_drive(options: Mapping[str, str | None]) -> None:
     """Refuse options whose values a drive file has."""
     for name, value in options.items():
         if value is not None:
-            raise InputError(name, got="it beside a drive file", takes="the value of the drive file, or none")
+            raise InputError(name, got="it with a drive file", takes="the value of the drive file, or none")
 
 
 def _bearing(

@@ -80,7 +80,7 @@ def contact_factors(
         raise InputError("inlet", "is not used with a measurement", takes="a flooded contact")
     if not measured.has("film"):
         raise InputError.missing(
-            f"{measured.source}: film", "a column 'film [nm]' beside the entrainment speed"
+            f"{measured.source}: film", "a column 'film [nm]' with the entrainment speed"
         )
     if measured.has("speed") and not measured.has("entrainment_speed"):
         raise InputError(

@@ -277,7 +277,9 @@ def _ready(case: DriveCase, cycle: Cycle, peak: float) -> _Ready:
     _check(case, cycle)
     quick, refused = quick_drive(case.model_copy(update={"remedies": (), "duty": None}))
     if quick is None:
-        raise InputError.worded("duty", f"needs bearings with contacts from the atlas, not as {refused} asks")
+        raise InputError.worded(
+            "duty", f"needs bearings with contacts from the atlas, but {refused} excludes them"
+        )
     drive_end, non_drive_end = quick.bearings
     first, reasons_1 = rows_of(drive_end, _of_bearing(cycle))
     second, reasons_2 = first, reasons_1

@@ -277,8 +277,8 @@ def check_table(results: Sequence[BearingResult]) -> None:
         speeds = ", ".join(speed_text(speed) for speed in sorted(touching))
         raise InputError(
             SPEED,
-            got=f"{speeds}, whose lambda ratio is so low that surfaces touch, at times at least,",
-            takes="in a table over the speed, speeds at which films part the surfaces",
+            got=f"{speeds}, whose lambda ratio is so low that surfaces touch, at least occasionally,",
+            takes="in a table over the speed, speeds at which films separate the surfaces",
         )
 
 

@@ -544,7 +544,7 @@ def _single(path: Path, channels: Sequence[_Head]) -> _Head:
     candidates = voltages or [head for head in channels if not head.unit] or list(channels)
     if not candidates:
         raise InputError(
-            path, "has one column of numbers, which are times", takes="a column of voltages, too"
+            path, "has one column of numbers, which are times", takes="also a column of voltages"
         )
     if len(candidates) > 1:
         listed = f"{path} has the channels {_listed(candidates)}"

@@ -419,7 +419,7 @@ def with_axes(results: SweepResults, name: str, options: Mapping[str, Any]) -> d
     name is the name of a value.
     """
     if name in known_values(results):
-        raise InputError("figure", got=f"{shown(name)}, a value;", takes=f"value={name!r} in place of a name")
+        raise InputError("figure", got=f"{shown(name)}, a value;", takes=f"value={name!r} instead of a name")
     if not name.startswith(("map_", "lines_")):
         return dict(options)
     if options.get("x") and (name.startswith("map_") or results.design != "grid"):

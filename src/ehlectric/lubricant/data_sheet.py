@@ -119,7 +119,7 @@ def viscosity_at_100(at_40: Numbers, index: Numbers) -> Numbers:
     if not _at_40(bottom, of_oil) <= target <= _at_40(top, of_oil):
         raise ValueError(
             f"an oil with {target:g} mm^2/s at 40 degC and viscosity index {index:g} has less than "
-            f"{LEAST_AT_100:g} mm^2/s at 100 degC, the least of ASTM D2270"
+            f"{LEAST_AT_100:g} mm^2/s at 100 degC, the minimum of ASTM D2270"
         )
     return 1e-6 * float(brentq(lambda at_100: _at_40(at_100, of_oil) - target, bottom, top, xtol=_CLOSE))
 

@@ -208,6 +208,6 @@ class Walther:
             raise InputError(
                 "temperature",
                 got=f"{temperature:g} K, at which the oil has less than {_LEAST:g} mm^2/s;",
-                takes="one at which it has more, the least of ASTM D341",
+                takes="a temperature with a higher viscosity; this is the minimum of ASTM D341",
             )
         return 1e-6 * float(nu)

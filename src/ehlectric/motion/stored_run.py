@@ -276,7 +276,7 @@ class MotionRun(Values):
         missing = [name for name in _NEEDED if name not in dataset]
         if missing or "case" not in dataset.attrs:
             name = missing[0] if missing else "case"
-            raise InputError("dataset", got=f"one without {name!r}", takes="that of roughness that moves")
+            raise InputError("dataset", got=f"one without {name!r}", takes="the dataset of moving roughness")
         case = Case.from_dict(tomllib.loads(dataset.attrs["case"]))
         solved = {
             "step": np.isfinite(dataset["time"].values),

@@ -54,7 +54,7 @@ class CartesianGrid:
         if nodes > MOST_NODES:
             raise ConvergenceError(
                 f"the paper's Cartesian grid would have {nodes:.2g} nodes, {rows} rows in the minimum gap; "
-                f"expected at most {MOST_NODES:.0e}: narrow grid.field_range, or leave out --solver paper"
+                f"expected at most {MOST_NODES:.0e}: narrow grid.field_range, or omit --solver paper"
             )
         y = np.arange(float(np.min(lower)), float(np.max(upper)) + dy, dy)
         margin = _ON_SURFACE * dy

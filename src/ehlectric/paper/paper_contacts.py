@@ -132,7 +132,7 @@ def _accepted(case: Case) -> Case:
         raise InputError.worded(
             "contact.geometry",
             f"got {case.contact.geometry!r}; the solver 'paper' needs 'line': its methods are "
-            "those of line contacts",
+            "for line contacts",
             got=shown(case.contact.geometry),
             takes="'line'",
         )

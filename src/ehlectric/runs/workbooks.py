@@ -51,10 +51,10 @@ def workbook(result: AnyResult | SweepResults) -> bytes:
         import openpyxl
     except ImportError:
         takes = "it, installed with: pip install 'ehlectric[excel]'"
-        raise InputError("openpyxl", "is missing, which writes workbooks", takes=takes) from None
+        raise InputError("openpyxl", "is missing, but workbooks need it", takes=takes) from None
     case = result.case
     if isinstance(case, Setup):
-        raise InputError("result", "has no case, which the workbook must hold")
+        raise InputError("result", "has no case, but the workbook must contain it")
     frame = result.to_dataframe()
     if len(frame) >= _ROWS or len(frame.columns) > _COLUMNS:
         raise InputError(

@@ -445,6 +445,5 @@ def _check_waves(key: str, length: float, side: tuple[str, float]) -> None:
         raise InputError(
             key,
             got=f"{length:.3g} m",
-            takes=f"at most {most:.3g} m, a tenth of {side[0]}: the heights of "
-            "fewer waves are those of chance",
+            takes=f"at most {most:.3g} m, a tenth of {side[0]}: the heights of fewer waves depend on chance",
         )

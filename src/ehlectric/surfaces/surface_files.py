@@ -98,7 +98,7 @@ def member(archive: zipfile.ZipFile, content: bytes, name: str, most: int) -> by
         raise InputError.worded(
             None,
             f"holds {in_bytes(info.file_size)} in {in_bytes(info.compress_size)}; "
-            f"expected at most {in_bytes(allowed)}, as measured heights hardly compress",
+            f"expected at most {in_bytes(allowed)}, because measured heights compress little",
         )
     decompress = _DECOMPRESS.get(info.compress_type)
     if decompress is None:

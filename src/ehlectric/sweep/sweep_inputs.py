@@ -85,7 +85,9 @@ def _check_drive(key: str, case: DriveCase, varied: Collection[str]) -> None:
         raise InputError.worded(key, f"has no effect, as {above} is given for both bearings", takes=above)
     both = f"{BOTH}.{inner}"
     if end in ENDS and both in varied:
-        raise InputError.worded(key, f"varies beside {both}; vary one of them, or both ends", takes=both)
+        raise InputError.worded(
+            key, f"varies together with {both}; vary one of them, or both ends", takes=both
+        )
 
 
 def _nearest(key: str) -> str:

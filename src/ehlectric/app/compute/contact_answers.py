@@ -159,7 +159,7 @@ def cuts_of(folder: str, x: float, y: float) -> dict[str, Figure]:
     """
     result = _stored(folder)
     if not isinstance(result, PointResult) or not result.converged:
-        raise InputError(folder, "has no converged point contact", takes="one that can be cut")
+        raise InputError(folder, "contains no converged point contact", takes="a point contact to cut")
     factor = Lengths.of(result).factor
     return point_cuts(result, x / factor, y / factor)
 
@@ -169,7 +169,7 @@ def cuts_of(folder: str, x: float, y: float) -> dict[str, Figure]:
 def _stored(folder: str) -> Result | PointResult:
     result = load(folder)
     if not isinstance(result, Result | PointResult):
-        raise InputError(folder, "has another result", takes="that of a contact")
+        raise InputError(folder, "contains another result", takes="the result of a contact")
     return result
 
 
