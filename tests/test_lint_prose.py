@@ -117,7 +117,7 @@ def film():
 def test_a_warning_contains_an_action(tmp_path, text, without_action):
     file = tmp_path / lint_prose.QUANTITIES / "warning_texts.toml"
     file.parent.mkdir(parents=True)
-    file.write_text(f'\nthin.first = "{text}"\n', encoding="utf-8")
+    file.write_text(f'\n[thin]\nexplanation = ""\nfirst = "{text}"\n', encoding="utf-8")
     places = lint_prose.warnings_without_an_action(lint_prose.Texts(tmp_path))
     assert lines(places) == [2] * without_action
 
@@ -126,7 +126,7 @@ def test_lengths_and_first_words_of_texts_of_data(tmp_path):
     folder = tmp_path / lint_prose.QUANTITIES
     folder.mkdir(parents=True)
     (folder / "warning_texts.toml").write_text(
-        f'short = "{"word " * 40}"\nlong.first = "{"word " * 41}"\n', encoding="utf-8"
+        f'short.text = "{"word " * 40}"\nlong.first = "{"word " * 41}"\n', encoding="utf-8"
     )
     (folder / "inputs.toml").write_text(
         '[a.speed]\nmeaning = "of the shaft"\n[a.load]\nmeaning = "load of the shaft"\n', encoding="utf-8"
@@ -135,7 +135,7 @@ def test_lengths_and_first_words_of_texts_of_data(tmp_path):
         f'[film]\nshort = {{ meaning = "{"a " * 30}" }}\nlong = {{ meaning = "{"b " * 31}" }}\n', "utf-8"
     )
     pages = lint_prose.Texts(tmp_path)
-    assert [place.words for place in lint_prose.long_warnings(pages)] == ["long.first: 41 words"]
+    assert [place.words for place in lint_prose.long_warnings(pages)] == ["long: 41 words"]
     assert [place.words for place in lint_prose.meanings_without_the_quantity(pages)] == [
         "a.speed: of the shaft"
     ]
@@ -171,7 +171,7 @@ def test_the_parts_of_a_long_page_count_no_more_than_the_page(tmp_path):
 def test_rows_of_pages_that_describe_a_warning(tmp_path):
     folder = tmp_path / lint_prose.QUANTITIES
     folder.mkdir(parents=True)
-    (folder / "warning_codes.toml").write_text('[codes]\nfilm-thin = { meaning = "x" }\n', encoding="utf-8")
+    (folder / "warning_codes.toml").write_text('[codes.Film]\nfilm-thin = { meaning = "x" }\n', encoding="utf-8")
     page = "| thin (`film-thin`) | x |\n| x | `film-thin` |\n| `other` | x |\nSee `film-thin`.\n"
     assert lines(lint_prose.warnings_described_by_hand(texts(tmp_path, {"docs/a.md": page}))) == [1]
 

@@ -105,25 +105,6 @@ def test_an_entry_that_no_module_uses_is_found_with_its_line(tmp_path, rule, nam
     assert any(lines[place - 1].lstrip("[").startswith(entry) for place in places)
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("the film is thin. Use more grid.nodes.", None),
-        ("the film is thin. No action is needed.", None),
-        ("the film is thin.", "action"),
-        ("the film is thin. Use more grid.nodes", "action"),
-        ("the film is thin. Use more grid.nodes." + 40 * " more", "47 words"),
-    ],
-)
-def test_a_text_of_a_warning_is_short_and_says_what_to_do(tmp_path, text, message):
-    package(tmp_path, "a.py", "x = 0")
-    file = lint_house.PACKAGE / "quantities/warning_texts.toml"
-    (tmp_path / file).write_text(f'[regime]\nexplanation = "Thin."\ntext = "{text}"\n', encoding="utf-8")
-    faults = [fault.message for fault in lint_house.words_of_warnings(tmp_path)]
-    assert bool(faults) == (message is not None)
-    assert all(message in fault for fault in faults[:1])
-
-
 def test_a_name_of_a_face_that_no_other_package_imports_is_found(tmp_path):
     package(tmp_path, "film/__init__.py", "")
     (tmp_path / lint_house.PACKAGE / "film/__init__.pyi").write_text(

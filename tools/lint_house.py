@@ -24,14 +24,6 @@ PACKAGE = Path("src/ehlectric")
 WORDS_IN_NAMES = Path("tools/words_in_names.toml")
 
 MOST_WORDS = 30  # of one entry of the changelog
-MOST_WORDS_OF_A_WARNING = 40
-
-# What a text of a warning asks of its reader, or the advice in one of its values.
-ACTION = re.compile(
-    r"(?i)(?:[.,;:] |\band |\bor )(?:accept|change|check|compare|complete|cut|do not|double|extend|follow|"
-    r"give|halve|increase|keep|lower|measure|narrow|omit|raise|remove|rename|report|save|set|solve|state|treat|"
-    r"try|use|widen)\b|\{advice\}|No action is needed"
-)
 
 # Codes of warnings that only files of later versions give.
 FOREIGN_CODES = {"not-usable", "unclassified"}
@@ -247,20 +239,6 @@ def texts_of_warnings(root: Path) -> Iterator[Fault]:
         yield Fault(file, _line_of(root, file, f"[{code}]"), f"no warning has the text {name}; delete it")
 
 
-def words_of_warnings(root: Path) -> Iterator[Fault]:
-    """Yield texts of warnings that are too long, or do not say what to do."""
-    file = PACKAGE / "quantities/warning_texts.toml"
-    for code, entry in data(root, "quantities/warning_texts.toml").items():
-        for situation in entry.keys() - {"explanation"}:
-            text, line = entry[situation], _line_of(root, file, f"[{code}]")
-            if (count := len(text.split())) > MOST_WORDS_OF_A_WARNING:
-                message = f"{situation} has {count} words; a warning has at most {MOST_WORDS_OF_A_WARNING}"
-                yield Fault(file, line, message)
-            if not ACTION.search(text) or not text.endswith("."):
-                message = f"end {situation} with an action, or with 'No action is needed.'"
-                yield Fault(file, line, message)
-
-
 def warnings_with_written_texts(root: Path) -> Iterator[Fault]:
     """Yield warnings with a text of their own; only a warning that exists is made again, with its place."""
     for module in _warning_modules(root):
@@ -463,7 +441,6 @@ RULES = (
     actions_of_the_workflows,
     codes_of_warnings,
     texts_of_warnings,
-    words_of_warnings,
     warnings_with_written_texts,
     keys_in_texts_of_errors,
     signs_of_bounds,

@@ -284,19 +284,11 @@ def _matches(pattern: str) -> Places:
 
 
 def _warnings(texts: Texts) -> Iterator[tuple[str, str]]:
-    """Yield code and text of each warning; a text may be a table with the keys text and action."""
-
-    def leaves(code: str, entry: Any) -> Iterator[tuple[str, str]]:
-        if isinstance(entry, str):
-            yield code, entry
-        elif "text" in entry:
-            yield code, " ".join(entry[key] for key in ("text", "action") if key in entry)
-        else:
-            for situation, text in entry.items():
-                yield from leaves(f"{code}.{situation}", text)
-
+    """Yield code and text of each situation of each warning."""
     for code, entry in texts.entries(f"{QUANTITIES}/warning_texts.toml").items():
-        yield from leaves(code, entry)
+        for situation, text in entry.items():
+            if situation != "explanation":
+                yield code, text
 
 
 def warnings_without_an_action(texts: Texts) -> Iterator[Place]:
@@ -385,7 +377,8 @@ def long_pages(texts: Texts) -> Iterator[Place]:
 
 def warnings_described_by_hand(texts: Texts) -> Iterator[Place]:
     """Yield rows of tables in pages that describe a code of a warning."""
-    codes = texts.entries(f"{QUANTITIES}/warning_codes.toml").get("codes", {})
+    topics = texts.entries(f"{QUANTITIES}/warning_codes.toml").get("codes", {}).values()
+    codes = {code for topic in topics for code in topic}
     for file in texts.pages:
         for number, line in enumerate(file.read_text(encoding="utf-8").splitlines(), 1):
             if line.startswith("|"):

@@ -69,7 +69,7 @@ def told_of(rows, doubtful):
         text += f"{meaning[0].lower()}{meaning[1:]} {action}\n"
     if doubtful:
         text += f"warning: {doubtful} of {len(solved)} solved points have a film that must not be used. "
-        text += "Maps and lines omit these points. Follow the warnings of these points.\n"
+        text += "Maps and lines omit these points. Check the warnings of these points.\n"
     return text
 
 
