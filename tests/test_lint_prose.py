@@ -171,7 +171,9 @@ def test_the_parts_of_a_long_page_count_no_more_than_the_page(tmp_path):
 def test_rows_of_pages_that_describe_a_warning(tmp_path):
     folder = tmp_path / lint_prose.QUANTITIES
     folder.mkdir(parents=True)
-    (folder / "warning_codes.toml").write_text('[codes.Film]\nfilm-thin = { meaning = "x" }\n', encoding="utf-8")
+    (folder / "warning_codes.toml").write_text(
+        '[codes.Film]\nfilm-thin = { meaning = "x" }\n', encoding="utf-8"
+    )
     page = "| thin (`film-thin`) | x |\n| x | `film-thin` |\n| `other` | x |\nSee `film-thin`.\n"
     assert lines(lint_prose.warnings_described_by_hand(texts(tmp_path, {"docs/a.md": page}))) == [1]
 

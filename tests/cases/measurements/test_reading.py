@@ -109,20 +109,20 @@ def test_a_table_of_pandas_is_read_by_its_heads():
         ("speed [rpm],capacitance [pF]\n1000,inf\n", "got 'inf'"),
         ("speed [rpm],capacitance [pF]\n1000,1e999\n", "expected a finite number"),
         ("speed [rpm],capacitance [pF]\n-5,100\n", "line 2, speed [rpm]: got '-5'; expected above 0 rad/s"),
-        ("speed [rpm],capacitance [pF]\n1000,1,5\n", "line 2 has 3 columns; expected 2 as in its heads"),
+        ("speed [rpm],capacitance [pF]\n1000,1,5\n", "line 2 has 3 columns; expected 2 as in its headings"),
         ("speed [rpm];capacitance [pF]\n1000;1,5\n2000;1.5\n", "mixes decimal points and decimal commas"),
         ("speed;capacitance [pF]\n1000;1,5\n", "column 'speed': has no unit; expected a unit in brackets"),
         ("speed [kg],capacitance [pF]\n1,2\n", "column 'speed [kg]': has the unit 'kg'"),
         ("speed [%],capacitance [pF]\n1,2\n", "column 'speed [%]': has the unit '%'"),
         ("speed [rpm],capacitance [%]\n1,2\n", "the value of 100 % is unknown); expected values in pF"),
         ("phase [percent],film [nm]\n1,2\n", "percent is not a unit of an angle"),
-        ("a,b\n1,2\n", "has no heads of known columns; expected heads such as 'speed [rpm]'"),
-        ("speed [rpm],capacitance [pF]\n", "has no rows below its heads"),
+        ("a,b\n1,2\n", "has no headings of known columns; expected headings such as 'speed [rpm]'"),
+        ("speed [rpm],capacitance [pF]\n", "has no rows below its headings"),
         ("speed [rpm],shaft speed [rpm]\n1,2\n", "has the columns 'speed [rpm]' and 'shaft speed [rpm]'"),
         ("speed [rpm],film uncertainty [nm]\n1,2\n", "expected a column film with it"),
         ("film [nm],uncertainty [s]\n1,2\n", "s is not a unit of this quantity"),
         ("film [nm],uncertainty [nm]\n1,0\n", "has a value of 0 or below"),
-        ("", "has no heads of known columns"),
+        ("", "has no headings of known columns"),
         ('speed [rpm],note\n1000,"open\n2000,b\n', "line 2: got '1000,\"open' (unexpected end of data)"),
         ('speed [rpm],film [nm]\n"1,500",100\n', "the number '1,500', which may be 1.5 or 1500"),
         ('speed [rpm],film [nm]\n"1,50.5",100\n', "mixes decimal points and decimal commas"),
@@ -146,8 +146,8 @@ def test_files_without_end_or_measure_are_refused_soon(tmp_path):
     began = time.thread_time()
     many = "film [nm],speed [m/s]\n" + "1,1\n" * (MOST_ROWS + 1)
     assert f"expected at most {MOST_ROWS}" in refused(tmp_path, many)
-    assert "has no heads" in refused(tmp_path, ";" * 1_000_000)
-    assert "has no heads" in refused(tmp_path, "speed [" * 100_000)
+    assert "has no headings" in refused(tmp_path, ";" * 1_000_000)
+    assert "has no headings" in refused(tmp_path, "speed [" * 100_000)
     assert "got '1" in refused(tmp_path, "film [nm]\n" + "1" * 1_000_000)
     (tmp_path / "zeros").write_bytes(bytes(1000))
     for path in (tmp_path / "zeros", tmp_path, tmp_path / "none.csv", "/dev/zero"):
@@ -183,7 +183,7 @@ def test_a_speed_is_told_by_its_unit():
 def test_quoted_fields_thousands_and_voids(tmp_path, text, speeds):
     """Fields of RFC 4180; a decimal mark that any number proves, and rows without a value are not used."""
     if speeds is None:
-        assert "has no heads of known columns" in refused(tmp_path, text)
+        assert "has no headings of known columns" in refused(tmp_path, text)
         return
     assert read(tmp_path, text).values["speed"] == pytest.approx([RPM * speed for speed in speeds])
 
