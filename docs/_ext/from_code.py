@@ -380,7 +380,7 @@ internals
 _INTERNAL = """# Internal modules
 
 A script does not need these modules: [API](index.md) has the public names. They may change between versions.
-A package imports from those below it on this page, never from those above;
+A package imports from packages below it on this page, never from packages above it;
 [Architecture](../project/architecture.md) has the map.
 """
 
