@@ -125,7 +125,7 @@ def test_dynamic_viscosities():
     [
         (keys(k40=46e-6), "either kinematic_viscosity_100 or viscosity_index.*temperature_2"),
         (keys(k40=46e-6, k2=8e-6), "temperature_2: missing"),
-        (keys(k40=46e-6, k100=7e-6, t2=353.15), "temperature_2: got it without"),
+        (keys(k40=46e-6, k100=7e-6, t2=353.15), "temperature_2: got a temperature without"),
         (keys(k40=46e-6, k100=7e-6, k2=8e-6, t2=353.15), "kinematic_viscosity_100 and kinematic_viscosity_2"),
         (keys(k1=46e-6, t1=323.15, index=100), "the index needs 40 °C"),
         (keys(k1=46e-6, t1=353.15, k2=40e-6, t2=355.15), "differs by 5 K or more"),
