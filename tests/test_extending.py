@@ -298,11 +298,11 @@ def test_the_map_names_files_and_tests_that_are_there():
 
 def test_a_warning_is_a_code_and_a_condition(monkeypatch):
     """A code and its text in the lists, and a generator that gives it: the summary carries it."""
-    texts = {**result_warnings._texts(), "fast": "the surfaces move at {speed:g} m/s"}
+    texts = {**result_warnings._texts(), "fast": {"text": "the surfaces move at {speed:g} m/s"}}
     monkeypatch.setattr(
         result_warnings,
         "CODES",
-        {**result_warnings.CODES, "fast": result_warnings.WarningCode("The contact is fast.")},
+        {**result_warnings.CODES, "fast": result_warnings.WarningCode("The contact is fast.", "Contact")},
     )
     monkeypatch.setattr(result_warnings, "_texts", lambda: texts)
     before = solver.case_warnings

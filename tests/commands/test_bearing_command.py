@@ -251,7 +251,7 @@ def test_a_designation_is_printed_and_written_as_typed(ehlectric, tmp_path):
         done = ehlectric(*command)
         assert done.returncode == 0
         assert "SKF 6208-2RS1/C3" in done.stdout
-        assert "catalogue of NSK; the bearing is from SKF" in " ".join(done.stderr.split())
+        assert "catalogue of NSK, but the bearing is from SKF" in " ".join(done.stderr.split())
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     assert summary["inputs"]["bearing"]["base"] == "6208"
     assert summary["inputs"]["bearing"]["designation"] == "SKF 6208-2RS1/C3"
