@@ -32,7 +32,7 @@ def test_documentation_has_the_stored_contacts():
     """No contact is missing, and lines of the page are those of the data, with models computed now."""
     rows = stored()
     assert [row.posed for row in rows] == list(POSED)
-    page = pages.page("asperities.md")
+    page = pages.page("mixed_lubrication.md")
     for row in (rows[4], rows[-2]):
         each = Compared(row, Surface.of(row.posed))
         assert load_line(each) in page
