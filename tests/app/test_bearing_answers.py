@@ -117,7 +117,7 @@ def test_numbers_are_shown_with_their_units_and_bounds(quick, summary):
         "bearing.margin": ("≤", f"{totals['margin']:.4g}"),
         # The films are isothermal, fully flooded and smooth.
         "bearing.lambda_ratio": ("≤", f"{totals['lambda_ratio']:.3g}"),
-        "bearing.regime": ("", totals["regime"]),
+        "bearing.electrical_behaviour": ("", totals["electrical_behaviour"]),
         "margin.critical_speed": ("", "…"),
     }
     note = quick.number("bearing.capacitance").note
@@ -141,10 +141,10 @@ def test_the_best_estimate_has_no_bounds(quick):
 
 @pytest.mark.slow
 def test_the_critical_speed_comes_with_the_whole_answer(quick, whole, summary):
-    assert "capacitive" not in quick.number("bearing.regime").note
+    assert "capacitive" not in quick.number("bearing.electrical_behaviour").note
     speed = rpm(summary["margin"]["capacitive_speed"])
     # Real films are thinner than these, and touch up to higher speeds.
-    assert whole.number("bearing.regime").note.endswith(f" ≥ {float(f'{speed:.3g}'):g} rpm")
+    assert whole.number("bearing.electrical_behaviour").note.endswith(f" ≥ {float(f'{speed:.3g}'):g} rpm")
     found = whole.number("margin.critical_speed")
     critical = rpm(summary["margin"]["critical_speed"])
     assert (found.known, found.bound) == (True, "≥")
@@ -428,7 +428,7 @@ def test_states_over_speed_are_those_of_the_scaled_lambda_ratio(summary):
     speed = summary["inputs"]["bearing"]["inner_speed"]
 
     def at(factor, ratio, contacts):
-        state = "partial film" if ratio < 3.0 else "full film"
+        state = "mixed lubrication" if ratio < 3.0 else "full film"
         changed = {"lambda_ratio": ratio, "lubrication": state, "contacts": contacts}
         return factor * speed, summary | {"bearing": summary["bearing"] | changed}
 

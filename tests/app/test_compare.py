@@ -102,7 +102,7 @@ def test_effects_of_results_that_are_texts_or_missing():
     assert effect("12 nJ", "6 µJ") == "▲ +49900\N{NO-BREAK SPACE}%"
     assert effect("20 s", "20 µs") == "▼ −100\N{NO-BREAK SPACE}%"
     assert effect("20 s", "20 V") == "differs"
-    assert effect("full film", "partial film") == "differs"
+    assert effect("full film", "mixed lubrication") == "differs"
     assert effect("none", None) == "only A"
     assert effect(None, "none") == "only B"
     assert Effect(Result("g", "n", 0.0, "0"), Result("g", "n", 1.0, "1"), None).words == "differs"

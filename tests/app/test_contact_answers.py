@@ -253,7 +253,7 @@ def test_numbers_of_surfaces_that_touch_are_those_of_the_summary(geometry):
     view, summary = answer_of(result), result.summary()["asperities"]
     size, per = ("µm", 1e6) if geometry == "line" else ("µm²", 1e12)
     capacitance = ("nF/m", 1e9) if geometry == "line" else ("pF", 1e12)
-    assert number(view, "asperities.behaviour").text == summary["behaviour"]
+    assert number(view, "asperities.electrical_behaviour").text == summary["electrical_behaviour"]
     assert number(view, "asperities.spots").text == str(summary["spots"])
     for key, name, unit, factor in (
         ("asperities.contact_area", "contact_area", size, per),

@@ -160,7 +160,10 @@ def test_surfaces_that_touch_are_marked_and_have_the_boundary_film_that_is_typed
         type_into(page, key, typed)
     page.get_by_test_id("how").filter(has_text="earlier inputs").wait_for()
     found = assert_touching(page, tmp_path, micrometres=0.002)["asperities"]
-    assert found["behaviour"] in page.get_by_test_id("number-asperities.behaviour").inner_text()
+    assert (
+        found["electrical_behaviour"]
+        in page.get_by_test_id("number-asperities.electrical_behaviour").inner_text()
+    )
     assert shown(page, "asperities.spots") == found["spots"]
     assert shown(page, "asperities.contact_area") == pytest.approx(1e6 * found["contact_area"], rel=0.05)
     assert shown(page, "asperities.boundary_friction") == pytest.approx(found["boundary_friction"], rel=0.05)

@@ -139,7 +139,7 @@ def test_the_figure_has_the_rows_of_the_cycle(answer, duty):
     assert (min(standstill["x"]), max(standstill["x"])) == (0.0, 5.0)
     assert plot["layout"]["yaxis2"]["title"]["text"] == "lambda ratio", "no brackets without a unit"
     states = [row[-1] for row in answer.figure.table.rows]
-    assert states[:3] == ["standstill", "touching", "partial film"]
+    assert states[:3] == ["standstill", "boundary lubrication", "mixed lubrication"]
     assert len(states) == duty.rows.time.size
 
 

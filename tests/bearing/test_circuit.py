@@ -57,8 +57,8 @@ def test_breakdown_of_an_element_as_its_voltage_is_raised(element):
     # The ramp finds both within its step, from above.
     assert found.first_break <= first * (1.0 + 1e-9)
     assert found.first_break == pytest.approx(first, rel=1.1e-3, abs=0.0)
-    assert found.through_breakdown <= through * (1.0 + 1e-9)
-    assert found.through_breakdown == pytest.approx(through, rel=1.1e-3, abs=0.0)
+    assert found.ring_to_ring_breakdown <= through * (1.0 + 1e-9)
+    assert found.ring_to_ring_breakdown == pytest.approx(through, rel=1.1e-3, abs=0.0)
 
 
 @given(rows=st.lists(elements, min_size=1, max_size=12))
@@ -68,8 +68,8 @@ def test_a_bearing_is_its_elements(rows):
     alone = [circuit_of(row) for row in rows]
     assert found.capacitance == pytest.approx(sum(one.capacitance for one in alone), rel=1e-12, abs=0.0)
     assert found.first_break == min(one.first_break for one in alone)
-    assert found.through_breakdown == min(one.through_breakdown for one in alone)
-    assert found.through_breakdown >= found.first_break
+    assert found.ring_to_ring_breakdown == min(one.ring_to_ring_breakdown for one in alone)
+    assert found.ring_to_ring_breakdown >= found.first_break
     # 1/C = 1/C_i + 1/C_o, and both shares of a voltage are all of it.
     series = [1.0 / (1.0 / row[0] + 1.0 / row[1]) for row in rows]
     np.testing.assert_allclose(found.elements, series, rtol=1e-12)
@@ -86,7 +86,9 @@ def test_scales(rows, scale):
     assert larger.first_break == pytest.approx(one.first_break, rel=1e-9, abs=0.0)
     stronger = Circuit(one.inner, one.outer, scale * one.inner_breakdown, scale * one.outer_breakdown)
     assert stronger.first_break == pytest.approx(scale * one.first_break, rel=1e-9, abs=0.0)
-    assert stronger.through_breakdown == pytest.approx(scale * one.through_breakdown, rel=1e-9, abs=0.0)
+    assert stronger.ring_to_ring_breakdown == pytest.approx(
+        scale * one.ring_to_ring_breakdown, rel=1e-9, abs=0.0
+    )
 
 
 def test_one_element_by_hand():
@@ -98,17 +100,17 @@ def test_one_element_by_hand():
     assert found.capacitance == pytest.approx(75e-12, rel=1e-12, abs=0.0)
     assert found.inner_share[0] == pytest.approx(0.75, rel=1e-12, abs=0.0)
     assert found.first_break == pytest.approx(12.0, rel=1e-12, abs=0.0)
-    assert found.through_breakdown == pytest.approx(12.0, rel=1e-12, abs=0.0)
+    assert found.ring_to_ring_breakdown == pytest.approx(12.0, rel=1e-12, abs=0.0)
     # The stronger one is the first, for what it has to carry.
     assert found.inner_first[0]
     # With 20 V the other one holds on until the bearing has 20 V.
-    assert circuit_of((100e-12, 300e-12, 9.0, 20.0)).through_breakdown == pytest.approx(20.0, rel=1e-12)
+    assert circuit_of((100e-12, 300e-12, 9.0, 20.0)).ring_to_ring_breakdown == pytest.approx(20.0, rel=1e-12)
     # Rings exchanged.
     turned = circuit_of((300e-12, 100e-12, 20.0, 9.0))
     assert not turned.inner_first[0]
     assert not circuit_of((300e-12, 100e-12, 8.0, 9.0)).inner_first[0]
     assert turned.first_break == pytest.approx(12.0, rel=1e-12, abs=0.0)
-    assert turned.through_breakdown == pytest.approx(20.0, rel=1e-12, abs=0.0)
+    assert turned.ring_to_ring_breakdown == pytest.approx(20.0, rel=1e-12, abs=0.0)
 
 
 @each("number", [1, 3, 9, 100])
@@ -117,16 +119,16 @@ def test_all_equal(number):
     found = circuit_of(*[(50e-12, 50e-12, 4.0, 4.0)] * number)
     assert found.capacitance == pytest.approx(number * 25e-12, rel=1e-12, abs=0.0)
     np.testing.assert_allclose(found.inner_share, 0.5)
-    assert found.first_break == found.through_breakdown == pytest.approx(8.0, rel=1e-12, abs=0.0)
+    assert found.first_break == found.ring_to_ring_breakdown == pytest.approx(8.0, rel=1e-12, abs=0.0)
 
 
 def test_contacts_without_a_strength_never_break():
     nothing = circuit_of((1e-10, 2e-10, np.inf, np.inf))
-    assert nothing.first_break == nothing.through_breakdown == np.inf
+    assert nothing.first_break == nothing.ring_to_ring_breakdown == np.inf
     # One that breaks, beside one that does not: 3/(2/3) = 4.5 V, and never through.
     one = circuit_of((1e-10, 2e-10, 3.0, np.inf))
     assert one.first_break == pytest.approx(4.5, rel=1e-12, abs=0.0)
-    assert one.through_breakdown == np.inf
+    assert one.ring_to_ring_breakdown == np.inf
 
 
 @given(
@@ -163,7 +165,7 @@ def test_the_first_break_of_a_weibull_strength_is_at_63_2_per_cent(rows, shape):
     # Each of 2 n contacts alone breaks at no less than the first of a certain strength.
     assert found.first_break <= whole.first_break * (1.0 + 1e-12)
     assert found.first_break >= whole.first_break * (2 * len(rows)) ** (-1.0 / shape) * (1.0 - 1e-12)
-    assert found.through_breakdown == whole.through_breakdown
+    assert found.ring_to_ring_breakdown == whole.ring_to_ring_breakdown
 
 
 @pytest.mark.parametrize("shape", [1.0, 3.0, 10.0])

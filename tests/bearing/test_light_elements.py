@@ -98,7 +98,7 @@ def test_rollers_that_carry_their_centrifugal_force():
 def test_a_thousandth_of_a_newton_changes_nothing(bearing, key, values):
     """These inputs, which differ by up to 4e-5, had capacitances that differed by 3 to 11 %."""
     found = evaluate(case_of(**bearing), {f"bearing.{key}": np.array(values)})
-    for name in ("capacitance", "margin", "lambda_ratio", "first_break", "through_breakdown"):
+    for name in ("capacitance", "margin", "lambda_ratio", "first_break", "ring_to_ring_breakdown"):
         numbers = found[f"bearing.{name}"].values.reshape(-1, 2)
         assert np.all(np.abs(numbers[:, 1] / numbers[:, 0] - 1.0) < 1e-4), name
 

@@ -8,7 +8,7 @@ import pytest
 
 from ehlectric.bearing.result import BearingResult, solve_bearing
 from ehlectric.bearing.ring_contacts import ContactCurve, RingContacts
-from ehlectric.bearing.solution import lambda_ratio, lubrication
+from ehlectric.bearing.solution import conducts, lambda_ratio
 from tests.helpers.bearings import (
     BALLS,
     bearing_case,
@@ -89,8 +89,8 @@ def test_a_bearing_from_its_elements(result):
     assert found["capacitance"] == pytest.approx(np.mean(totals), rel=5e-3)
     assert found["first_break"] == pytest.approx(min(firsts), rel=5e-3)
     assert found["first_break_mean"] == pytest.approx(np.mean(firsts), rel=5e-3)
-    assert found["through_breakdown"] == pytest.approx(min(throughs), rel=5e-3)
-    assert found["through_breakdown_mean"] == pytest.approx(np.mean(throughs), rel=5e-3)
+    assert found["ring_to_ring_breakdown"] == pytest.approx(min(throughs), rel=5e-3)
+    assert found["ring_to_ring_breakdown_mean"] == pytest.approx(np.mean(throughs), rel=5e-3)
     # At the first break the largest field of all is the strength of the oil, 15 V/um.
     at_break = found["first_break"] * found["strength_per_volt"]
     assert at_break == pytest.approx(15e6, rel=1e-3, abs=0.0)
@@ -101,7 +101,7 @@ def test_a_bearing_from_its_elements(result):
     assert found["bearing_voltage_ratio"] == pytest.approx(ratio, rel=1e-3)
     assert found["shaft_voltage"] == pytest.approx(300.0 * ratio, rel=1e-3)
     assert found["margin"] == pytest.approx(min(firsts) / (300.0 * ratio), rel=5e-3)
-    assert found["through_margin"] == pytest.approx(min(throughs) / (300.0 * ratio), rel=5e-3)
+    assert found["ring_to_ring_margin"] == pytest.approx(min(throughs) / (300.0 * ratio), rel=5e-3)
 
 
 def test_breaks_of_strengths_that_are_anything(result):
@@ -136,12 +136,12 @@ def test_breaks_of_strengths_that_are_anything(result):
     expected = {
         "first_break": min(firsts),
         "first_break_mean": np.mean(firsts),
-        "through_breakdown": min(throughs),
-        "through_breakdown_mean": np.mean(throughs),
+        "ring_to_ring_breakdown": min(throughs),
+        "ring_to_ring_breakdown_mean": np.mean(throughs),
         "shaft_first_break": min(firsts),
-        "shaft_through_breakdown": min(throughs),
+        "shaft_ring_to_ring_breakdown": min(throughs),
         "margin": min(firsts) / shaft,
-        "through_margin": min(throughs) / shaft,
+        "ring_to_ring_margin": min(throughs) / shaft,
     }
     assert found.pop("first_break_at") == names[int(np.argmin(firsts))]
     assert found == pytest.approx(expected, rel=1e-9, abs=0.0)
@@ -160,7 +160,7 @@ def test_lambda_is_that_of_the_thinnest_loaded_film(result, ring):
     thin = dataclasses.replace(last, **{ring: with_values(race, minimum_thickness=films)})
     found = dataclasses.replace(solution, positions=(*others, thin))
     assert lambda_ratio(found) == pytest.approx(2e-9 / 0.03e-6, rel=1e-12, abs=0.0)
-    assert lubrication(found) == "conducting"
+    assert conducts(found)
 
 
 def test_errors_are_the_larger_of_both_rings(result):

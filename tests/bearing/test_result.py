@@ -118,7 +118,7 @@ def test_totals_are_means_and_least_over_a_pitch(rollers):
     firsts = [c.first_break for c in circuits]
     assert found["first_break"] == pytest.approx(min(firsts), rel=1e-12, abs=0.0)
     assert found["first_break_mean"] == pytest.approx(np.mean(firsts), rel=1e-12, abs=0.0)
-    assert found["through_breakdown"] >= found["first_break"]
+    assert found["ring_to_ring_breakdown"] >= found["first_break"]
     # The heaviest contact with the smaller radius, on the load line.
     assert found["first_break_at"] == "inner contact of element 0"
 
@@ -172,15 +172,15 @@ def test_motor_by_hand(rollers):
     assert found["bearing_voltage_ratio"] == pytest.approx(ratio, rel=1e-12, abs=0.0)
     assert found["shaft_voltage"] == pytest.approx(300.0 * ratio, rel=1e-12, abs=0.0)
     assert found["margin"] == pytest.approx(found["first_break"] / (300.0 * ratio), rel=1e-12, abs=0.0)
-    through = found["through_breakdown"] / (300.0 * ratio)
-    assert found["through_margin"] == pytest.approx(through, rel=1e-12, abs=0.0)
+    through = found["ring_to_ring_breakdown"] / (300.0 * ratio)
+    assert found["ring_to_ring_margin"] == pytest.approx(through, rel=1e-12, abs=0.0)
     solution = rollers.solution
     other = solution.case.motor.model_copy(update={"second_bearing_capacitance": 0.5e-9})
     unlike = numbers_of(with_motor(rollers, other))["bearing"]
     ratio = 20e-12 / (20e-12 + 1e-9 + 0.5e-9 + found["capacitance"])
     assert unlike["bearing_voltage_ratio"] == pytest.approx(ratio, rel=1e-12, abs=0.0)
     alone = numbers_of(with_motor(rollers, None))["bearing"]
-    keys = ("bearing_voltage_ratio", "shaft_voltage", "margin", "through_margin")
+    keys = ("bearing_voltage_ratio", "shaft_voltage", "margin", "ring_to_ring_margin")
     assert {alone[key] for key in keys} == {None}
     assert alone["first_break"] == found["first_break"]
 
@@ -194,8 +194,8 @@ def test_relaxation_time_is_permittivity_over_conductivity(rollers):
 
 
 BREAKS = (
-    "first_break", "first_break_mean", "first_break_at", "through_breakdown", "through_breakdown_mean",
-    "margin", "through_margin",
+    "first_break", "first_break_mean", "first_break_at", "ring_to_ring_breakdown",
+    "ring_to_ring_breakdown_mean", "margin", "ring_to_ring_margin",
 )  # fmt: skip
 
 
@@ -203,10 +203,10 @@ BREAKS = (
 @pytest.mark.parametrize(
     ("ratio", "lubrication", "code"),
     [
-        (0.5, "conducting", "touching"),
-        (0.99, "conducting", "touching"),
-        (1.01, "partial film", "partial-film"),
-        (2.99, "partial film", "partial-film"),
+        (0.5, "boundary lubrication", "touching"),
+        (0.99, "boundary lubrication", "touching"),
+        (1.01, "mixed lubrication", "partial-film"),
+        (2.99, "mixed lubrication", "partial-film"),
         (3.01, "full film", None),
     ],
 )
@@ -217,13 +217,16 @@ def test_lambda(rollers, ratio, lubrication, code):
     rough = with_bearing(rollers, composite_rq=least / ratio)
     found = strict(rough.summary())
     assert found["bearing"]["lambda_ratio"] == pytest.approx(ratio, rel=1e-9, abs=0.0)
-    assert found["bearing"]["lubrication"] == lubrication
+    assert found["bearing"]["lubrication_state"] == lubrication
+    shorted = ratio < 1.0
+    with pytest.warns(DeprecationWarning, match="use bearing.lubrication_state"):
+        assert (found["bearing"]["lubrication"] == "conducting") == shorted
     said = [one for one in found["warning_codes"] if one in ("touching", "partial-film")]
     assert said == ([] if code is None else [code])
     for key in (*BREAKS, "bearing_voltage_ratio", "shaft_voltage"):
-        assert (found["bearing"][key] is None) == (lubrication == "conducting")
+        assert (found["bearing"][key] is None) == shorted
     for key in ("voltage_share", "strength_per_volt", "max_strength", "breakdown_voltage"):
-        assert {row[key] is None for row in found["contacts"]} == {lubrication == "conducting"}
+        assert {row[key] is None for row in found["contacts"]} == {shorted}
     assert found["bearing"]["capacitance"] > 0.0
 
 
@@ -282,7 +285,7 @@ def test_ceramic_elements_insulate_where_they_touch(rollers):
     rough = {"composite_rq": 2.0 * lambda_ratio(ceramic.solution) * 0.03e-6, "element_capacitance": 3e-12}
     touching = with_bearing(ceramic, **rough)
     found = strict(touching.summary())
-    assert found["bearing"]["lubrication"] == "touching"
+    assert found["bearing"]["lubrication_state"] == "boundary lubrication"
     assert found["bearing"]["shaft_voltage"] > 0.0
 
 
@@ -299,7 +302,7 @@ def test_a_weibull_strength_is_that_of_all_contacts(rollers):
     assert np.argmax(used) == 0
     certain = BearingResult(dataclasses.replace(rollers.solution, positions=(position,))).breaks()
     assert first < certain["first_break"]
-    assert weibull.breaks()["through_breakdown"] == certain["through_breakdown"]
+    assert weibull.breaks()["ring_to_ring_breakdown"] == certain["ring_to_ring_breakdown"]
 
 
 @pytest.mark.slow
@@ -447,7 +450,7 @@ def test_a_weibull_strength_from_the_file():
     found = result.breaks()
     least = min(float(np.min(circuit.first_breaks)) for circuit in result.solution.circuits("oil"))
     assert 28.0 ** (-1.0 / 10.0) * least < found["first_break"] < least
-    assert found["through_breakdown"] > found["first_break"]
+    assert found["ring_to_ring_breakdown"] > found["first_break"]
 
 
 def test_a_contact_breaks_down_at_its_voltage_over_its_share():

@@ -211,7 +211,7 @@ def test_a_6208_as_a_whole_and_between_the_loads_that_were_solved():
         text for text in map(str, result.warnings) if "too short" in text or "does not cavitate" in text
     ]
     formula = numbers_of(solve_bearing(case.replace({"contacts": "formula"})))["bearing"]
-    for key in ("capacitance", "capacitance_plate", "first_break", "through_breakdown", "lambda_ratio"):
+    for key in ("capacitance", "capacitance_plate", "first_break", "ring_to_ring_breakdown", "lambda_ratio"):
         assert formula[key] == pytest.approx(found[key], rel=0.3), key
     oil = solution.conditions.oil
     for race, curve in ((solution.inner, solution.inner_curve), (solution.outer, solution.outer_curve)):

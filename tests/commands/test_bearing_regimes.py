@@ -23,12 +23,12 @@ def test_the_example_conducts_at_times(ehlectric, tmp_path):
     assert done.returncode == 0, done.stderr
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     totals, speed = summary["bearing"], summary["margin"]["capacitive_speed"]
-    assert totals["regime"] == "intermittent"
+    assert totals["electrical_behaviour"] == "intermittent"
     assert 0.01 < totals["contact_time_share"] < 0.03
     assert summary["inputs"]["bearing"]["inner_speed"] < speed
     printed = " ".join(done.stdout.split())
     assert (
-        f"electrical regime intermittent, contacts short it {100 * totals['contact_time_share']:.3g} %"
+        f"electrical behaviour intermittent, contacts short it {100 * totals['contact_time_share']:.3g} %"
         in printed
     )
     assert "by Clarke's fit over lambda" in printed
@@ -44,5 +44,5 @@ def test_map_of_the_regimes(ehlectric, tmp_path):
     assert (tmp_path / "out" / "map_bearing.contact_time_share.png").is_file()
     with (tmp_path / "out" / "sweep.csv").open() as file:
         rows = list(csv.DictReader(file))
-    regimes = {row["bearing.regime"] for row in rows}
+    regimes = {row["bearing.electrical_behaviour"] for row in rows}
     assert regimes == {"capacitive", "intermittent"}

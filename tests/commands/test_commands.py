@@ -119,7 +119,7 @@ def test_films_thinner_than_the_boundary_film_are_contact(ehlectric, case_file, 
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     assert summary["film"]["minimum_thickness"] == pytest.approx(1e-9, rel=1e-6)
     assert summary["asperities"]["load_share"] == pytest.approx(1.0, abs=0.01)
-    assert summary["asperities"]["behaviour"] == "resistive"
+    assert summary["asperities"]["electrical_behaviour"] == "resistive"
 
 
 @pytest.mark.slow

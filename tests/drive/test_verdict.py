@@ -78,7 +78,7 @@ def test_law_at_the_largest_voltage_is_the_rate_of_films_drawn_at_random():
         ({"peak_voltage": 0.5}, "yellow", "Weibull"),
         ({"peak_voltage": 4.5, "weibull_shape": None}, "yellow", "Discharges possible"),
         ({"peak_voltage": 3.9, "weibull_shape": None}, "green", "No discharge expected"),
-        ({"touching_time_share": 0.01}, "yellow", " 1 % of the time"),
+        ({"contact_time_share": 0.01}, "yellow", " 1 % of the time"),
         ({"breakdown_voltage": None, "weibull_shape": None, "renewal_time": None}, "green", "ceramic"),
     ],
 )

@@ -27,7 +27,7 @@ NUMBERS = (
     "bearing.film_factor",
     "bearing.first_break",
     "bearing.first_break_mean",
-    "bearing.through_breakdown",
+    "bearing.ring_to_ring_breakdown",
     "bearing.shaft_first_break",
     "bearing.margin",
     "bearing.max_strength",

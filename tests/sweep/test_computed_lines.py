@@ -17,7 +17,12 @@ from tests.bearing.curves.test_computed_curves import SPEED, random_between, rol
 mpl.use("Agg")
 
 TEMPERATURE = "bearing.temperature"
-VALUES = ("bearing.capacitance", "bearing.first_break", "bearing.through_breakdown", "bearing.lambda_ratio")
+VALUES = (
+    "bearing.capacitance",
+    "bearing.first_break",
+    "bearing.ring_to_ring_breakdown",
+    "bearing.lambda_ratio",
+)
 
 
 @pytest.fixture(scope="module")

@@ -47,8 +47,8 @@ def model(inputs, motor=True):
         "lubrication": "full film",
         "first_break": first,
         "margin": first / 3.0 if motor else None,
-        "through_breakdown": 2.0 * first,
-        "through_margin": 2.0 * first / 3.0 if motor else None,
+        "ring_to_ring_breakdown": 2.0 * first,
+        "ring_to_ring_margin": 2.0 * first / 3.0 if motor else None,
         "shaft_voltage": shaft,
     }
     return {"bearing": bearing, "converged": True, "inputs": {"bearing": {"fill": "oil"}}}
@@ -71,14 +71,17 @@ def test_what_a_value_is_set_beside():
     own = bearing_case(BALLS)
     assert breakdown_of(own) == breakdown_of(own, "bearing.margin") == FIRST_BREAK
     assert breakdown_of(own, "bearing.capacitance") == FIRST_BREAK
-    assert breakdown_of(own, "bearing.through_breakdown") == THROUGH
-    assert breakdown_of(own, "bearing.through_margin") == THROUGH
+    assert breakdown_of(own, "bearing.ring_to_ring_breakdown") == THROUGH
+    assert breakdown_of(own, "bearing.ring_to_ring_margin") == THROUGH
     assert breakdown_of(case()) == breakdown_of(case(), "film.minimum_thickness") == CONTACT
 
 
 @each(
     ("value", "part", "text"),
-    [("bearing.first_break", 1.0, "first breakdown"), ("bearing.through_breakdown", 2.0, "ring-to-ring")],
+    [
+        ("bearing.first_break", 1.0, "first breakdown"),
+        ("bearing.ring_to_ring_breakdown", 2.0, "ring-to-ring"),
+    ],
 )
 def test_a_line_of_breakdown_voltages_has_that_of_the_shaft(value, part, text):
     ax = value_lines(over(), SPEED, None, value)
@@ -213,7 +216,7 @@ def test_units_of_a_bearing():
     own = bearing_case(BALLS)
     for key, unit in {
         "bearing.first_break": "V",
-        "bearing.through_breakdown_mean": "V",
+        "bearing.ring_to_ring_breakdown_mean": "V",
         "bearing.shaft_voltage": "V",
         "bearing.bearing_voltage_ratio": "",
         "bearing.strength_per_volt": "1/m",

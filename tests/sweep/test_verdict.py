@@ -127,7 +127,7 @@ def test_points_without_a_margin_leave_no_green_verdict():
         "none of 2 points",
         "1.50 to 2.00",
         "3 more points",
-        "1 surfaces touch",
+        "1 with frequent asperity contact",
         "1 not solved",
         "1 solved",
         "15 V/µm",
@@ -144,7 +144,7 @@ def test_sweeps_without_margins_have_no_verdict():
 def test_points_of_which_all_touch_do_not_read_as_safe():
     verdict = sweep_verdict(sweep({SPEED: (1.0, 2.0)}, [None, None], at_1={"lubrication": "conducting"}))
     assert (verdict.level, verdict.margin) == ("yellow", None)
-    assert verdict.text.startswith("Discharges likely: at 1 of 2 points surfaces touch")
+    assert verdict.text.startswith("Discharges likely: at 1 of 2 points asperity contact is frequent")
 
 
 def test_a_sweep_of_which_all_points_touch_is_as_red_as_its_points():
@@ -152,7 +152,7 @@ def test_a_sweep_of_which_all_points_touch_is_as_red_as_its_points():
     axes, touch = {SPEED: (1.0, 2.0)}, {"lubrication": "conducting"}
     verdict = sweep_verdict(sweep(axes, [None, None], at_0=touch, at_1=touch))
     assert (verdict.level, verdict.margin) == ("red", None)
-    assert verdict.text.startswith("Discharges likely: at 2 of 2 points surfaces touch")
+    assert verdict.text.startswith("Discharges likely: at 2 of 2 points asperity contact is frequent")
     alone = bearing_case(BALLS, motor=None)
     assert sweep_verdict(sweep(axes, [None, None], case=alone, at_0=touch, at_1=touch)).level == "yellow"
     failed = touch | {"status": "not converged"}

@@ -34,7 +34,7 @@ def test_values_and_notes_have_no_units(steel):
         assert not NOTE.search(row.note), row
     assert rows(steel)["bearing.relaxation_time"].unit == "s"
     assert rows(steel)["bearing.current_density"].unit == "A/mm²"
-    assert rows(steel)["margin.touching_speed"].unit == "rpm"
+    assert rows(steel)["margin.asperity_contact_speed"].unit == "rpm"
 
 
 @pytest.mark.slow
@@ -42,7 +42,7 @@ def test_voltages_are_upper_and_fields_lower_bounds(steel):
     found = rows(steel)
     at_most = {key for key, row in found.items() if row.bound == "≤"}
     assert {
-        "bearing.first_break", "bearing.through_breakdown", "bearing.breakdown_energy", "bearing.margin",
+        "bearing.first_break", "bearing.ring_to_ring_breakdown", "bearing.breakdown_energy", "bearing.margin",
         "margin.effects.bearing.temperature", "bearing.lambda_ratio", "bearing.minimum_thickness",
     } <= at_most  # fmt: skip
     assert not {"bearing.capacitance", "bearing.shaft_voltage", "bearing.discharge_energy"} & at_most
@@ -50,7 +50,7 @@ def test_voltages_are_upper_and_fields_lower_bounds(steel):
     # A thinner film has a higher field, and it breaks down and touches at higher speeds.
     assert at_least == {
         *("bearing.strength_per_volt", "bearing.max_strength"),
-        *("margin.critical_speed", "margin.touching_speed", "margin.capacitive_speed"),
+        *("margin.critical_speed", "margin.asperity_contact_speed", "margin.capacitive_speed"),
     }
     value = f"{steel['bearing']['first_break']:.4g} V"
     assert found["bearing.first_break"].text.startswith(f"≤ {value}")

@@ -12,15 +12,20 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array, IntArray, Numbers, labels, where
-from ehlectric.bearing.circuit import Circuit, leakage_conductance, shaft_first_break, shaft_through_breakdown
+from ehlectric.bearing.circuit import (
+    Circuit,
+    leakage_conductance,
+    shaft_first_break,
+    shaft_ring_to_ring_breakdown,
+)
 from ehlectric.bearing.impedance import film_share, oil_relaxation_time, shaft_capacitance, shaft_path
 from ehlectric.bearing.solution import (
     BearingSolution,
     capacitance,
     capacitance_is_bound,
+    conducts,
     dry_areas,
     insulating,
-    lubrication,
 )
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.bearing_inputs import Motor
@@ -71,7 +76,7 @@ def bearing_voltage_ratio(solution: BearingSolution) -> Numbers | None:
         first,
         first if second is None else second,
     )
-    return where(lubrication(solution) != "conducting", ratio)
+    return where(~np.asarray(conducts(solution)), ratio)
 
 
 def shaft_voltage(solution: BearingSolution) -> Numbers | None:
@@ -109,14 +114,14 @@ class Breakdown:
     first_break: Numbers
     first_break_mean: Numbers
     first_break_at: Any  # name of the contact that breaks down first
-    # through_breakdown and through_breakdown_mean: bearing voltage at which the first element breaks down
-    # from ring to ring, minimum and mean over the positions [V].
-    through_breakdown: Numbers
-    through_breakdown_mean: Numbers
-    # shaft_first_break and shaft_through_breakdown: shaft voltages of both breakdowns, minimum over the
+    # ring_to_ring_breakdown and ring_to_ring_breakdown_mean: bearing voltage at which the first element
+    # breaks down from ring to ring, minimum and mean over the positions [V].
+    ring_to_ring_breakdown: Numbers
+    ring_to_ring_breakdown_mean: Numbers
+    # shaft_first_break and shaft_ring_to_ring_breakdown: shaft voltages of both breakdowns, minimum over the
     # positions [V].
     shaft_first_break: Numbers
-    shaft_through_breakdown: Numbers
+    shaft_ring_to_ring_breakdown: Numbers
 
 
 def breakdown_of(solution: BearingSolution) -> Breakdown | None:
@@ -127,20 +132,20 @@ def breakdown_of(solution: BearingSolution) -> Breakdown | None:
     """
     circuits, path = solution.circuits(), shaft_path(solution)
     first = np.array([circuit.first_break for circuit in circuits])
-    through = np.array([circuit.through_breakdown for circuit in circuits])
+    through = np.array([circuit.ring_to_ring_breakdown for circuit in circuits])
     known = insulating(solution) & np.all(np.isfinite(through), axis=0)
     if not np.any(known):
         return None
     voltages = {
         "first_break": np.min(first, axis=0),
         "first_break_mean": np.mean(first, axis=0),
-        "through_breakdown": np.min(through, axis=0),
-        "through_breakdown_mean": np.mean(through, axis=0),
+        "ring_to_ring_breakdown": np.min(through, axis=0),
+        "ring_to_ring_breakdown_mean": np.mean(through, axis=0),
         "shaft_first_break": np.min(
             np.array([shaft_first_break(circuit, path) for circuit in circuits]), axis=0
         ),
-        "shaft_through_breakdown": np.min(
-            np.array([shaft_through_breakdown(circuit, path) for circuit in circuits]), axis=0
+        "shaft_ring_to_ring_breakdown": np.min(
+            np.array([shaft_ring_to_ring_breakdown(circuit, path) for circuit in circuits]), axis=0
         ),
     }
     at: dict[str, Any] = {name: where(known, values) for name, values in voltages.items()}

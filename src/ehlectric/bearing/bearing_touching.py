@@ -1,4 +1,4 @@
-"""Asperities that touch in a bearing: load shares, share of time in which it conducts, and its regime."""
+"""Asperity contact in a bearing: load shares, share of time with conduction, and electrical behaviour."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from ehlectric.bearing.film_factor import solved_scales
 from ehlectric.bearing.solution import (
     BearingSolution,
     RingState,
+    conducts,
     dry_areas,
-    lubrication,
 )
 from ehlectric.formulas.asperities import (
     LOWEST_SEPARATION,
@@ -43,14 +43,14 @@ DEFAULT_SHARE = "patir_cheng"
 CAPACITIVE, RESISTIVE = 0.01, 0.99
 
 
-def regime_clause(duty: BearingDuty) -> Statement:
-    """Clause about a bearing: its regime, and how long contacts short it."""
+def behaviour_clause(duty: BearingDuty) -> Statement:
+    """Clause about a bearing: its electrical behaviour, and how long contacts short it."""
     if duty.insulated:
         return Statement.of("regime-insulated", share=duty.touching_time_share)
-    if duty.regime == "intermittent" and duty.contact_time_share <= CAPACITIVE:
+    if duty.behaviour == "intermittent" and duty.contact_time_share <= CAPACITIVE:
         # No voltage is computed, so that the bearing is not called capacitive.
         return Statement.of("regime-opening", share=duty.contact_time_share)
-    return Statement.of("regime", regime=duty.regime, share=duty.contact_time_share)
+    return Statement.of("regime", regime=duty.behaviour, share=duty.contact_time_share)
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,7 +86,7 @@ class BearingDuty:
     clarke_time_share: Numbers  # contact time share with Clarke's fit for each contact
     insulated: bool  # whether ceramic elements or a coating insulate, so that the bearing never conducts
     model: str  # what the share of time of a contact is from: "clarke" or "greenwood_williamson"
-    regime: Any  # regime of each point in one word, shape (...)
+    behaviour: Any  # electrical behaviour of each point in one word, shape (...)
 
     @property
     def contact_time_share(self) -> Numbers:
@@ -143,7 +143,6 @@ def duty_of(
     coated = solution.case.bearing.coating is not None
     insulated = solution.conditions.ceramic or coated
     touching = _mean_share([(a.contact_time_share, b.contact_time_share) for a, b in rings])
-    state = lubrication(solution, film_scale=film_scale)
     share = 0.0 * touching if insulated else touching
     return BearingDuty(
         rings=rings,
@@ -151,18 +150,19 @@ def duty_of(
         clarke_time_share=_mean_share([(a.contact_probability, b.contact_probability) for a, b in rings]),
         insulated=insulated,
         model="clarke" if solution.case.bearing.summits is None else "greenwood_williamson",
-        regime=regime_of(share, touching=(state == "conducting") & (not coated)),
+        behaviour=behaviour_of(share, touching=conducts(solution, film_scale=film_scale) & (not coated)),
     )
 
 
-def regime_of(share: Numbers, *, touching: Any = False) -> Any:
-    """Regime of a bearing in one word: "capacitive", "intermittent" or "resistive". ``share``, share of time
-    in which the bearing conducts, dimensionless, shape (...); ``touching``, whether its surfaces touch and no
-    voltage is computed, shape (...).
+def behaviour_of(share: Numbers, *, touching: Any = False) -> Any:
+    """Return the electrical behaviour of a bearing: "capacitive", "intermittent" or "resistive".
+
+    ``share``, share of time in which the bearing conducts, dimensionless, shape (...); ``touching``, whether
+    asperity contact is frequent and no voltage is computed, shape (...).
 
     Examples
     --------
-    >>> regime_of(1e-4), regime_of(0.3), regime_of(0.995), regime_of(1e-4, touching=True)
+    >>> behaviour_of(1e-4), behaviour_of(0.3), behaviour_of(0.995), behaviour_of(1e-4, touching=True)
     ('capacitive', 'intermittent', 'resistive', 'intermittent')
     """
     return labels(
@@ -255,10 +255,10 @@ def _touching(solution: BearingSolution, film: Array, loaded: Mask) -> AsperityC
 
 
 def duty_summary(solution: BearingSolution, duty: BearingDuty) -> dict[str, Any]:
-    """Regime, shares of time and load shares of a bearing, as in the table ``bearing`` of summary.json."""
+    """Return electrical behaviour, shares of time and load shares, as in ``bearing`` of summary.json."""
     rq = solution.case.bearing.composite_rq
     values: dict[str, Any] = {
-        "regime": duty.regime,
+        "electrical_behaviour": duty.behaviour,
         "contact_time_share": duty.contact_time_share,
         "insulating_time_share": 1.0 - duty.touching_time_share,
         "touching_time_share": duty.touching_time_share,

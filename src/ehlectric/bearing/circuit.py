@@ -36,7 +36,7 @@ class Circuit:
     at a bearing voltage of 10 V. The outer one then carries the whole voltage, up to 20 V:
 
     >>> circuit = Circuit(np.array([1e-10]), np.array([1e-10]), np.array([5.0]), np.array([20.0]))
-    >>> [float(value) for value in (circuit.capacitance, circuit.first_break, circuit.through_breakdown)]
+    >>> [float(value) for value in (circuit.capacitance, circuit.first_break, circuit.ring_to_ring_breakdown)]
     [5e-11, 10.0, 20.0]
 
     By Weibull's law the voltage of the first break falls with the number of equal contacts to the power -1/m,
@@ -118,13 +118,13 @@ class Circuit:
         return together
 
     @property
-    def through_breakdown(self) -> Numbers:
+    def ring_to_ring_breakdown(self) -> Numbers:
         """Smallest bearing voltage at which an element breaks down from ring to ring, shape (...) [V].
 
         After the first contact of an element has broken down, the other one carries the whole bearing
         voltage. With Weibull's law, each contact breaks down at the voltage of its own 63.2 %.
         """
-        return shaft_through_breakdown(self, Path())
+        return shaft_ring_to_ring_breakdown(self, Path())
 
 
 def leakage_conductance(
@@ -254,7 +254,7 @@ def shaft_first_break(circuit: Circuit, path: Path) -> Numbers:
     return circuit.first_break / path.film_share(circuit.capacitance)
 
 
-def shaft_through_breakdown(circuit: Circuit, path: Path) -> Numbers:
+def shaft_ring_to_ring_breakdown(circuit: Circuit, path: Path) -> Numbers:
     """Smallest shaft voltage at which an element breaks down from ring to ring, shape (...) [V].
 
     After the first contact of an element has broken down, the capacitance of its element equals the
@@ -267,7 +267,7 @@ def shaft_through_breakdown(circuit: Circuit, path: Path) -> Numbers:
     of 50 pF, and a third of the shaft voltage instead of a half. The other contact withstands 20 V:
 
     >>> circuit = Circuit(np.array([1e-10]), np.array([1e-10]), np.array([5.0]), np.array([20.0]))
-    >>> round(float(shaft_through_breakdown(circuit, Path(coating=5e-11))), 9)
+    >>> round(float(shaft_ring_to_ring_breakdown(circuit, Path(coating=5e-11))), 9)
     60.0
     """
     other = np.where(circuit.inner_first, circuit.outer, circuit.inner)

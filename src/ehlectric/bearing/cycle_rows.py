@@ -11,6 +11,7 @@ import numpy as np
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.quantities.field_metadata import stored
+from ehlectric.quantities.lubrication_states import BOUNDARY, BOUNDARY_LIMIT, FREQUENT, FULL, MIXED
 from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
 from ehlectric.runtime.display import Values, read_only_property
 from ehlectric.runtime.file_rules import UnfitError
@@ -30,7 +31,7 @@ from ehlectric.runtime.stored import (
 if TYPE_CHECKING:
     import xarray as xr
 
-# States of a bearing by their numbers.
+# States of a bearing by their numbers, and their words in the former column "state" of duty.csv.
 STATES = ("standstill", "touching", "partial film", "full film", "not computed")
 STANDSTILL, TOUCHING, PARTIAL_FILM, FULL_FILM, LEFT_OUT = range(len(STATES))
 
@@ -68,6 +69,21 @@ def stretches_of(within: Mask) -> list[tuple[int, int]]:
     return [(int(first), int(after)) for first, after in ends.reshape(-1, 2)]
 
 
+def lubrication_names(state: Array, ratio: Array) -> Array:
+    """Return the state of lubrication of each row as a text, "standstill" or "not computed", shape (n,).
+
+    ``state``, numbers of the states; ``ratio``, lambda ratios; both of shape (n,).
+
+    Examples
+    --------
+    >>> lubrication_names(np.array([0, 1, 1, 2]), np.array([np.nan, 0.5, 1.5, 2.5])).tolist()
+    ['standstill', 'boundary lubrication', 'frequent asperity contact', 'mixed lubrication']
+    """
+    words = (STATES[STANDSTILL], FREQUENT.name, MIXED.name, FULL.name, STATES[LEFT_OUT])
+    names = np.array(words, dtype=object)[state.astype(int)]
+    return np.where((state == TOUCHING) & (ratio < BOUNDARY_LIMIT), BOUNDARY.name, names)
+
+
 # Column of a table over the rows of a cycle: SI unit, None for texts, and values, shape (n,).
 Written = tuple[str | None, Array]
 
@@ -84,8 +100,13 @@ def written_columns(
     for name, values in columns.items():
         quantity = name.rpartition(".")[2]
         unit = about[quantity].get("unit")
-        shown = np.array(STATES, dtype=object)[values.astype(int)] if quantity == "state" else values
-        written[name] = (None if unit is None else unit.removeprefix("-"), shown)
+        if quantity == "state":
+            table = name.removesuffix(quantity)
+            names = lubrication_names(values, columns[f"{table}lambda_ratio"])
+            written |= {f"{table}lubrication_state": (None, names)}
+            written[name] = (None, np.array(STATES, dtype=object)[values.astype(int)])
+            continue
+        written[name] = (None if unit is None else unit.removeprefix("-"), values)
     return written
 
 

@@ -30,7 +30,7 @@ from ehlectric.bearing.duty_points import NAMES, PointValues, between_places, sp
 from ehlectric.bearing.many_points import solved_parts
 from ehlectric.bearing.many_uncertainties import spreads_of
 from ehlectric.bearing.quick_contacts import required_quick_case
-from ehlectric.bearing.solution import PARTIAL, touches, touching_ratio
+from ehlectric.bearing.solution import contact_limit, touches
 from ehlectric.bearing.uncertainty import SEED, MarginSpread
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.bearing_inputs import Motor
@@ -42,6 +42,7 @@ from ehlectric.discharge.discharge_laws import MOST_MARGIN
 from ehlectric.errors import InputError
 from ehlectric.quantities.field_metadata import number, stored
 from ehlectric.quantities.formats import scale_of, speed_text
+from ehlectric.quantities.lubrication_states import FREQUENT, FULL_FILM_LIMIT
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.statement import Statement
@@ -244,8 +245,8 @@ class DutyResult(Values):
             "points": self.points,
             "interpolation_error": self.interpolation_error,
             "standstill_share": rows.share(rows.state == STANDSTILL),
-            "touching_share": rows.share(rows.state == TOUCHING),
-            "partial_film_share": rows.share(rows.state == PARTIAL_FILM),
+            "asperity_contact_share": rows.share(rows.state == TOUCHING),
+            "mixed_lubrication_share": rows.share(rows.state == PARTIAL_FILM),
             "full_film_share": rows.share(rows.state == FULL_FILM),
             "left_out_share": rows.share(rows.state == LEFT_OUT),
             "breakdown_share": None if self.breakdown_probability is None else rows.share(rows.breaks),
@@ -299,7 +300,7 @@ def run_duty(case: BearingCase) -> DutyResult | None:
         contacts=quick.contacts,
         points=points.solved,
         interpolation_error=points.error,
-        touching_ratio=float(touching_ratio(quick.bearing.summit_height)),
+        touching_ratio=float(contact_limit(quick.bearing.summit_height)),
         lives=(life,),
     )
     warnings = _warnings(quick, cycle, points, refused, result)
@@ -375,7 +376,7 @@ def rows_of(case: BearingCase, cycle: Cycle) -> tuple[DutyRows, PointValues]:
             values[name][moves] = points.values[name]
     ratio, height = values["lambda_ratio"], case.bearing.summit_height
     state = np.select(
-        [~moves, np.isnan(ratio), touches(ratio, height), ratio < PARTIAL],
+        [~moves, np.isnan(ratio), touches(ratio, height), ratio < FULL_FILM_LIMIT],
         [STANDSTILL, LEFT_OUT, TOUCHING, PARTIAL_FILM],
         FULL_FILM,
     )
@@ -476,7 +477,7 @@ def _between_nodes(case: BearingCase, rows: DutyRows, known: IntArray, at: Array
 
 def _stretches(case: BearingCase, rows: DutyRows) -> Iterator[Stretch]:
     """Worst stretches of a cycle, with the least margins, or without margins with the least lambda ratios."""
-    name, limit = ("margin", 1.0) if rows.has_margin else ("lambda_ratio", PARTIAL)
+    name, limit = ("margin", 1.0) if rows.has_margin else ("lambda_ratio", FULL_FILM_LIMIT)
     measure, edges = getattr(rows, name), edges_of(rows.time)
     spans = [
         (first, after, first + int(np.argmin(measure[first:after])))
@@ -524,14 +525,15 @@ def _reasons(case: BearingCase, rows: DutyRows, name: str, places: list[int]) ->
 
 
 def _raised(value: float, *, touching: bool) -> str:
-    """Text of a margin or a lambda ratio, or why there is none: surfaces touch, or the bearing has no result.
+    """Text of a margin or a lambda ratio, or why there is none: asperity contact is
+    frequent, or the bearing has no result.
 
     >>> _raised(1.7, touching=False), _raised(math.nan, touching=True), _raised(math.nan, touching=False)
-    ('1.70', 'surfaces touch', 'no result')
+    ('1.70', 'frequent asperity contact', 'no result')
     """
     if math.isfinite(value):
         return ratio_text(value)
-    return "surfaces touch" if touching else "no result"
+    return FREQUENT.name if touching else "no result"
 
 
 def _reason(column: str, value: float, mean: float, raised: str) -> str:

@@ -15,10 +15,10 @@ from ehlectric.bearing.rating_life import fatigue_of
 from ehlectric.bearing.solution import (
     BearingSolution,
     capacitance,
+    contact_limit,
     lambda_ratio,
     part_over_summits,
     touches,
-    touching_ratio,
 )
 from ehlectric.bearing.summary import breaks
 from ehlectric.cases.bearing_case import BearingCase
@@ -119,7 +119,7 @@ def _interpolated(case: BearingCase, keys: tuple[str, ...], table: Array) -> Poi
         part = part_over_summits(values["lambda_ratio"], height) if name in _OVER_SUMMITS else 1.0
         values[name] = np.where(touching, np.nan, values[name] * part)
     edge = _next_to_touching(design.values, corners, height)
-    edge &= values["lambda_ratio"] > _NEARLY * touching_ratio(height)
+    edge &= values["lambda_ratio"] > _NEARLY * contact_limit(height)
     places = np.flatnonzero(edge)[:MOST_SOLVED]
     compared = np.setdiff1d(np.linspace(0, len(table) - 1, _COMPARED).astype(int), places)
     exact = _solved(case, keys, table[np.concatenate([places, compared])])

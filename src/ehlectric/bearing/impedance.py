@@ -16,7 +16,7 @@ from ehlectric.bearing.solution import (
     RingState,
     capacitance,
     capacitance_is_bound,
-    lubrication,
+    conducts,
 )
 from ehlectric.discharge.discharge_laws import known, leakage
 from ehlectric.discharge.film_capacitance import LEAST_RATIO, roughness_factor
@@ -43,7 +43,7 @@ def film_share(solution: BearingSolution) -> Numbers | None:
     if capacitance_is_bound(solution):
         return None
     share = shaft_path(solution).film_share(capacitance(solution))
-    return where(lubrication(solution) != "conducting", share)
+    return where(~np.asarray(conducts(solution)), share)
 
 
 def shaft_capacitance(solution: BearingSolution) -> Numbers:
@@ -197,7 +197,7 @@ def impedance_of(solution: BearingSolution) -> Impedance | None:
     resistance = solution.case.bearing.contact_resistance
     if tau is None or solution.conditions.ceramic:
         return None
-    if resistance is None and lubrication(solution) == "conducting":
+    if resistance is None and conducts(solution):
         return None
     corner = 1.0 / (2.0 * np.pi * tau)
     frequency = np.geomspace(_BELOW_CORNER * corner, max(_HIGHEST, corner / _BELOW_CORNER), _COUNT)

@@ -29,11 +29,10 @@ from ehlectric.bearing.perturbed_bearings import (
 )
 from ehlectric.bearing.quick_contacts import formula_factor, is_quick, required_quick_case
 from ehlectric.bearing.solution import (
-    PARTIAL,
     BearingSolution,
+    contact_limit,
     insulating,
     lambda_ratio,
-    touching_ratio,
 )
 from ehlectric.bearing.solving import NOT_IN_FILMS, quick_solution
 from ehlectric.bearing.uncertain_inputs import (
@@ -45,6 +44,7 @@ from ehlectric.bearing.uncertain_inputs import (
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import InputError
 from ehlectric.quantities.formats import speed_text
+from ehlectric.quantities.lubrication_states import FULL_FILM_LIMIT
 
 # Inputs of strength laws that only solved contacts have: others replace them by a constant strength.
 ONLY_SOLVED = ("discharge.weibull.shape", "discharge.weibull.reference_area")
@@ -301,7 +301,7 @@ def speed_range(margins: QuickMargins) -> SpeedRange:
 def _logarithms(points: Array, summit_height: float) -> Array:
     """Quantities that cross 0, shape (3, n), from margins and lambda ratios, shape (2, n)."""
     margin, ratio = points
-    limits = np.maximum(PARTIAL, summit_height), touching_ratio(summit_height)
+    limits = np.maximum(FULL_FILM_LIMIT, summit_height), contact_limit(summit_height)
     return np.stack([log_of(margin), *(log_of(ratio / limit) for limit in limits)])
 
 
@@ -453,7 +453,7 @@ class MarginAnalysis:
         return {
             "critical_speed": self.critical_speed,
             "upper_critical_speed": None if speeds is None else speeds.upper,
-            "touching_speed": None if speeds is None else speeds.touching,
+            "asperity_contact_speed": None if speeds is None else speeds.touching,
             "lowest_speed": None if speeds is None else speeds.lowest,
             "highest_speed": None if speeds is None else speeds.highest,
             "low": self.low,

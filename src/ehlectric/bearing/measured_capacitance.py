@@ -17,7 +17,7 @@ from ehlectric.arrays import Array
 from ehlectric.bearing.impedance import meter_capacitance
 from ehlectric.bearing.preparation import PreparedBearing, prepare_bearing, with_film_factor
 from ehlectric.bearing.quick_contacts import is_quick, required_quick_case
-from ehlectric.bearing.solution import CONDUCTING, BearingSolution, film_error, lambda_ratio
+from ehlectric.bearing.solution import BearingSolution, film_error, lambda_ratio
 from ehlectric.bearing.solving import POSITIONS, solution_of_prepared
 from ehlectric.cases import library
 from ehlectric.cases.bearing_case import BearingCase, InputRange
@@ -34,6 +34,7 @@ from ehlectric.discharge.film_capacitance import LEAST_RATIO
 from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.inputs import SPEED
+from ehlectric.quantities.lubrication_states import BOUNDARY_LIMIT
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.rows import value_at
 from ehlectric.readable import readable
@@ -463,7 +464,7 @@ def _row(
     factor = film_factor_of(capacitance, target, guess)
     slope = slope_at(capacitance, factor)
     ratio = float(correction.of(point.at(factor)).lambda_ratio)
-    if ratio < CONDUCTING:
+    if ratio < BOUNDARY_LIMIT:
         raise NoFactorError(
             f"its film would have a lambda ratio of {readable(ratio, 2)}, at which surfaces touch and conduct"
         )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -30,6 +31,7 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.discharge.discharge_laws import known
 from ehlectric.errors import InputError, shown
 from ehlectric.quantities.formats import amount, speed_text
+from ehlectric.quantities.former_keys import warning_tables, with_former_keys
 from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
 from ehlectric.quantities.results import BEARING_KEYS, ELEMENT_KEYS
 from ehlectric.quantities.verdict import Verdict
@@ -44,7 +46,7 @@ if TYPE_CHECKING:
 
 
 # Columns of the table of contacts that are no numbers with a unit.
-_LABELS = ("element", "ring", "regime", "solved")
+_LABELS = ("element", "ring", "lubrication_state", "regime", "solved")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -240,24 +242,29 @@ class BearingResult(Shown):
         analysis, uncertainty = self.margin_analysis, self.uncertainty if probable else None
         verdict = self.verdict if probable else bearing_verdict(self.solution, analysis)
         summary: dict[str, Any] = {}
+
+        def table_of(name: str, values: Mapping[str, Any]) -> Any:
+            return plain(with_former_keys(values, name, BEARING_KEYS))
+
         for key, value in summary_of(self.solution).items():
             if key == "mechanics":
                 speed = {"capacitive_speed": self.capacitive_speed}
                 table = analysis.summary()
                 if probable and self._uncertainty_or_reason[1]:
                     table["left_out"].append(without_spread(self._uncertainty_or_reason[1]))
-                summary["margin"] = plain({"level": verdict.level, **table, **speed})
-                summary["uncertainty"] = None if uncertainty is None else plain(uncertainty.summary())
+                summary["margin"] = table_of("margin", {"level": verdict.level, **table, **speed})
+                spread = None if uncertainty is None else table_of("uncertainty", uncertainty.summary())
+                summary["uncertainty"] = spread
             summary[key] = value
             if key == "warning_codes":
                 summary |= verdict.as_data()
             if key == "mechanics" and self.duty is not None:
-                summary["duty"] = plain(self.duty.summary())
+                summary["duty"] = table_of("duty", self.duty.summary())
         if probable:
-            return summary | texts_and_codes(self.all_warnings)
-        if self.duty is not None:
+            summary |= texts_and_codes(self.all_warnings)
+        elif self.duty is not None:
             summary |= texts_and_codes((*self.warnings, *self.duty.warnings))
-        return summary
+        return warning_tables(summary, BEARING_KEYS)
 
     def to_xarray(self) -> xr.Dataset:
         """Return loads, films, capacitances and voltages over cage positions, rings and elements.

@@ -18,13 +18,20 @@ from ehlectric.bearing.ring_contacts import ContactCurve, ContactSolution, Conta
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.bearing_kinds import has_rollers
 from ehlectric.quantities.field_metadata import stored
+from ehlectric.quantities.lubrication_states import (
+    BOUNDARY,
+    BOUNDARY_LIMIT,
+    FORMER_WORDS,
+    FREQUENT,
+    FULL,
+    FULL_FILM_LIMIT,
+    GAP,
+    MIXED,
+)
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable
 from ehlectric.runtime.display import Values, read_only_property
 from ehlectric.version import __version__
-
-# Lambda ratios below which surfaces touch nearly always, and below which they touch at times.
-CONDUCTING, PARTIAL = 1.0, 3.0
 
 # Part of a film that is left under its summits at least: no number is divided by 0 where there is no voltage.
 _LEAST_PART = 1e-9
@@ -362,17 +369,17 @@ def lambda_ratio(solution: BearingSolution) -> Numbers:
     return solution.least_film / solution.case.bearing.composite_rq
 
 
-def touching_ratio(summit_height: Numbers) -> Numbers:
-    """Lambda ratio up to which no voltage is given: the highest summits touch at times, or nearly always.
+def contact_limit(summit_height: Numbers) -> Numbers:
+    """Return the lambda ratio up to which asperity contact is frequent, so that no voltage is computed.
 
     ``summit_height`` in units of the composite Rq, shape (...).
 
     Examples
     --------
-    >>> float(touching_ratio(2.0)), float(touching_ratio(0.0))
+    >>> float(contact_limit(2.0)), float(contact_limit(0.0))
     (2.0, 1.0)
     """
-    return np.maximum(CONDUCTING, summit_height)
+    return np.maximum(BOUNDARY_LIMIT, summit_height)
 
 
 def part_over_summits(ratio: Numbers, summit_height: Numbers) -> Array:
@@ -397,7 +404,7 @@ def touches(ratio: Numbers, summit_height: Numbers) -> Any:
     >>> [bool(touches(ratio, height)) for ratio, height in ((0.9, 0.0), (1.0, 0.0), (2.0, 2.0), (2.1, 2.0))]
     [True, False, True, False]
     """
-    return (np.asarray(ratio) < CONDUCTING) | (ratio <= np.asarray(summit_height))
+    return (np.asarray(ratio) < BOUNDARY_LIMIT) | (ratio <= np.asarray(summit_height))
 
 
 def lambda_text(solution: BearingSolution) -> str:
@@ -407,46 +414,58 @@ def lambda_text(solution: BearingSolution) -> str:
 
 def shown_lambda(solution: BearingSolution) -> float:
     """Lambda ratio with two digits, and with three where the state of lubrication changes nearby."""
-    ratio, limits = lambda_ratio(solution), (CONDUCTING, solution.case.bearing.summit_height)
+    ratio, limits = lambda_ratio(solution), (BOUNDARY_LIMIT, solution.case.bearing.summit_height)
     near = any(0.9 * limit < ratio < 1.1 * limit for limit in limits)
     return float(f"{ratio:.{3 if near else 2}g}")
 
 
-def lubrication(solution: BearingSolution, *, film_scale: Numbers = 1.0) -> Any:
-    """State of lubrication: "conducting", "touching", "partial film" or "full film".
-
-    ``film_scale`` is a factor on all films, for films of estimated contacts that are scaled to solved films.
-
-    Up to the lambda ratio of ``touches`` contacts close and open at times, and below 1 nearly always: the
-    bearing is called "conducting", as no voltage is computed for it. With ceramic elements, which insulate,
-    it is "touching" below 1. Below 3 it has a "partial film", whose asperities may touch at times, and
-    otherwise a "full film". Many points have an array of texts.
-    """
-    ratio, height = film_scale * lambda_ratio(solution), solution.case.bearing.summit_height
-    conducts = touches(ratio, height) & (not solution.conditions.ceramic)
-    return labels((conducts, "conducting"), *_regimes(ratio, height))
+def bearing_state(solution: BearingSolution) -> Any:
+    """Return the lubrication state of a bearing as a text; many points have an array of texts."""
+    return lubrication_state(lambda_ratio(solution), solution.case.bearing.summit_height)
 
 
-def regime(ratio: Numbers, summit_height: Numbers = 0.0, *, loaded: Any = True) -> Any:
-    """Regime of one contact by its lambda ratio: "full film", "partial film", "touching", or "gap".
+def lubrication_state(ratio: Numbers, summit_height: Numbers = 0.0, *, loaded: Any = True) -> Any:
+    """Return the name of the state of lubrication at a lambda ratio, one of ``lubrication_states``.
 
-    A contact without load is a "gap". From a lambda ratio of 3 on, or the ratio of the highest summits if
-    this is larger, surfaces are separated. Below it, asperities touch at times ("partial film"), and below 1
-    most of the time ("touching"). Contacts that open and close discharge at a low voltage, for which there is
-    no law here.
+    A contact without load is a "gap". Many points have an array of texts.
 
     Examples
     --------
-    >>> regime(3.2), regime(1.5), regime(0.4), regime(90.0, loaded=False)
-    ('full film', 'partial film', 'touching', 'gap')
+    >>> [lubrication_state(ratio, 2.0) for ratio in (3.0, 2.1, 2.0)]
+    ['full film', 'mixed lubrication', 'frequent asperity contact']
+    >>> lubrication_state(1.0), lubrication_state(0.9), lubrication_state(90.0, loaded=False)
+    ('mixed lubrication', 'boundary lubrication', 'gap')
     """
-    return labels((np.logical_not(loaded), "gap"), *_regimes(ratio, summit_height))
+    full = np.maximum(FULL_FILM_LIMIT, summit_height)
+    return labels(
+        (np.logical_not(loaded), GAP),
+        (np.asarray(ratio) < BOUNDARY_LIMIT, BOUNDARY.name),
+        (ratio <= np.asarray(summit_height), FREQUENT.name),
+        (ratio < full, MIXED.name),
+        FULL.name,
+    )
 
 
-def _regimes(ratio: Numbers, summit_height: Numbers) -> tuple[Any, ...]:
-    """Regimes of a loaded contact with their conditions, as ``labels`` takes them."""
-    partial = np.maximum(PARTIAL, summit_height)
-    return (ratio < CONDUCTING, "touching"), (ratio < partial, "partial film"), "full film"
+def conducts(solution: BearingSolution, *, film_scale: Numbers = 1.0) -> Any:
+    """Return whether asperity contacts short a bearing so often that no voltage is computed, shape (...).
+
+    Ceramic elements insulate. ``film_scale`` is a factor on all films, for films of estimated contacts that
+    are scaled to solved films.
+    """
+    touching = touches(film_scale * lambda_ratio(solution), solution.case.bearing.summit_height)
+    return touching & (not solution.conditions.ceramic)
+
+
+def former_state(state: Any, *, conducting: Any = False) -> Any:
+    """Return the word of a state of lubrication in the former keys of summary.json, shape (...).
+
+    Examples
+    --------
+    >>> former_state("mixed lubrication"), former_state("boundary lubrication", conducting=True)
+    ('partial film', 'conducting')
+    """
+    words = [(np.asarray(state) == name, word) for name, word in FORMER_WORDS.items()]
+    return labels((conducting, "conducting"), *words, "")
 
 
 def insulating(solution: BearingSolution) -> Any:

@@ -30,8 +30,8 @@ from ehlectric.bearing.perturbed_bearings import (
 from ehlectric.bearing.quick_contacts import quick_case
 from ehlectric.bearing.solution import (
     BearingSolution,
+    contact_limit,
     lambda_ratio,
-    touching_ratio,
 )
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.quantities.result_warnings import ResultWarning
@@ -152,7 +152,7 @@ Speed = tuple[float, dict[str, Any]]
 Speeds = Sequence[Speed]
 
 # Keys that are drawn instead of others, where a summary has them: voltages on the shaft, with a coating.
-ON_SHAFT = {"first_break": "shaft_first_break", "through_breakdown": "shaft_through_breakdown"}
+ON_SHAFT = {"first_break": "shaft_first_break", "ring_to_ring_breakdown": "shaft_ring_to_ring_breakdown"}
 
 # Number of nodes of a whole curve, at least, between which straight lines are drawn.
 _NODES = 400
@@ -165,7 +165,7 @@ _KEYS = (
     "capacitance_oil",
     "capacitance_air",
     "first_break",
-    "through_breakdown",
+    "ring_to_ring_breakdown",
     "shaft_voltage",
     "lambda_ratio",
 )
@@ -225,7 +225,7 @@ def curves_of(points: Speeds, at_case: Speed | None = None) -> Curves:
         return plain
     factors = {key: _factor(plain, key, at_case) for key in _KEYS}
     analysis = at_case[1].get("margin") or {}
-    critical, touching = (analysis.get(key) for key in ("critical_speed", "touching_speed"))
+    critical, touching = (analysis.get(key) for key in ("critical_speed", "asperity_contact_speed"))
     values = {key: factors[key] * plain[key] for key in _KEYS}
     return Curves(speed, values, factors, critical, touching, height)
 
@@ -311,7 +311,7 @@ def opening_speed_of(curves: Curves) -> float | None:
     """
     if curves.touching is not None:
         return curves.touching
-    ratio = np.log(curves["lambda_ratio"] / touching_ratio(curves.summit_height))
+    ratio = np.log(curves["lambda_ratio"] / contact_limit(curves.summit_height))
     return float(curves.speed[-1]) if ratio[-1] < 0.0 else _last_rise(curves.speed, ratio)
 
 
@@ -366,7 +366,7 @@ def capacitive_speed(solution: BearingSolution) -> float | None:
         """
         duty = duty_of(at, film_scale=scale, ring_scales=scales)
         share = np.clip(duty.contact_time_share, _SHARE, 1.0 - _SHARE)
-        room = np.log(scale * lambda_ratio(at) / touching_ratio(at.case.bearing.summit_height))
+        room = np.log(scale * lambda_ratio(at) / contact_limit(at.case.bearing.summit_height))
         return (np.minimum(np.log(np.log(share) / math.log(CAPACITIVE)), room),)
 
     def beyond(log: Array) -> Array:

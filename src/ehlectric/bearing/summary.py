@@ -36,17 +36,21 @@ from ehlectric.bearing.loads.totals import mechanics_of
 from ehlectric.bearing.rating_life import life_summary
 from ehlectric.bearing.solution import (
     BearingSolution,
+    bearing_state,
     capacitance,
+    conducts,
     film_error,
+    former_state,
     insulating,
     lambda_ratio,
-    lubrication,
+    lubrication_state,
     plate_capacitance,
-    regime,
 )
 from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.discharge.discharge_laws import conductivity_of, known
+from ehlectric.quantities.former_keys import with_former_keys
 from ehlectric.quantities.result_warnings import texts_and_codes
+from ehlectric.quantities.results import BEARING_KEYS
 from ehlectric.runtime.files import plain
 
 SUMMARY_SCHEMA = "ehlectric.bearing/1"
@@ -90,7 +94,9 @@ def tables_of(solution: BearingSolution, duty: BearingDuty | None = None) -> dic
             "conductivity": conductivity_of(case.discharge, conditions.oil),
             "film_factor": conditions.film_factor,
         },
-        "bearing": clearances_of(conditions) | _totals(solution, duty or duty_of(solution)),
+        "bearing": with_former_keys(
+            clearances_of(conditions) | _totals(solution, duty or duty_of(solution)), "bearing", BEARING_KEYS
+        ),
         "mechanics": mechanics_of(solution.positions[0].equilibrium),
         "life": life_summary(solution),
     }
@@ -138,7 +144,8 @@ def _totals(solution: BearingSolution, duty: BearingDuty) -> dict[str, Any]:
         "roughness_factor": None if rough is None else rough / films,
         **_outside(solution, rough),
         "lambda_ratio": lambda_ratio(solution),
-        "lubrication": lubrication(solution),
+        "lubrication_state": (state := bearing_state(solution)),
+        "lubrication": former_state(state, conducting=conducts(solution)),
         **duty_summary(solution, duty),
         "film_factor": solution.conditions.film_factor,
         **{name: solution.conditions.part_of_film_factor(name) for name in _PARTS_OF_FILM_FACTOR},
@@ -191,10 +198,10 @@ def breaks(solution: BearingSolution) -> dict[str, Any]:
     """
     breakdown, shaft = breakdown_of(solution), shaft_voltage(solution)
     if breakdown is None:
-        return dict.fromkeys((*_VOLTAGES, "margin", "through_margin"))
+        return dict.fromkeys((*_VOLTAGES, "margin", "ring_to_ring_margin"))
     return dataclasses.asdict(breakdown) | {
         "margin": known(truediv, breakdown.shaft_first_break, shaft),
-        "through_margin": known(truediv, breakdown.shaft_through_breakdown, shaft),
+        "ring_to_ring_margin": known(truediv, breakdown.shaft_ring_to_ring_breakdown, shaft),
     }
 
 
@@ -229,6 +236,7 @@ def contact_rows(solution: BearingSolution, duty: BearingDuty | None = None) -> 
             ("outer", position.outer, 1.0 - inner_share, outer_duty),
         ):
             values, part = ring.values, ring.part_left(solution.summits)[k]
+            ratio = values.minimum_thickness[k] / rq
             strength = share[k] * values.strength_per_volt[k] / part if insulates else None
             of_film = part * values.breakdown_voltage[k] if insulates else None
             rows.append(
@@ -243,8 +251,9 @@ def contact_rows(solution: BearingSolution, duty: BearingDuty | None = None) -> 
                     "semi_axis_y": values.semi_axis_y[k] or None,
                     "minimum_thickness": values.minimum_thickness[k],
                     "central_thickness": values.central_thickness[k],
-                    "lambda_ratio": values.minimum_thickness[k] / rq,
-                    "regime": regime(values.minimum_thickness[k] / rq, height, loaded=bool(ring.solved[k])),
+                    "lambda_ratio": ratio,
+                    "lubrication_state": (state := lubrication_state(ratio, height, loaded=ring.solved[k])),
+                    "regime": former_state(state),
                     **contact_duty(asperities, k),
                     "capacitance": None if ceramic else ring.capacitance(fill)[k],
                     "voltage_share": share[k] if insulates else None,

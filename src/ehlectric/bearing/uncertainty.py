@@ -158,7 +158,7 @@ class MarginSpread:
             "breakdown_probability_low": least,
             "breakdown_probability_high": most,
             "breakdown_probability_error": self.probability_error,
-            "touching_probability": self.touching,
+            "asperity_contact_probability": self.touching,
             **self._shares(),
             "samples": self.samples,
             "failed": self.failed,

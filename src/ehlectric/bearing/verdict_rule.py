@@ -17,19 +17,19 @@ from ehlectric.bearing.bearing_discharges import (
     shaft_leakage,
     shaft_voltage,
 )
-from ehlectric.bearing.bearing_touching import duty_of, regime_clause
+from ehlectric.bearing.bearing_touching import behaviour_clause, duty_of
 from ehlectric.bearing.ceramic_elements import element_breakdown, element_field, element_voltage
 from ehlectric.bearing.film_factor import supply_words
 from ehlectric.bearing.impedance import film_share, shaft_path
 from ehlectric.bearing.margin import Intervals, MarginAnalysis, SpeedRange, film_factors
 from ehlectric.bearing.quick_contacts import is_quick
 from ehlectric.bearing.solution import (
-    CONDUCTING,
     BearingSolution,
+    bearing_state,
     capacitance_is_bound,
+    conducts,
     film_error,
     lambda_ratio,
-    lubrication,
     shown_lambda,
 )
 from ehlectric.bearing.warnings import bearing_warnings
@@ -53,6 +53,7 @@ from ehlectric.discharge.film_verdict import (
     unusable,
     weibull_part,
 )
+from ehlectric.quantities.lubrication_states import BOUNDARY, MIXED
 from ehlectric.quantities.result_warnings import active
 from ehlectric.quantities.statement import Bound, Fact, Level, Statement
 from ehlectric.quantities.verdict import Verdict
@@ -85,7 +86,7 @@ def bearing_verdict(
         return no_verdict(Statement.of("bearing-not-converged"))
     if solution.conditions.ceramic:
         return _of_ceramics(solution)
-    if lubrication(solution) == "conducting":
+    if conducts(solution):
         return _touching(solution, chance)
     breakdown, shaft = breakdown_of(solution), shaft_voltage(solution)
     at = operating_point(solution.case)
@@ -111,9 +112,9 @@ def operating_point(case: BearingCase) -> Statement:
 def _touching(solution: BearingSolution, chance: Chance | None) -> Verdict:
     """Verdict on a bearing whose surfaces touch, for which no voltage is computed."""
     level, code = touching_rule(chance, driven=solution.case.motor is not None)
-    how = "surfaces-touch" if lambda_ratio(solution) < CONDUCTING else "summits-touch"
-    ratio, regime = shown_lambda(solution), regime_clause(duty_of(solution))
-    answer = Statement.of("touching", how=Statement.of(how), lambda_ratio=ratio, regime=regime)
+    how = "surfaces-touch" if bearing_state(solution) == BOUNDARY.name else "summits-touch"
+    ratio, behaviour = shown_lambda(solution), behaviour_clause(duty_of(solution))
+    answer = Statement.of("touching", how=Statement.of(how), lambda_ratio=ratio, regime=behaviour)
     reasons: tuple[Statement, ...] = (Statement.of("discharges-as-opening"), Statement.of("no-protection"))
     if chance is not None and chance.first:
         reasons += (Statement.of("probability-of-touching", probability=chance.stated),)
@@ -128,7 +129,7 @@ def _of_ceramics(solution: BearingSolution) -> Verdict:
     voltage, most = element_voltage(solution), element_breakdown(solution)
     element = solution.conditions.element
     touching: tuple[Statement, ...] = ()
-    if lubrication(solution) == "touching":
+    if bearing_state(solution) == BOUNDARY.name:
         touching = (Statement.of("surfaces-touch-too", lambda_ratio=shown_lambda(solution)),)
     if most is None or element.dielectric_strength is None:
         return replace(no_verdict(Statement.of("no-ceramic-strength")), reasons=touching)
@@ -271,9 +272,9 @@ def _widened(solution: BearingSolution, low: float, high: float) -> tuple[float,
 def _at_times(solution: BearingSolution) -> Iterator[Statement]:
     """Statement on surfaces that touch at times."""
     duty = duty_of(solution)
-    if lubrication(solution) == "partial film" or duty.regime != "capacitive":
+    if bearing_state(solution) == MIXED.name or duty.behaviour != "capacitive":
         ratio = shown_lambda(solution)
-        yield Statement.of("touching-at-times", lambda_ratio=ratio, regime=regime_clause(duty))
+        yield Statement.of("touching-at-times", lambda_ratio=ratio, regime=behaviour_clause(duty))
 
 
 def _doubts(

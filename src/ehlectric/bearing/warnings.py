@@ -26,16 +26,15 @@ from ehlectric.bearing.preparation import TAKEN, groove_ratio, shoulder_angle
 from ehlectric.bearing.rating_life import dynamic_rating, life_warning_conditions
 from ehlectric.bearing.ring_contacts import ContactSolution
 from ehlectric.bearing.solution import (
-    CONDUCTING,
     BearingSolution,
     Position,
     RingState,
+    bearing_state,
     capacitance_is_bound,
+    conducts,
     error_text,
     insulating,
-    lambda_ratio,
     lambda_text,
-    lubrication,
     with_light,
 )
 from ehlectric.bearing.uncertain_inputs import estimated_keys
@@ -63,6 +62,7 @@ from ehlectric.discharge.film_breakdown import field_warning_conditions, strengt
 from ehlectric.discharge.film_verdict import breakdown_warning_condition
 from ehlectric.lubricant.data_sheet import GRADE_WIDTH, LEAST_AT_100, viscosity_index
 from ehlectric.quantities.formats import CELSIUS, time_share_text
+from ehlectric.quantities.lubrication_states import BOUNDARY, FREQUENT, MIXED
 from ehlectric.quantities.result_warnings import ResultWarning, WarningCondition, active
 from ehlectric.quantities.units import rpm
 from ehlectric.readable import readable
@@ -369,20 +369,18 @@ def _touching_text(duty: BearingDuty) -> str:
 
 def _contact_of_asperities(solution: BearingSolution) -> Iterator[WarningCondition]:
     """Warning of surfaces that touch all or some of the time."""
-    state, ratio = lubrication(solution), partial(lambda_text, solution)
-    conducts, nearly_always = state == "conducting", lambda_ratio(solution) < CONDUCTING
-    yield WarningCondition.of(conducts & nearly_always, "touching", "steel", ratio=ratio)
-    height = solution.case.bearing.summit_height
-    yield WarningCondition.of(
-        conducts & ~np.asarray(nearly_always), "touching", "summits", ratio=ratio, height=height
-    )
-    yield WarningCondition.of(state == "touching", "touching", "ceramic", ratio=ratio)
-    partly = state == "partial film"
+    ratio, height = partial(lambda_text, solution), solution.case.bearing.summit_height
+    state, shorted = bearing_state(solution), conducts(solution)
+    boundary, frequent, mixed = (np.asarray(state == each.name) for each in (BOUNDARY, FREQUENT, MIXED))
+    yield WarningCondition.of(shorted & boundary, "touching", "steel", ratio=ratio)
+    yield WarningCondition.of(shorted & frequent, "touching", "summits", ratio=ratio, height=height)
     if solution.conditions.ceramic:
+        yield WarningCondition.of(boundary, "touching", "ceramic", ratio=ratio)
+        partly = mixed | frequent
         yield WarningCondition.of(partly, "partial-film", "ceramic", ratio=ratio)
         return
     duty = duty_of(solution)
-    partly = (partly | (duty.regime != "capacitive")) & (state != "conducting")
+    partly = (mixed | (duty.behaviour != "capacitive")) & ~np.asarray(shorted)
     share = partial(_touching_text, duty)
     yield WarningCondition.of(partly, "partial-film", "steel", ratio=ratio, share=share)
 

@@ -18,7 +18,8 @@ from ehlectric.field import Field, PointField, Zone, contact_zones
 from ehlectric.film import Film, PointFilm, pressure_error_text
 from ehlectric.formulas.film_line import Thickness
 from ehlectric.quantities.formats import amount
-from ehlectric.quantities.results import CONTACT_BOOK
+from ehlectric.quantities.former_keys import warning_tables
+from ehlectric.quantities.results import CONTACT_BOOK, CONTACT_KEYS
 from ehlectric.runtime.display import headline, read_only_property
 
 if TYPE_CHECKING:
@@ -42,7 +43,7 @@ class ContactResult(Solution[ConditionsT, FilmT, FieldT]):
         """Key figures in SI units, as nested tables with the keys of summary.json. Returns numbers, texts and
         lists; None if a value has no meaning, never NaN.
         """
-        return summary_of(self)
+        return warning_tables(summary_of(self), CONTACT_KEYS["line"])
 
     def to_xarray(self) -> xr.Dataset:
         """Dataset of all arrays with their units; case, summary and solver history are attributes."""

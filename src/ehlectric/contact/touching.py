@@ -361,7 +361,7 @@ def makes_oil(case: Case | Setup, conditions: Conditions | PointConditions, film
 
 
 # Answer of a contact in one word.
-Behaviour: TypeAlias = Literal["resistive", "mixed", "capacitive"]
+Behaviour: TypeAlias = Literal["resistive", "intermittent", "capacitive"]
 
 # Frequency at which spots and film are compared [Hz]: the switching frequency of a usual inverter.
 PWM_FREQUENCY = 1e4
@@ -383,7 +383,7 @@ _MOST_SOLVED = 2000
 class Electrical:
     """Resistance of the spots of a contact; capacitance and breakdown of the film around them, SI units."""
 
-    behaviour: Behaviour  # "resistive", "mixed" or "capacitive"; see ``behaviour_of``
+    behaviour: Behaviour  # "resistive", "intermittent" or "capacitive"; see ``behaviour_of``
     # Share of the time with at least one spot, if spots of moving surfaces come and go independently of each
     # other; see ``time_share``
     time_share: float
@@ -436,9 +436,9 @@ def behaviour_of(
     """Electrical behaviour of a contact in one word.
 
     "capacitive": the contact has no spot, or the film takes ten times the current of its spots. "resistive":
-    the spots take ten times the current of the film, and at least one is there for 95 % of the time. "mixed":
-    all between, as a contact that conducts and insulates in turn, and one whose spots a finer grid may not
-    have.
+    the spots take ten times the current of the film, and at least one is there for 95 % of the time.
+    "intermittent": all between, as a contact that conducts and insulates in turn, and one whose spots a finer
+    grid may not have.
 
     ``always`` is the share of the time with at least one spot. ``impedance_ratio`` is the impedance of the
     film divided by the impedance of the spots at 10 kHz. If it is None, the resistance of the spots is
@@ -448,14 +448,14 @@ def behaviour_of(
     --------
     >>> spots = ((0, 0.0, None), (1, 0.63, None), (5, 0.99, 1e5), (5, 0.99, 0.01), (5, 0.99, 1e5, 1.2))
     >>> tuple(behaviour_of(*each) for each in spots)
-    ('capacitive', 'mixed', 'resistive', 'capacitive', 'mixed')
+    ('capacitive', 'intermittent', 'resistive', 'capacitive', 'intermittent')
     """
     ratio = np.inf if impedance_ratio is None else impedance_ratio
     if spots == 0 or ratio < 1.0 / SHORTED:
         return "capacitive"
     if ratio > SHORTED and always >= ALWAYS and (area_error or 0.0) < 1.0:
         return "resistive"
-    return "mixed"
+    return "intermittent"
 
 
 def strip_resistance(*, width: float, length: float, resistivity: float) -> float:
@@ -592,12 +592,15 @@ class Asperities:
 
     def summary(self) -> dict[str, Any]:
         """Values of all parts, as in ``asperities`` of summary.json."""
-        coarser = _values(self.coarser, Coarser)
+        coarser, electrical = _values(self.coarser, Coarser), asdict(self.electrical)
+        if self.electrical.behaviour == "intermittent":
+            electrical["behaviour"] = "mixed"  # the word of the former key
         return {
             **asdict(self.touching),
             **{f"{name}_coarser": value for name, value in coarser.items()},
             **_values(self.balance, OilBalance),
-            **asdict(self.electrical),
+            "electrical_behaviour": electrical["behaviour"],
+            **electrical,
         }
 
 
@@ -650,8 +653,13 @@ def asperities(
     )
 
 
-# Codes of a verdict on a contact that touches, by its electrical behaviour.
-_CODES = {"resistive": "spots-conduct", "mixed": TOUCHING_EXPECTED, "capacitive": POSSIBLE}
+# Codes of the statement and of the verdict on a contact that touches, by its electrical behaviour.
+_STATEMENTS = {
+    "resistive": "spots-resistive",
+    "intermittent": "spots-mixed",
+    "capacitive": "spots-capacitive",
+}
+_CODES = {"resistive": "spots-conduct", "intermittent": TOUCHING_EXPECTED, "capacitive": POSSIBLE}
 
 
 def spots_verdict(asperities: Asperities, voltage: float, warnings: Iterable[ResultWarning]) -> Verdict:
@@ -671,7 +679,7 @@ def spots_verdict(asperities: Asperities, voltage: float, warnings: Iterable[Res
     return Verdict(
         "yellow" if behaviour == "capacitive" else "red",
         _CODES[behaviour],
-        Statement.of(f"spots-{behaviour}", spots=asperities.spots.number, voltage=voltage),
+        Statement.of(_STATEMENTS[behaviour], spots=asperities.spots.number, voltage=voltage),
         reasons=tuple(around),
     )
 

@@ -52,7 +52,7 @@ def grounded_voltage(solution: BearingSolution, resistance: float, rise_time: fl
 
 # Numbers of a bearing that are proportional to the shaft voltage, and those that are so to its reciprocal.
 _PROPORTIONAL = ("film_voltage", "max_strength", "element_voltage", "element_field")
-_RECIPROCAL = ("margin", "through_margin", "coating_margin", "element_margin")
+_RECIPROCAL = ("margin", "ring_to_ring_margin", "coating_margin", "element_margin")
 
 
 def at_shaft_voltage(summary: Mapping[str, Any], voltage: float) -> dict[str, Any]:

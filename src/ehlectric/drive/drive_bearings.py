@@ -123,7 +123,7 @@ def _breakdown(solution: BearingSolution, lowest: float) -> Array:
     least = _BURNS * lowest
     smooth_circuits = [position.circuit(solution.case.bearing.fill) for position in solution.positions]
     smooth, rough = (
-        np.array([circuit.through_breakdown for circuit in circuits])
+        np.array([circuit.ring_to_ring_breakdown for circuit in circuits])
         for circuits in (smooth_circuits, solution.circuits())
     )
     # Arcs that a smooth film would not feed either are refused with the drive.

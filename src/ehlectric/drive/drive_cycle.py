@@ -30,13 +30,13 @@ from ehlectric.bearing import (
     Written,
     between_places,
     check_rows,
+    contact_limit,
     duty_csv,
     edges_of,
     file_warnings,
     life_of,
     rows_of,
     stretches_of,
-    touching_ratio,
     written_columns,
 )
 from ehlectric.cases.drive_case import DriveCase
@@ -47,9 +47,11 @@ from ehlectric.drive.quick_estimate import quick_drive
 from ehlectric.errors import InputError, within
 from ehlectric.quantities.field_metadata import number, stored
 from ehlectric.quantities.formats import rpm_text
+from ehlectric.quantities.former_keys import with_former_keys
 from ehlectric.quantities.inputs import ENDS, key_of_drive
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.result_warnings import ResultWarning
+from ehlectric.quantities.results import DRIVE_BOOK
 from ehlectric.runtime.display import Values
 from ehlectric.runtime.files import Content
 from ehlectric.runtime.progress import Progress, silent
@@ -180,7 +182,11 @@ class DriveDuty(Values):
     def end_summary(self, b: int) -> dict[str, Any]:
         """Values of the bearing at one end, as in its table of summary.json, SI units."""
         rows, state = self.rows, self.rows.state[:, b]
-        shares = {"touching": TOUCHING, "partial_film": PARTIAL_FILM, "full_film": FULL_FILM}
+        shares = {
+            "asperity_contact": TOUCHING,
+            "mixed_lubrication": PARTIAL_FILM,
+            "full_film": FULL_FILM,
+        }
         sums = {"discharges": self.discharges[b], "energy": self.energy[b]}
         values: dict[str, Any] = {
             f"duty_{name}_share": rows.share(state == place) for name, place in shares.items()
@@ -191,7 +197,8 @@ class DriveDuty(Values):
                 f"duty_{name}_low": expected.low,
                 f"duty_{name}_high": expected.high,
             }
-        return values | {f"duty_{name}": value for name, value in self.lives[b].summary().items()}
+        values |= {f"duty_{name}": value for name, value in self.lives[b].summary().items()}
+        return with_former_keys(values, "end", DRIVE_BOOK)
 
     def contents(self) -> dict[str, Content]:
         """Content of duty.csv by its name."""
@@ -266,7 +273,7 @@ def run_drive_cycle(
         source=ready.cycle.source,
         points=simulated.simulation.done,
         simulated=simulated.simulation.time,
-        touching_ratio=max(float(touching_ratio(bearing.bearing.summit_height)) for bearing in case.bearings),
+        touching_ratio=max(float(contact_limit(bearing.bearing.summit_height)) for bearing in case.bearings),
         warnings=tuple(_warnings(ready, simulated)),
         lives=ready.lives,
     )

@@ -17,12 +17,13 @@ from ehlectric.bearing import (
     BearingSolution,
     Path,
     Solid,
+    bearing_state,
     breakdown_of,
     capacitance,
     capacitance_is_bound,
+    conducts,
     duty_of,
     lambda_text,
-    lubrication,
     oil_conductance,
     oil_relaxation_time,
     rough_capacitance,
@@ -170,7 +171,7 @@ def equivalent_of(solution: BearingSolution) -> Equivalent:
     speed, of_films = solution.case.bearing.inner_speed, float(capacitance(solution))
     if solution.conditions.ceramic:
         return Equivalent(speed, "ceramic", of_films, None, None)
-    if lubrication(solution) == "conducting":
+    if conducts(solution):
         return Equivalent(speed, "metal", of_films, _metal_resistance(solution), None)
     tau, breakdown = oil_relaxation_time(solution), breakdown_of(solution)
     return Equivalent(
@@ -178,7 +179,7 @@ def equivalent_of(solution: BearingSolution) -> Equivalent:
         "films",
         of_films,
         None if tau is None else 1.0 / float(oil_conductance(solution, tau)),
-        None if breakdown is None else float(breakdown.through_breakdown),
+        None if breakdown is None else float(breakdown.ring_to_ring_breakdown),
     )
 
 
@@ -270,14 +271,12 @@ def check_table(results: Sequence[BearingResult]) -> None:
         if high < low * _APART:
             speeds = f"{rpm(low):.6g} rpm and {rpm(high):.6g} rpm"
             raise InputError(SPEED, got=speeds, takes="speeds that differ by 0.1 % or more")
-    touching = [
-        result.case.bearing.inner_speed for result in results if lubrication(result.solution) == "conducting"
-    ]
+    touching = [result.case.bearing.inner_speed for result in results if conducts(result.solution)]
     if touching:
         speeds = ", ".join(speed_text(speed) for speed in sorted(touching))
         raise InputError(
             SPEED,
-            got=f"{speeds}, whose lambda ratio is so low that surfaces touch, at least occasionally,",
+            got=f"{speeds}, at which asperity contact is frequent,",
             takes="in a table over the speed, speeds at which films separate the surfaces",
         )
 
@@ -442,7 +441,7 @@ class Subcircuit:
         yield (
             f"operating point: {at}, radial load {amount(bearing.radial_load, 'N')}, "
             f"axial load {amount(bearing.axial_load, 'N')}; lambda ratio {lambda_text(solution)}, "
-            f"{lubrication(solution)}"
+            f"{bearing_state(solution)}"
         )
         if self.tabulated:
             speeds = ", ".join(rpm_text(circuit.speed) for circuit in self.circuits)

@@ -43,7 +43,7 @@ def expected(case: DriveCase, summary: Mapping[str, Any]) -> Verdict:
         for end in ENDS
         if summary[end]["breakdown_voltage"] is not None
     }
-    touching = max(summary[end]["touching_time_share"] for end in ENDS)
+    touching = max(summary[end]["contact_time_share"] for end in ENDS)
     if not margins:
         return Verdict("green", CODES_OF_LEVELS["green"], Statement.of("ceramics-insulate"))
     circuit = case.running_circuit

@@ -19,9 +19,10 @@ from ehlectric.drive.summary import drive_summary, whole_summary, with_cycle
 from ehlectric.drive.verdict_rule import drive_verdict
 from ehlectric.drive.warnings import drive_warnings
 from ehlectric.errors import within
+from ehlectric.quantities.former_keys import warning_tables
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.result_warnings import ResultWarning
-from ehlectric.quantities.results import EVENT_COLUMNS, NAMES_OF_ENDS, SPECTRUM_COLUMNS
+from ehlectric.quantities.results import DRIVE_KEYS, EVENT_COLUMNS, NAMES_OF_ENDS, SPECTRUM_COLUMNS
 from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import readable
 from ehlectric.runtime.display import ResultKind, Shown, headline
@@ -91,7 +92,8 @@ class DriveResult(Shown):
         """Return the results nested as in summary.json, SI units; None instead of NaN."""
         remedies = [(variant.title, variant.changes, variant.tables) for variant in self.variants]
         summary = whole_summary(self.solution, remedies, self.warnings, self.seconds, self.version)
-        return summary if self.duty is None else with_cycle(summary, self.duty)
+        summary = summary if self.duty is None else with_cycle(summary, self.duty)
+        return warning_tables(summary, DRIVE_KEYS)
 
     @property
     def variants(self) -> tuple[Variant, ...]:

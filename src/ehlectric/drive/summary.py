@@ -27,8 +27,10 @@ from ehlectric.drive.drive_record import (
 )
 from ehlectric.drive.inverter import edge_rate
 from ehlectric.drive.verdict_rule import drive_verdict
+from ehlectric.quantities.former_keys import with_former_keys
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
+from ehlectric.quantities.results import DRIVE_BOOK
 from ehlectric.runtime.files import plain
 
 if TYPE_CHECKING:
@@ -114,7 +116,7 @@ def end_summary(solution: DriveSolution, b: int) -> dict[str, Any]:
     """Summary of the bearing at one end: its film, its voltage, and its events."""
     case, record, bearing = solution.case, solution.record, solution.elements[b]
     peak = float(record.peak[b])
-    return {
+    values = {
         **_film(case, bearing),
         "voltage_ratio": solution.divider[b],
         "waveform_ratio": peak / solution.highest_source,
@@ -129,6 +131,7 @@ def end_summary(solution: DriveSolution, b: int) -> dict[str, Any]:
         **_densities(solution, b),
         "life": dict(solution.lives[b]) if solution.lives else dict.fromkeys(LIFE_KEYS),
     }
+    return with_former_keys(values, "end", DRIVE_BOOK)
 
 
 def _film(case: DriveCase, bearing: BearingElement) -> dict[str, Any]:
@@ -141,7 +144,7 @@ def _film(case: DriveCase, bearing: BearingElement) -> dict[str, Any]:
         "breakdown_voltage": breakdown if math.isfinite(breakdown) else None,
         "weibull_shape": bearing.shape if finite else None,
         "renewal_time": (case.breakdown.renewal_time or bearing.transit) if finite else None,
-        "touching_time_share": bearing.touching,
+        "contact_time_share": bearing.touching,
     }
 
 
@@ -149,14 +152,18 @@ def checked_summary(ready: PreparedDrive) -> dict[str, Any]:
     """Summary of a drive that is not simulated, with the kind of its contacts and the error of its films."""
     case, highest = ready.case, ready.highest_source
     ends = {
-        end: {
-            **_film(case, bearing),
-            "voltage_ratio": ratio,
-            "voltage_at_peak": ratio * highest,
-            "films": result.case.contacts,
-            "films_error": film_error(result.solution),
-            "life": life_summary(result.solution),
-        }
+        end: with_former_keys(
+            {
+                **_film(case, bearing),
+                "voltage_ratio": ratio,
+                "voltage_at_peak": ratio * highest,
+                "films": result.case.contacts,
+                "films_error": film_error(result.solution),
+                "life": life_summary(result.solution),
+            },
+            "end",
+            DRIVE_BOOK,
+        )
         for end, bearing, ratio, result in zip(
             ENDS, ready.elements, ready.divider, ready.bearings, strict=True
         )

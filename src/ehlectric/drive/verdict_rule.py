@@ -96,7 +96,7 @@ def _level(end: Mapping[str, Any], source: float, part: float) -> Level:
         reach = max(end["peak_voltage"], end["voltage_ratio"] * source)
         stronger = most_by_law({**end, "peak_voltage": reach}, 1.0 + STRENGTH_UNKNOWN)
         return "red" if stronger > SELDOM else "yellow"
-    if end["events"] or end["burning_time_share"] or end["touching_time_share"]:
+    if end["events"] or end["burning_time_share"] or end["contact_time_share"]:
         return "yellow"
     return "green" if most_by_law(end, part) <= SELDOM else "yellow"
 
@@ -199,7 +199,7 @@ def _seldom(rate: float) -> str:
 
 
 def _touching(ends: Iterable[Mapping[str, Any]]) -> Iterator[Statement]:
-    share = max(end["touching_time_share"] for end in ends)
+    share = max(end["contact_time_share"] for end in ends)
     if share:
         yield Statement.of("asperities-close", share=share)
 

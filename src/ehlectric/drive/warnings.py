@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.bearing import BearingResult, lambda_text, lubrication
+from ehlectric.bearing import BearingResult, conducts, lambda_text
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.plausibility import unusual_machine
 from ehlectric.discharge.discharge_laws import CURRENT_DENSITY_LIMITS, compared_with_limits
@@ -60,7 +60,7 @@ def bearing_warnings(bearings: tuple[BearingResult, BearingResult]) -> Iterator[
 def _of_bearing(result: BearingResult) -> Iterator[ResultWarning]:
     """Warnings of a bearing, where the warning of touching surfaces states what a drive makes of them."""
     for warning in result.warnings:
-        if warning.code == "touching" and lubrication(result.solution) == "conducting":
+        if warning.code == "touching" and conducts(result.solution):
             yield ResultWarning.of("touching", "drive", ratio=lambda_text(result.solution))
         else:
             yield warning

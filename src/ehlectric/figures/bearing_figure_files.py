@@ -18,14 +18,15 @@ from ehlectric.bearing import (
     Curves,
     Speed,
     Speeds,
+    bearing_state,
     breaks_anywhere,
+    conducts,
     critical_speed_of,
     curves_of,
     duty_of,
     impedance_of,
     lambda_ratio,
     lambda_text,
-    lubrication,
     opening_speed_of,
     over_speed,
     quick_case,
@@ -70,10 +71,11 @@ from ehlectric.figures.style import (
     titled,
 )
 from ehlectric.quantities.formats import operating_point, speed_text, time_share_text
+from ehlectric.quantities.lubrication_states import BOUNDARY, FREQUENT, FULL, MIXED
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import ratio_text, readable
 
-_TOUCHING = ("conducting", "touching")
+_SHORTED = (BOUNDARY.name, FREQUENT.name)
 
 
 def loads(result: BearingResult) -> str:
@@ -84,7 +86,8 @@ def loads(result: BearingResult) -> str:
     least = prefixed(thinnest["minimum_thickness"], "m", least=0.1)
     text = f"Largest load {readable(most['load'])} N ({_contact(most)})"
     text += f"; minimum film {least} ({_contact(thinnest)}), λ {lambda_text(result.solution)}"
-    return text + (": surfaces touch, at times at least" if lubrication(result.solution) in _TOUCHING else "")
+    state = bearing_state(result.solution)
+    return text + (f": {state}" if state in _SHORTED else "")
 
 
 def _contact(row: Mapping[str, Any]) -> str:
@@ -96,8 +99,8 @@ def circuit(result: BearingResult) -> str:
     """Sentence: whether breakdown is expected, with the margin; without one, the capacitance."""
     breaks, shaft = result.breaks(), result.shaft_voltage
     if breaks["first_break"] is None:
-        if lubrication(result.solution) == "conducting":
-            return "Contacts open and close: discharges likely, no voltage computed"
+        if conducts(result.solution):
+            return f"{bearing_state(result.solution).capitalize()}: discharges likely, no voltage computed"
         value = result.capacitance(result.case.bearing.fill)
         return f"Capacitance of the bearing: {prefixed(value, 'F')}"
     first = volts(breaks["shaft_first_break"])
@@ -148,7 +151,7 @@ def duty_cycle(result: BearingResult) -> str:
     """
     assert result.duty is not None
     summary = result.duty.summary()
-    names = {"full_film": "full film", "partial_film": "partial film", "touching": "touching"}
+    names = {"full_film": FULL.name, "mixed_lubrication": MIXED.name, "asperity_contact": FREQUENT.name}
     names["standstill"] = "standstill"
     shares = [f"{name} {readable(100.0 * summary[f'{key}_share'])} %" for key, name in names.items()]
     what, share = "Breakdown expected", summary["breakdown_share"]
@@ -186,7 +189,7 @@ def breakdown_over_speed(curves: Curves, at_case: Speed | None) -> str:
         case_text = f"{volts(value)}" if shaft is None else f"margin {ratio_text(value / shaft)}"
         case_text += f" at {speed_text(at_case[0])}"
     opening = opening_speed_of(curves)
-    below = "" if opening is None else f"; contacts open and close below {speed_text(opening)}"
+    below = "" if opening is None else f"; frequent asperity contact below {speed_text(opening)}"
     if not np.any(known):
         first = np.flatnonzero(np.isfinite(curves["first_break"]))
         ends = [f"{volts(curves['first_break'][k])} at {speed_text(curves.speed[k])}" for k in first[[0, -1]]]
@@ -232,8 +235,9 @@ def film_line(result: BearingResult, *, voltages: bool) -> str:
     text = "isothermal, fully flooded film" if factor == 1.0 else f"film factor {readable(float(factor))}"
     text += f", minimum λ {lambda_text(solution)}"
     text += f", contacts {HOW[solution.case.contacts]}"
-    if lubrication(solution) in _TOUCHING:
-        return text + ": surfaces touch, at times at least"
+    state = bearing_state(solution)
+    if state in _SHORTED:
+        return f"{text}: {state}"
     return text + (": voltages are upper bounds" if voltages and solution.case.bearing.bounding else "")
 
 

@@ -21,7 +21,7 @@ from ehlectric.bearing import (
     shaft_first_break,
     shaft_leakage,
     shaft_path,
-    shaft_through_breakdown,
+    shaft_ring_to_ring_breakdown,
 )
 from ehlectric.figures import contact_findings
 from ehlectric.figures.data import Panel, is_wide, with_unit
@@ -286,7 +286,7 @@ def breakdown_voltages(result: BearingResult, ax: Axes | None = None) -> Axes:
 def _levels(result: BearingResult, ax: Axes) -> None:
     """Draw lines at the voltages of the whole bearing, as far as there are any, and name them at the edge."""
     breaks, shaft = result.breaks(), result.shaft_voltage
-    first, through = breaks["shaft_first_break"], breaks["shaft_through_breakdown"]
+    first, through = breaks["shaft_first_break"], breaks["shaft_ring_to_ring_breakdown"]
     levels = [] if shaft is None else [("shaft voltage", shaft, SHAFT)]
     lines = breakdown_lines(np.array([first]), np.array([through]))
     levels += [(name, float(value), look) for _, name, (value,), look in lines]
@@ -356,7 +356,9 @@ def breakdown_over_pitch(result: BearingResult, ax: Axes | None = None) -> Axes:
     ax = axes_or_new(ax)
     first = first_breakdowns(result)
     path = shaft_path(result.solution)
-    through = np.array([shaft_through_breakdown(circuit, path) for circuit in result.solution.circuits()])
+    through = np.array(
+        [shaft_ring_to_ring_breakdown(circuit, path) for circuit in result.solution.circuits()]
+    )
     lines = breakdown_lines(first, through)
     for _, name, values, look in lines:
         _over_pitch(result, ax, values, name.replace("\n", " "), line_look(*look))

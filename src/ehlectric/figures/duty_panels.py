@@ -9,25 +9,18 @@ from pathlib import Path
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.bearing import PARTIAL, PARTIAL_FILM, STANDSTILL, TOUCHING, DutyResult, DutyRows, edges_of
+from ehlectric.bearing import DutyResult, DutyRows, edges_of, lubrication_names
 from ehlectric.drive import DriveDuty, DriveDutyRows
 from ehlectric.figures.data import Along, Area, Curve, Panel, is_wide
 from ehlectric.figures.figure_names import literal
-from ehlectric.quantities.palette import BLACK, BLUE, GREY, MIDDLE_GREY, OCHRE, ORANGE
+from ehlectric.figures.speed_panels import STATE_LOOKS
+from ehlectric.quantities.lubrication_states import BOUNDARY_LIMIT, FULL, FULL_FILM_LIMIT, bands
+from ehlectric.quantities.palette import BLACK, BLUE, GREY, ORANGE
 from ehlectric.quantities.results import NAMES_OF_ENDS
 from ehlectric.quantities.units import RPM
 
 # Longest cycle whose time is in seconds; the time of a longer one is in hours [s].
 _LONGEST = 7200.0
-
-# Bands of the states: number, name with the lambda ratio up to which surfaces touch, colour and opacity. A
-# full film has none.
-_BANDS = (
-    (STANDSTILL, "standstill", MIDDLE_GREY, 0.35),
-    (TOUCHING, "touching, λ < {touching:g}", ORANGE, 0.35),
-    (PARTIAL_FILM, "partial film, λ from {touching:g} to 3", OCHRE, 0.15),
-)
-
 
 # Colours and dashes of both bearings of a drive.
 _ENDS, _DASHES = (BLUE, ORANGE), ("solid", "dash")
@@ -49,7 +42,7 @@ def time_axis(rows: DutyRows | DriveDutyRows) -> Along:
 def duty_panels(duty: DutyResult) -> Iterator[Panel]:
     """Speed, lambda ratio and, where any row has one, margin over time."""
     rows, touching = duty.rows, duty.touching_ratio
-    limits = (touching, PARTIAL)
+    limits = (touching, FULL_FILM_LIMIT)
     yield _panel(rows, touching, "speed", "rpm", rows.speed / RPM)
     yield _panel(rows, touching, "lambda ratio", "", rows.lambda_ratio, limits=limits, colours=(BLUE,))
     if rows.has_margin:
@@ -63,7 +56,9 @@ def drive_duty_panels(duty: DriveDuty) -> Iterator[Panel]:
     same = np.array_equal(rows.lambda_ratio[:, 0], rows.lambda_ratio[:, 1], equal_nan=True)
     ratios = rows.lambda_ratio[:, :1] if same else rows.lambda_ratio
     colours = (BLACK,) if same else _ENDS
-    yield _panel(rows, touching, "lambda ratio", "", ratios, limits=(touching, PARTIAL), colours=colours)
+    yield _panel(
+        rows, touching, "lambda ratio", "", ratios, limits=(touching, FULL_FILM_LIMIT), colours=colours
+    )
     yield _panel(rows, touching, "discharges", "1/s", rows.discharge_rate, colours=_ENDS)
 
 
@@ -78,7 +73,7 @@ def _panel(
     colours: tuple[str, ...] = (BLACK,),
 ) -> Panel:
     """Panel of a quantity over time, shape (n,), or of both bearings, shape (n, 2), with dashed lines at
-    limits. ``touching``, lambda ratio up to which surfaces are called touching.
+    limits. ``touching``, lambda ratio up to which asperity contact is frequent.
     """
     time = _unit(rows)[0] * rows.time
     columns = values.reshape(time.size, -1).T
@@ -107,10 +102,16 @@ def _bands(rows: DutyRows | DriveDutyRows, touching: float) -> Iterator[Area]:
     """Yield bands of the times in each state of the thinner film, between the row edges."""
     edges = np.repeat(_unit(rows)[0] * edges_of(rows.time), 2)[1:-1]
     thinner = np.min(rows.state.reshape(rows.time.size, -1), axis=1)
-    for state, name, colour, opacity in _BANDS:
-        within = np.repeat(thinner == state, 2)
+    ratio = np.min(rows.lambda_ratio.reshape(rows.time.size, -1), axis=1)
+    names = lubrication_names(thinner, ratio)
+    looks = [("standstill", "standstill", (GREY, 0.35))]
+    for state, _, _, text in bands(touching if touching > BOUNDARY_LIMIT else 0.0):
+        if state is not FULL:
+            looks.append((state.name, f"{state.name}, {text}", STATE_LOOKS[state.name]))
+    for state_name, legend, look in looks:
+        within = np.repeat(names == state_name, 2)
         if np.any(within):
-            yield Area(name.format(touching=touching), edges, within, colour, opacity)
+            yield Area(legend, edges, within, *look)
 
 
 def _unit(rows: DutyRows | DriveDutyRows) -> tuple[float, str]:

@@ -9,14 +9,12 @@ import numpy as np
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.bearing import (
-    CONDUCTING,
-    PARTIAL,
     BearingResult,
     RingState,
     around_in_rows,
-    touching_ratio,
 )
 from ehlectric.figures.data import Area, Curve, Panel, is_wide
+from ehlectric.quantities.lubrication_states import inner_states
 from ehlectric.quantities.palette import BLUE, GREY, ORANGE
 from ehlectric.quantities.units import unit_for
 from ehlectric.readable import readable
@@ -56,23 +54,21 @@ def film_panel(result: BearingResult) -> Panel:
     Circles are lambda ratios. Contacts without load have a gap instead of a film: their sector is shaded.
     """
     bearing = result.solution.case.bearing
-    rq, touching = bearing.composite_rq, float(touching_ratio(bearing.summit_height))
+    rq, limits = bearing.composite_rq, dict(inner_states(float(bearing.summit_height)))
     races = {ring: _races(result, ring[0]) for ring in _RINGS}
     films = np.concatenate(
         [race.values.minimum_thickness[race.solved] for of_ring in races.values() for race in of_ring]
     )
     factor, unit = unit_for(float(films.min()), "m")
-    limits = {touching: "touch" if touching == CONDUCTING else "touch at times"}
-    limits |= {PARTIAL: "may touch"} if touching < PARTIAL else {}
     # Circles far below the films are omitted, because they would leave little room for the films.
     ratios = [ratio for ratio in limits if films.min() < _FAR * ratio * rq]
     curves = [
         Curve(
-            f"λ = {ratio:g}: surfaces {limits[ratio]} inside",
+            f"λ = {ratio:g}: {limits[ratio].name} inside",
             _CIRCLE,
             np.full(_CIRCLE.size, factor * ratio * rq),
             GREY,
-            "dot" if ratio == touching else "dash",
+            "dash" if limits[ratio].voltage else "dot",
             0.9,
         )
         for ratio in ratios

@@ -9,8 +9,6 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.bearing import (
-    CONDUCTING,
-    PARTIAL,
     Curves,
     MarginBand,
     Speed,
@@ -18,11 +16,11 @@ from ehlectric.bearing import (
     critical_speed_of,
     is_coated,
     nearly_equal,
-    touching_ratio,
     value_of,
 )
 from ehlectric.figures.data import Along, Area, Curve, Panel, Upright, is_wide
 from ehlectric.quantities.formats import speed_text
+from ehlectric.quantities.lubrication_states import BOUNDARY, FREQUENT, FULL, MIXED, bands
 from ehlectric.quantities.palette import AMBER, BLACK, BLUE, GREEN, MIDDLE_GREY, OCHRE, ORANGE
 from ehlectric.quantities.units import RPM, unit_for
 
@@ -43,6 +41,10 @@ _LEAST_VOLTAGE = 0.01
 _LEAST_MARGIN = 0.05
 
 
+# Colours and opacities of the states of lubrication; a full film has none.
+STATE_LOOKS = {BOUNDARY.name: (ORANGE, 0.18), FREQUENT.name: (AMBER, 0.22), MIXED.name: (MIDDLE_GREY, 0.15)}
+
+
 class BreakdownLine(NamedTuple):
     """Line of a breakdown voltage of a bearing."""
 
@@ -57,7 +59,7 @@ def breakdown_lines(first: Array, through: Array) -> list[BreakdownLine]:
     if nearly_equal(first, through):
         return [BreakdownLine("first_break", "first and\nring-to-ring\nbreakdown", first, FIRST)]
     return [
-        BreakdownLine("through_breakdown", "ring-to-ring\nbreakdown", through, THROUGH),
+        BreakdownLine("ring_to_ring_breakdown", "ring-to-ring\nbreakdown", through, THROUGH),
         BreakdownLine("first_break", "first\nbreakdown", first, FIRST),
     ]
 
@@ -69,7 +71,9 @@ def speed_axis(curves: Curves) -> Along:
 
 def breakdown_panel(points: Speeds, curves: Curves, at_case: Speed | None) -> Panel:
     """First and ring-to-ring breakdown with the shaft voltage, and where the margin is below 1."""
-    first, through, shaft = (curves[key] for key in ("first_break", "through_breakdown", "shaft_voltage"))
+    first, through, shaft = (
+        curves[key] for key in ("first_break", "ring_to_ring_breakdown", "shaft_voltage")
+    )
     voltages = np.concatenate([first, through, shaft])
     value = None if at_case is None else value_of(at_case[1], "first_break")
     least = _LEAST_VOLTAGE * float(np.nanmax(voltages, initial=0.0))
@@ -115,7 +119,9 @@ def margin_panel(band: MarginBand, at_case: tuple[float, float] | None = None) -
         Area("90 of 100 cases", rpm, high > 1.0, BLUE, 0.2, (even, high)),
         Area("of these, breakdown", rpm, low < 1.0, ORANGE, 0.25, (low, even)),
     )
-    touching = Area("surfaces touch in 5 of 100 cases or more", rpm, band.low == 0.0, MIDDLE_GREY, 0.2)
+    touching = Area(
+        "frequent asperity contact in 5 of 100 cases or more", rpm, band.low == 0.0, MIDDLE_GREY, 0.2
+    )
     if np.any(touching.within):
         areas = (*areas, touching)
     top = 1.1 * float(np.max(high, initial=1.0))
@@ -174,22 +180,14 @@ def _mark(speed: float, value: float, colour: str, marker: str) -> Curve:
 
 
 def _contacts_open(curves: Curves) -> Iterator[Area]:
-    """Speeds at which surfaces touch, nearly always or at times, or may touch: they must not read as safe."""
+    """Speeds at which asperity contact is possible or frequent: such speeds must not read as safe."""
     nodes, ratio = curves.between("lambda_ratio")
-    touching = float(touching_ratio(curves.summit_height))
-    for low, high, name, colour, opacity in (
-        (0.0, CONDUCTING, "λ < 1: touching, discharges likely", ORANGE, 0.18),
-        (
-            CONDUCTING,
-            touching,
-            f"λ from 1 to {touching:g}: touching at times, not computed",
-            AMBER,
-            0.22,
-        ),
-        (touching, PARTIAL, f"λ from {touching:g} to 3: contacts at times", MIDDLE_GREY, 0.15),
-    ):
+    for state, low, high, text in bands(curves.summit_height):
+        if state is FULL:
+            continue
         within = (ratio >= low) & (ratio < high)
         # Up to the next node, so that no gap is left between both.
         within[1:] |= within[:-1] & np.isfinite(ratio[1:])
         if np.any(within):
-            yield Area(name, nodes / RPM, within, colour, opacity, hatched=high == CONDUCTING)
+            name = f"{text}: {state.name}"
+            yield Area(name, nodes / RPM, within, *STATE_LOOKS[state.name], hatched=state is BOUNDARY)

@@ -85,7 +85,7 @@ def _of_time(shares: Array) -> str:
 def _intermittent(selection: Slice) -> str:
     """Clause: the number of points at which contacts open and close, so that no voltage is computed."""
     count = int(np.sum(selection.intermittent))
-    return f"; at {count} more, contacts open and close, discharges are likely" if count else ""
+    return f"; at {count} more, asperity contact is frequent, discharges are likely" if count else ""
 
 
 def _of_margins(results: SweepResults, selection: Slice, margin: Array) -> str:
@@ -406,7 +406,8 @@ def default_names(results: SweepResults) -> list[str]:
     """Names of the figures of a sweep over its default axes."""
     axes = default_axes(results, {})
     known = (value for value in known_values(results) if not value.startswith("inputs."))
-    values = [value for value in known if label_of(value, results.case).name != value]
+    labels = {value: label_of(value, results.case) for value in known}
+    values = [value for value, label in labels.items() if label.name != value and not label.successor]
     names = []
     for value in values if axes else ():
         on_map, lines = map_files(value)

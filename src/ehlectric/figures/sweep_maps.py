@@ -153,7 +153,7 @@ def _opening(panel: MapPanel, ax: Axes) -> list[Artist]:
         return []
     look: dict[str, Any] = {"colors": [ORANGE], "alpha": 0.25, "hatches": [_OPENING]}
     ax.tricontourf(triangulated(panel.opening), panel.opening.values, levels=[0.5, 1.5], **look)
-    label = "surfaces touch there or nearby: discharges likely, no voltage computed"
+    label = "frequent asperity contact there or nearby: discharges likely, no voltage computed"
     return [Patch(facecolor=(ORANGE, 0.25), edgecolor=GREY, hatch=_OPENING, lw=0.0, label=label)]
 
 

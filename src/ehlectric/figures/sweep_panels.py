@@ -96,7 +96,7 @@ def range_text(values: Array, unit: str) -> str:
 # Marker, colour and name in legends of the points of each kind.
 _KINDS = {
     "solved": ("dots", BLACK, "points"),
-    "intermittent": ("wide cross", ORANGE, "without a voltage: contacts open and close"),
+    "intermittent": ("wide cross", ORANGE, "frequent asperity contact: no voltage computed"),
     "without this value": ("square", GREY, "without this value"),
     "do not use": ("diamond", ORANGE, "must not be used"),
     "not converged": ("plus", BLACK, "not converged"),

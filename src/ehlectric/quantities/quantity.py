@@ -50,6 +50,8 @@ class Quantity:
     null: str = field(default="", kw_only=True)
     # Key of the same table that contains the dotted key of an input, in whose unit the value is.
     unit_of: str = field(default="", kw_only=True)
+    # Key of the same table that replaces this former key; empty for a key in use.
+    successor: str = field(default="", kw_only=True)
 
     @property
     def absolute(self) -> bool:

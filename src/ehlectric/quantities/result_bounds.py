@@ -119,12 +119,12 @@ def breakdown_words(summary: Summary) -> str:
     >>> breakdown_words({"inputs": inputs, "warning_codes": ["smooth-film"]})
     'best estimate: rough film'
     >>> breakdown_words({"inputs": inputs, "warning_codes": ["partial-film"]})
-    'upper bound: rough film, whose surfaces may touch'
+    'upper bound: rough film with asperity contact'
     """
     codes, parting, bearing = summary["warning_codes"], _parting(summary), summary["inputs"]["bearing"]
     film = f"{'smooth' if _smooth(bearing) else 'rough'} film"
     films = f"isothermal, fully flooded, {film}" if "isothermal-film" in codes else film
-    touch = ", whose surfaces may touch" if parting else ""
+    touch = " with asperity contact" if parting else ""
     scatter = ", at a probability of 63.2 %" if "weibull-voltage" in codes else ""
     bound = parting or _isothermal(bearing) or _smooth(bearing)
     return f"{'upper bound' if bound else 'best estimate'}: {films}{touch}{scatter}"
@@ -142,7 +142,7 @@ _DISCHARGED = ("bearing.shaft_voltage", "bearing.film_voltage")
 _FILMS = (
     *("bearing.lambda_ratio", "bearing.minimum_thickness", "duty.stretches.lambda_ratio"),
     *("rings.inner.minimum_thickness", "rings.outer.minimum_thickness"),
-    *("margin.touching_speed", "margin.capacitive_speed"),
+    *("margin.asperity_contact_speed", "margin.capacitive_speed"),
 )
 # Numbers that a lower shaft voltage changes the other way than a thinner film.
 _OF_SHAFT = (

@@ -24,7 +24,13 @@ NAMES_OF_ENDS: Mapping[str, str] = MappingProxyType(
 )
 
 # Results of bearings that are texts and may differ between the points of a sweep.
-TEXTS_OF_POINTS = ("bearing.lubrication", "bearing.regime", "bearing.first_break_at")
+TEXTS_OF_POINTS = (
+    "bearing.lubrication_state",
+    "bearing.lubrication",
+    "bearing.electrical_behaviour",
+    "bearing.regime",
+    "bearing.first_break_at",
+)
 
 # Statistics of the discharges of a bearing, by the ends of their keys.
 STATISTICS = {"mean": "mean", "median": "median", "high": "95th percentile", "largest": "maximum"}
@@ -40,12 +46,18 @@ _GEOMETRIES = ("line", "point")
 
 @cache
 def _entries(kind: str) -> Mapping[str, Mapping[str, Any]]:
-    """Fields of the entries of a kind of result, by dotted key."""
-    return {
+    """Fields of the entries of a kind of result, by dotted key; former keys are the last ones."""
+    entries: dict[str, Mapping[str, Any]] = {
         name if table == _OUTSIDE else f"{table}.{name}": fields
         for table, keys in data_file("ehlectric.quantities", f"{kind}_results.toml").items()
         for name, fields in keys.items()
     }
+    for key, former in data_file("ehlectric.quantities", "former_results.toml").get(kind, {}).items():
+        successor = f"{key.rpartition('.')[0]}.{former['successor']}"
+        meaning = f"deprecated; use `{successor.removeprefix('end.')}`"
+        words = f". Values: {former['meaning']}" if "meaning" in former else ""
+        entries[key] = {**entries[successor], "meaning": meaning + words, "successor": former["successor"]}
+    return entries
 
 
 def _quantity(fields: Mapping[str, Any], geometry: str) -> Quantity:

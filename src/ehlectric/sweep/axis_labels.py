@@ -11,6 +11,7 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.drive_case import DriveCase, SweptCase
 from ehlectric.cases.input_keys import input_of, kind_of, unit_of
 from ehlectric.quantities.formats import CELSIUS, Scale, scale_for
+from ehlectric.quantities.former_keys import successors
 from ehlectric.quantities.inputs import end_and_key
 from ehlectric.quantities.quantity import Bound, Keys, key_of
 from ehlectric.quantities.results import BEARING_KEYS, CONTACT_KEYS, DRIVE_KEYS, MOTION_KEYS, NAMES_OF_ENDS
@@ -25,6 +26,7 @@ class Label:
     unit: str  # SI unit in the notation of pint; empty for dimensionless values, or if the unit is not known
     bound: Bound = ""  # sign of the bound that an ideal film makes of a result
     shown: str = ""  # unit in which a value is usually shown; empty if there is none
+    successor: str = ""  # dotted key that replaces a former key; empty for a key in use
 
     @property
     def absolute(self) -> bool:
@@ -41,9 +43,10 @@ class Label:
         return scale_for(float(np.max(finite, initial=0.0)) or 1.0, self.unit)
 
     def attributes(self, *, number: bool) -> dict[str, str]:
-        """CF attributes of a variable: its name and, if it is a ``number``, its unit."""
+        """CF attributes of a variable: its name, the unit of a ``number``, and the key that replaces it."""
         units = {"units": self.unit.replace("**", "^").replace("*", " ") or "1"} if number else {}
-        return {"long_name": self.name, **units}
+        notice = {"deprecated": f"use {self.successor}"} if self.successor else {}
+        return {"long_name": self.name, **units, **notice}
 
     @property
     def with_symbol(self) -> str:
@@ -62,7 +65,8 @@ def label_of(key: str, case: SweptCase) -> Label:
     # A number of the case that is in the summary, too, is the input.
     if result is not None and (entry is None or (result.label and kind_of(inner) is None)):
         bound = result.bound if _bounds(case) else ""
-        return Label(result.label or key, result.symbol, result.unit, bound, result.shown)
+        replaced_by = successors(result_keys(case)).get(key, "") if result.successor else ""
+        return Label(result.label or key, result.symbol, result.unit, bound, result.shown, replaced_by)
     end = NAMES_OF_ENDS.get(end_and_key(inner)[0], "")
     if entry is None:
         return Label(key, "", "" if inner == key else unit_of(inner))

@@ -18,6 +18,7 @@ from ehlectric.arrays import Array
 from ehlectric.cases.input_keys import kind_of, of_both_ends, unit_of
 from ehlectric.cases.table import nearest
 from ehlectric.errors import InputError
+from ehlectric.quantities.former_keys import current_key
 from ehlectric.quantities.quantity import key_of
 from ehlectric.quantities.results import TEXTS_OF_POINTS
 from ehlectric.quantities.sheets import SWEEP_COLUMNS
@@ -223,6 +224,7 @@ class SweepResults(Shown, SweepPoints):
         """
         if key in self.varied:
             return read_only(np.array([as_number(point.inputs.get(key)) for point in self.points]))
+        key = current_key(key, result_keys(self.case))
         self._check(key)
         # None becomes NaN.
         return read_only(np.array(self.numbers.get(key, [None] * len(self.points)), dtype=float))

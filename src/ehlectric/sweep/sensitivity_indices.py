@@ -11,8 +11,10 @@ import numpy as np
 from ehlectric.arrays import Array, Mask
 from ehlectric.discharge.breakdown_rule import bounds_of
 from ehlectric.errors import InputError
-from ehlectric.quantities.rows import value_at
+from ehlectric.quantities.former_keys import current_key
+from ehlectric.quantities.lubrication_states import is_shorted
 from ehlectric.runtime.files import plain
+from ehlectric.sweep.axis_labels import result_keys
 from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.slices import numbers_of
 from ehlectric.sweep.sweep_inputs import breakdown_of
@@ -134,6 +136,7 @@ def sensitivity(results: SweepResults, value: str, *, resamples: int = 1000, see
             got=results.design,
         )
     rows, inputs = results.samples, len(results.varied)
+    value = current_key(value, result_keys(results.case))
     values = numbers_of(results, value)
     pages = values.reshape(inputs + 2, rows)
     complete = np.all(np.isfinite(pages), axis=0)
@@ -189,10 +192,7 @@ def _broken(results: SweepResults, value: str, drawn: Mask) -> tuple[float, tupl
     if not np.all(np.isfinite(margins[drawn])):
         return None
     touching = np.array(
-        [
-            point.solved and value_at(point.summary or {}, "bearing.lubrication") == "conducting"
-            for point in results.points[: drawn.size]
-        ]
+        [point.solved and is_shorted(point.summary) for point in results.points[: drawn.size]]
     )
     margins = np.where(touching, 0.0, margins)
     known = np.isfinite(margins)

@@ -23,8 +23,10 @@ from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.input_keys import kind_of, unit_of
 from ehlectric.cases.table import nearest
 from ehlectric.errors import InputError, short, shown
-from ehlectric.quantities.rows import value_at
+from ehlectric.quantities.former_keys import current_key
+from ehlectric.quantities.lubrication_states import is_shorted
 from ehlectric.runtime.display import is_number
+from ehlectric.sweep.axis_labels import result_keys
 from ehlectric.sweep.points import Point, Status, as_number
 from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.sweep_inputs import Breakdown, breakdown_of, main_value
@@ -275,8 +277,7 @@ class Slice:
     @property
     def intermittent(self) -> Mask:
         """Mask of bearings whose contacts open and close, so that they have no voltage, shape (points,)."""
-        states = [value_at(point.summary or {}, "bearing.lubrication") for point in self.points]
-        return np.asarray(self.of("solved") & np.array([state == "conducting" for state in states]))
+        return np.asarray(self.of("solved") & np.array([is_shorted(point.summary) for point in self.points]))
 
     @property
     def of_discharge(self) -> bool:
@@ -345,6 +346,7 @@ def select_slice(
         raise InputError("y", got=f"{shown(y)}, which is x;", takes="another key that varies")
     if not all(is_number(point.inputs.get(x)) for point in results.points):
         raise InputError("x", got=f"{shown(x)}, whose values are strings or lists", takes="a key of numbers")
+    value = current_key(value, result_keys(results.case))
     numbers_of(results, value)
     fixed = {key: _fixed(results, key, text) for key, text in (at or {}).items()}
     for key in fixed:

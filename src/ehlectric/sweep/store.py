@@ -21,6 +21,7 @@ from ehlectric.cases.table import number_of
 from ehlectric.contact import case_with_stored_laws
 from ehlectric.errors import InputError
 from ehlectric.lubricant.python_laws import SampledLaws, is_laws
+from ehlectric.quantities.former_keys import with_successors
 from ehlectric.quantities.result_warnings import (
     CODES_OF_TEXTS,
     TEXTS,
@@ -41,6 +42,7 @@ from ehlectric.runtime.files import now
 from ehlectric.runtime.journal import Journal, JournalForm, reading, seal_of_row
 from ehlectric.runtime.result_names import SWEEP
 from ehlectric.sweep import sweep_inputs as sweep_design
+from ehlectric.sweep.axis_labels import result_keys
 from ehlectric.sweep.engine import Outcome, Planned
 from ehlectric.sweep.points import Point, Range, Spacing, Status
 from ehlectric.sweep.result import SweepResults
@@ -266,6 +268,7 @@ def _points(rows: Sequence[tuple[Any, ...]], case: SweptCase) -> Iterator[Point]
         if summary is not None:
             # The key does not cover the title, so the summary may belong to a case with another title.
             summary["title"] = inputs.get("title", case.title)
+            summary = with_successors(summary, result_keys(case))
         yield Point(number, inputs, status, reason, summary, seconds, version)
 
 

@@ -136,7 +136,7 @@ CONTACT, FIRST_BREAK, THROUGH = (Breakdown(**BREAKDOWNS[name]) for name in ("con
 
 # With a coating on a ring, the breakdown voltages next to the shaft voltage are voltages of the shaft.
 _COATED_FIRST = replace(FIRST_BREAK, value="bearing.shaft_first_break")
-_COATED_THROUGH = replace(THROUGH, value="bearing.shaft_through_breakdown")
+_COATED_THROUGH = replace(THROUGH, value="bearing.shaft_ring_to_ring_breakdown")
 
 
 # For a drive no applied voltage stands next to the breakdown voltage of a film.

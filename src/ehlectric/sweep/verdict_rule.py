@@ -17,6 +17,7 @@ from ehlectric.cases.drive_case import DriveCase, SweptCase
 from ehlectric.discharge.breakdown_rule import TOUCHING, strength_interval
 from ehlectric.discharge.film_verdict import DOUBTS, strength_clause
 from ehlectric.quantities.formats import Scale
+from ehlectric.quantities.lubrication_states import is_shorted
 from ehlectric.quantities.rows import value_at
 from ehlectric.quantities.statement import Bound, Fact, Level, Statement
 from ehlectric.quantities.verdict import Verdict
@@ -29,7 +30,7 @@ from ehlectric.sweep.points import Point, SweepPoints
 _IDEAL = ("film_factor", "summit_height")
 
 # Reason for which a bearing whose surfaces touch, at times at least, has no margin.
-_TOUCH = "surfaces touch (discharges likely as contacts open)"
+_TOUCH = "with frequent asperity contact (discharges likely as contacts open)"
 
 
 def sweep_verdict(results: SweepPoints) -> Verdict | None:
@@ -99,8 +100,8 @@ def _not_solved(results: SweepPoints, margins: Array) -> int:
 
 def _without_voltages(results: SweepPoints) -> Verdict | None:
     """Verdict on points without a margin: red where contacts open and close at all, None where at none."""
-    states = [value_at(point.summary or {}, "bearing.lubrication") for point in results.points]
-    count = states.count("conducting")
+    states = [is_shorted(point.summary) for point in results.points]
+    count = sum(states)
     if not count:
         return None
     sure = all(point.solved and not point.doubtful for point in results.points)
@@ -212,13 +213,12 @@ def _why(results: SweepPoints, margins: Array) -> str:
     for point, margin in zip(results.points, margins, strict=True):
         if math.isfinite(margin):
             continue
-        state = value_at(point.summary or {}, "bearing.lubrication")
         if not point.solved:
             reason = "not solved"
         elif point.doubtful:
             reason = "solved, but not to be used"
         else:
-            reason = _TOUCH if state == "conducting" else "no breakdown voltage or no voltage"
+            reason = _TOUCH if is_shorted(point.summary) else "no breakdown voltage or no voltage"
         counts[reason] = counts.get(reason, 0) + 1
     if len(counts) == 1:
         return next(iter(counts))

@@ -19,6 +19,7 @@ from ehlectric.quantities.formats import (
     speed_text,
     time_share_text,
 )
+from ehlectric.quantities.lubrication_states import BOUNDARY, FREQUENT, FULL, MIXED, is_shorted
 from ehlectric.quantities.result_bounds import bearing_bounds, breakdown_words
 from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.rows import (
@@ -47,7 +48,7 @@ if TYPE_CHECKING:
 
 
 # Heat of a film factor, laws of the share of time of a contact, and what surfaces that touch mean.
-_HEAT, _LAWS, _TOUCH = (VALUES[name] for name in ("heat", "contact_model", "touching"))
+_HEAT, _LAWS = (VALUES[name] for name in ("heat", "contact_model"))
 
 
 def total_rows(summary: Summary) -> list[Row]:
@@ -145,7 +146,7 @@ def _oil(summary: Summary) -> Any:
 
 
 def _state(summary: Summary) -> Any:
-    return value_at(summary, "bearing.lubrication")
+    return value_at(summary, "bearing.lubrication_state")
 
 
 def _alpha_star(summary: Summary) -> str:
@@ -295,8 +296,8 @@ def _meter(summary: Summary) -> ValueWithNote:
     """Capacitance that a meter reads; that it is not computed where asperities touch."""
     totals = summary["bearing"]
     if totals.get("meter_capacitance") is None:
-        touching = _state(summary) in ("conducting", "partial film")
-        return ValueWithNote("not computed" if touching else None, ", asperities touch")
+        contact = _state(summary) not in (None, FULL.name)
+        return ValueWithNote("not computed" if contact else None, f", {_state(summary)}")
     return ValueWithNote(
         totals["meter_capacitance"], "" if totals["roughness_factor"] is None else ", rough films"
     )
@@ -359,8 +360,8 @@ def _shaft_note(summary: Summary) -> str:
 
 def _first_break(summary: Summary) -> ValueWithNote:
     """First breakdown voltage; that none is computed where surfaces touch, so that nothing reads as safe."""
-    if _state(summary) == "conducting":
-        return ValueWithNote("not computed", ", contacts open and close, and discharge at a low voltage")
+    if is_shorted(summary):
+        return ValueWithNote("not computed", f", {_state(summary)}: discharges at a low voltage")
     bearing = summary["bearing"]
     return ValueWithNote(bearing["first_break"], f", {bearing['first_break_at']}; {breakdown_words(summary)}")
 
@@ -524,7 +525,7 @@ _WORDS = RowTexts(
         ),
         "rings.inner.minimum_thickness": lambda s: f", {_how(s)}",
         "rings.outer.minimum_thickness": lambda s: f", {_how(s)}",
-        "bearing.lambda_ratio": lambda s: f", {_TOUCH.get(_state(s), _state(s))}",
+        "bearing.lambda_ratio": lambda s: f", {_state(s)}{' (no voltage computed)' if is_shorted(s) else ''}",
         "bearing.film_factor": film_factor_note,
         "bearing.supply_factor": _supply_note,
         "bearing.rolling_power_loss": _rolling_note,
@@ -533,7 +534,7 @@ _WORDS = RowTexts(
         "bearing.inner_inlet_temperature_rise": _rise_note("inner"),
         "bearing.outer_inlet_temperature_rise": _rise_note("outer"),
         "inputs.bearing.composite_ra": _ra_note,
-        "bearing.regime": _regime_note,
+        "bearing.electrical_behaviour": _regime_note,
         "bearing.inner_contact_time_share": lambda s: f", by {_LAWS[s['bearing']['contact_model']]}",
         "bearing.outer_contact_time_share": lambda s: f", by {_LAWS[s['bearing']['contact_model']]}",
         "bearing.shaft_voltage": _shaft_note,
@@ -586,13 +587,13 @@ _WORDS = RowTexts(
         "margin.critical_speed": _critical_speed,
         **{
             f"margin.{name}": _speed(name)
-            for name in ("capacitive_speed", "upper_critical_speed", "touching_speed")
+            for name in ("capacitive_speed", "upper_critical_speed", "asperity_contact_speed")
         },
     },
     alarms={
-        "bearing.lambda_ratio": lambda s: _state(s) in _TOUCH,
-        "bearing.regime": lambda s: bool(s["bearing"]["regime"] != "capacitive"),
-        "bearing.first_break": lambda s: bool(_state(s) == "conducting"),
+        "bearing.lambda_ratio": lambda s: _state(s) in (BOUNDARY.name, FREQUENT.name),
+        "bearing.electrical_behaviour": lambda s: bool(s["bearing"]["electrical_behaviour"] != "capacitive"),
+        "bearing.first_break": is_shorted,
         "bearing.margin": lambda s: bool(s["bearing"]["margin"] < 1.0),
         "bearing.current_density": _over_limits,
         "duty.breakdown_share": lambda s: bool(s["duty"]["breakdown_share"]),
@@ -615,13 +616,13 @@ _WORDS = RowTexts(
         "starved": lambda s: bool(_supply(s) != "flooded"),
         "solved heat": lambda s: bool(_bearing(s)["film_factor"] == "solved"),
         "probability": lambda s: bool(s.get("uncertainty")),
-        "surfaces that may touch": lambda s: bool(value_at(s, "uncertainty.touching_probability")),
+        "asperity contact": lambda s: bool(value_at(s, "uncertainty.asperity_contact_probability")),
         "quick contacts": lambda s: value_at(s, "bearing.contacts") != "solved",
         "touching": lambda s: (value_at(s, "bearing.touching_time_share") or 0.0) >= SELDOM,
         "law other than Clarke's": lambda s: value_at(s, "bearing.contact_model") != "clarke",
         "further capacitance": lambda s: bool(value_at(s, "bearing.parallel_capacitance")) or _coated(s),
         "coated": _coated,
-        "partial film": lambda s: bool(_state(s) == "partial film"),
+        "mixed lubrication": lambda s: bool(_state(s) == MIXED.name),
         "margin": lambda s: value_at(s, "bearing.margin") is not None,
         "leakage": lambda s: value_at(s, "bearing.shaft_time_constant") is not None,
     },

@@ -444,7 +444,7 @@ _WORDS = RowTexts(
         "roughness.lambda_ratio": lambda s: (
             f", {'boundary' if _touches(s) else 'minimum'} film / combined Rq"
         ),
-        "asperities.behaviour": _behaviour,
+        "asperities.electrical_behaviour": _behaviour,
         "asperities.contact_area_share": _area_error,
         "asperities.resistance": _resistance_note,
         "field.max_strength": _field_place,

@@ -41,7 +41,7 @@ ROLLERS = {
         "rotor_frame_capacitance": "1 nF",
     },
 }
-DRAWN = ("capacitance", "first_break", "through_breakdown", "shaft_voltage", "lambda_ratio")
+DRAWN = ("capacitance", "first_break", "ring_to_ring_breakdown", "shaft_voltage", "lambda_ratio")
 
 
 def rollers():
@@ -100,7 +100,7 @@ def test_curves_over_the_speed_are_the_bearing_at_every_speed(case):
 def test_the_ring_to_ring_curve_of_rollers_has_no_hump():
     """0.58 V at 1000 rpm: a curve that rises with the speed is nowhere above its value at a higher one."""
     points, _ = over_speed(rollers())
-    speed, through = curves_of(points).between("through_breakdown")
+    speed, through = curves_of(points).between("ring_to_ring_breakdown")
     known = np.isfinite(through)
     at = float(np.interp(1000.0 * RPM, speed[known], through[known]))
     assert at == pytest.approx(0.58, abs=0.01)

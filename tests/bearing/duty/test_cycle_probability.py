@@ -7,7 +7,7 @@ from ehlectric import BearingCase, evaluate, load, save, solve_bearing
 from ehlectric.bearing.cycle_rows import LEFT_OUT, STANDSTILL, TOUCHING
 from ehlectric.bearing.duty_cycle import run_duty
 from ehlectric.bearing.margin import film_factors
-from ehlectric.bearing.solution import film_error, lubrication
+from ehlectric.bearing.solution import conducts, film_error
 from ehlectric.bearing.uncertain_inputs import changes_of, proportional_to_strength
 from tests.helpers.places import EXAMPLES
 
@@ -49,7 +49,9 @@ def test_the_probability_rises_with_the_roughness(tenth):
         assert one["breakdown_probability"] == pytest.approx(
             (1.0 - still) * one["turning_breakdown_probability"]
         )
-        assert one["breakdown_share"] == pytest.approx(one["low_margin_share"] + one["touching_share"])
+        assert one["breakdown_share"] == pytest.approx(
+            one["low_margin_share"] + one["asperity_contact_share"]
+        )
 
 
 @pytest.mark.slow
@@ -62,7 +64,7 @@ def test_the_verdict_has_one_sentence_on_the_cycle(tenth, tmp_path):
     *_, sentence = result.verdict.sentences()
     assert sentence == (
         f"Over the duty cycle the mean probability of breakdown is {probability:.2g} %; "
-        f"the margin is below 1, or surfaces touch, {share:.2g} % of the time."
+        f"the margin is below 1, or asperity contact is frequent, {share:.2g} % of the time."
     )
     save(result, tmp_path / "saved")
     assert load(tmp_path / "saved").verdict == result.verdict
@@ -74,7 +76,7 @@ def test_a_bearing_whose_surfaces_touch_has_the_probability_of_random_points():
     voltage, rq = "motor.common_mode_voltage", "0.05 um"
     case = example(**{RQ: rq, SPEED: "2500 rpm", TEMPERATURE: "60 degC", voltage: "30 V", "duty": None})
     result = solve_bearing(case, workers=1)
-    assert lubrication(result.solution) == "conducting"
+    assert conducts(result.solution)
     rng, count = np.random.default_rng(11), 3000
     inputs, factor = {}, np.ones(count)
     for change in changes_of(case):
@@ -93,7 +95,7 @@ def test_a_bearing_whose_surfaces_touch_has_the_probability_of_random_points():
     table = result.summary()["uncertainty"]
     assert table["breakdown_probability"] == result.uncertainty.probability
     touching = np.mean(np.isnan(margins))
-    assert table["touching_probability"] == pytest.approx(touching, abs=0.04)
+    assert table["asperity_contact_probability"] == pytest.approx(touching, abs=0.04)
 
 
 @pytest.mark.slow
@@ -135,4 +137,4 @@ def test_the_reason_of_a_stretch_says_that_surfaces_touch_at_the_mean(tmp_path):
     duty = run_duty(with_cycle(tmp_path, rows, **{RQ: "0.05 um", TEMPERATURE: "60 degC"}))
     (stretch,) = duty.stretches
     assert np.isfinite(stretch.least_margin)
-    assert stretch.why.startswith("speed 6000 rpm; surfaces touch at the mean of ")
+    assert stretch.why.startswith("speed 6000 rpm; frequent asperity contact at the mean of ")

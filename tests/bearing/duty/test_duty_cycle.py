@@ -109,10 +109,10 @@ def test_shares_are_those_of_the_durations(duty):
     found = duty.summary()
     assert found["duration"] == 100.0
     assert found["standstill_share"] == pytest.approx(0.15)
-    assert found["touching_share"] == pytest.approx(0.1)
+    assert found["asperity_contact_share"] == pytest.approx(0.1)
     low = np.nan_to_num(duty.rows.margin, nan=np.inf) < 1.0
     assert found["low_margin_share"] == pytest.approx(durations[low].sum() / 100.0)
-    names = ("standstill", "touching", "partial_film", "full_film", "left_out")
+    names = ("standstill", "asperity_contact", "mixed_lubrication", "full_film", "left_out")
     assert sum(found[f"{name}_share"] for name in names) == pytest.approx(1.0)
 
 

@@ -21,7 +21,9 @@ def test_the_bearing_becomes_capacitive_there(speed):
     assert at["contact_time_share"] == pytest.approx(CAPACITIVE, rel=0.03, abs=0.0)
     assert at["lambda_ratio"] >= 0.99
     below, above = (
-        numbers_of(result(bearing__inner_speed=found.capacitive_speed * part))["bearing"]["regime"]
+        numbers_of(result(bearing__inner_speed=found.capacitive_speed * part))["bearing"][
+            "electrical_behaviour"
+        ]
         for part in (0.97, 1.03)
     )
     assert (below, above) == ("intermittent", "capacitive")

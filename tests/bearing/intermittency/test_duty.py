@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.stats import norm
 
-from ehlectric.bearing.bearing_touching import CAPACITIVE, RESISTIVE, duty_of, regime_of
+from ehlectric.bearing.bearing_touching import CAPACITIVE, RESISTIVE, behaviour_of, duty_of
 from ehlectric.bearing.result import solve_bearing
 from ehlectric.bearing.summary import contact_rows, summary_of
 from ehlectric.errors import InputError
@@ -43,7 +43,7 @@ def test_lambda_ratios_of_a_thin_oil(speed, ratio, regime):
     found = totals(solved(bearing__inner_speed=speed))
     assert 0.84 * ratio < found["lambda_ratio"] < ratio
     assert found["inner_lambda_ratio"] == found["lambda_ratio"] < found["outer_lambda_ratio"]
-    assert found["regime"] == regime
+    assert found["electrical_behaviour"] == regime
 
 
 def test_shares_follow_from_clarke_s_fit_by_hand():
@@ -163,20 +163,23 @@ def test_ceramic_elements_and_coatings_insulate():
     coating = {"ring": "outer", "thickness": "200 um", "relative_permittivity": 9.0, "area": "45 cm^2"}
     rough = {"bearing__composite_rq": "0.3 um"}
     plain = totals(solved(**rough))
-    assert plain["regime"] != "capacitive"
+    assert plain["electrical_behaviour"] != "capacitive"
     for changes in ({"bearing__element_material": "silicon-nitride"}, {"bearing__coating": coating}):
         found = totals(solved(**rough, **changes))
         assert found["contact_time_share"] == 0.0
         assert found["touching_time_share"] > 0.1
-        assert found["regime"] == "capacitive"
+        assert found["electrical_behaviour"] == "capacitive"
 
 
 def test_regimes_by_their_limits():
-    assert regime_of(CAPACITIVE) == "capacitive"
-    assert regime_of(np.nextafter(CAPACITIVE, 1.0)) == "intermittent"
-    assert regime_of(RESISTIVE) == "intermittent"
-    assert regime_of(np.nextafter(RESISTIVE, 1.0)) == "resistive"
-    rough = [totals(solved(bearing__composite_rq=rq))["regime"] for rq in ("0.01 um", "0.1 um", "10 um")]
+    assert behaviour_of(CAPACITIVE) == "capacitive"
+    assert behaviour_of(np.nextafter(CAPACITIVE, 1.0)) == "intermittent"
+    assert behaviour_of(RESISTIVE) == "intermittent"
+    assert behaviour_of(np.nextafter(RESISTIVE, 1.0)) == "resistive"
+    rough = [
+        totals(solved(bearing__composite_rq=rq))["electrical_behaviour"]
+        for rq in ("0.01 um", "0.1 um", "10 um")
+    ]
     assert rough == ["capacitive", "intermittent", "resistive"]
 
 
@@ -184,8 +187,8 @@ def test_a_bearing_without_voltages_is_not_called_capacitive():
     """Lambda just below 1: the share of time is a few per cent, and less where one element is loaded."""
     solution = solved(bearing__inner_speed="1000 rpm")
     scale = 0.999 / totals(solution)["lambda_ratio"]
-    assert duty_of(solution, film_scale=scale).regime == "intermittent"
-    assert regime_of(1e-6, touching=True) == "intermittent"
+    assert duty_of(solution, film_scale=scale).behaviour == "intermittent"
+    assert behaviour_of(1e-6, touching=True) == "intermittent"
 
 
 def test_thicker_films_touch_less():
@@ -213,8 +216,8 @@ def test_summits_that_touch_a_full_film_leave_no_green_verdict():
         solve_bearing(bearing_case(BALLS, **(THIN | keys | more)), workers=1) for more in ({}, dense)
     )
     found = touched.summary()
-    assert found["bearing"]["lubrication"] == "full film"
-    assert found["bearing"]["regime"] != "capacitive"
+    assert found["bearing"]["lubrication_state"] == "full film"
+    assert found["bearing"]["electrical_behaviour"] != "capacitive"
     assert "partial-film" in found["warning_codes"]
     assert "partial-film" not in plain.summary()["warning_codes"]
     assert (plain.verdict.level, touched.verdict.level) == ("green", "yellow")

@@ -152,7 +152,7 @@ def test_the_speed_below_which_surfaces_may_touch_is_that_of_a_lambda_ratio_of_t
     """From a lambda ratio of 1.2, of 1.6 and of 3.8; at 200 rpm it is beyond the range of 20 to 800 rpm."""
     for n in (270, 400, 1400):
         result, _, text = said_of_speeds(n)
-        found = re.search(r"Below about (\d+) rpm surfaces may touch", text)
+        found = re.search(r"Below about (\d+) rpm lubrication is mixed", text)
         at = {"bearing.inner_speed": f"{found[1]} rpm"}
         ratio = numbers_of(solve_bearing(result.case.replace(at), workers=1))["bearing"]["lambda_ratio"]
         # The film grows with the speed to the power of about 0.67: 2 % of the speed are 1.3 % of it.

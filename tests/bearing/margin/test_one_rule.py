@@ -12,6 +12,7 @@ from ehlectric.bearing.summary import summary_of
 from ehlectric.bearing.uncertainty import has_chance, uncertainty_of
 from ehlectric.bearing.verdict_rule import bearing_verdict
 from ehlectric.errors import InputError
+from ehlectric.quantities.lubrication_states import is_shorted
 from ehlectric.readable import chance_text
 from ehlectric.runtime.files import plain
 from ehlectric.tables.bearing_tables import total_rows
@@ -100,13 +101,13 @@ def check(table, samples=64):
     verdict = bearing_verdict(solution, MarginAnalysis(), chance)
     rows = {row.key: row for row in total_rows(summary) if row.key}
     check_texts(verdict, rows.values(), summary)
-    check_regime(verdict, rows.get("bearing.regime"), summary)
+    check_regime(verdict, rows.get("bearing.electrical_behaviour"), summary)
     assert verdict.heading.startswith(verdict.lead)
     if chance is None:
         assert verdict.level in ("grey", "green", "yellow")
         return True
     low, high = chance.bounds
-    touching = summary["bearing"]["lubrication"] == "conducting"
+    touching = is_shorted(summary)
     at_times = verdict.lead == "Discharges possible" and not touching
     level, least, most = (TOUCHING if touching or at_times else RULE)[verdict.lead]
     if at_times:
@@ -126,14 +127,14 @@ def check_texts(verdict, rows, summary):
 
 def check_regime(verdict, row, summary):
     """The verdict states the regime and the share of time of the table, or none."""
-    regime = summary["bearing"]["regime"]
+    regime = summary["bearing"]["electrical_behaviour"]
     named = set(re.findall(r"\b(capacitive|intermittent|resistive)\b", verdict.text))
     assert named <= {regime}
     if row is not None and named:
         assert row.value == regime
         (share,) = set(re.findall(r"contacts short it ([^,.;]*(?:\.\d+)?[^,.;]*of the time)", verdict.text))
         assert share in row.note
-    elif summary["bearing"]["lubrication"] == "conducting" and verdict.level != "grey":
+    elif is_shorted(summary) and verdict.level != "grey":
         assert "insulates" in verdict.text
         assert summary["bearing"]["contact_time_share"] == 0.0
 
@@ -153,10 +154,12 @@ def test_a_roller_bearing_whose_contacts_short_it_nearly_always_is_resistive():
     table["bearing"].pop("coating", None)
     solution = solve_bearing(BearingCase.from_dict(table), workers=1).solution
     summary = summary_of(solution)
-    assert summary["bearing"]["regime"] == "resistive"
+    assert summary["bearing"]["electrical_behaviour"] == "resistive"
     verdict = bearing_verdict(solution, MarginAnalysis())
     assert "the bearing is resistive" in verdict.text
-    check_regime(verdict, {row.key: row for row in total_rows(summary)}["bearing.regime"], summary)
+    check_regime(
+        verdict, {row.key: row for row in total_rows(summary)}["bearing.electrical_behaviour"], summary
+    )
 
 
 @pytest.mark.slow

@@ -13,10 +13,11 @@ from ehlectric.bearing.margin import MarginPoint, QuickMargins, speed_range
 from ehlectric.bearing.perturbed_bearings import PARTS, Sampled, alike, over_parts
 from ehlectric.bearing.quick_contacts import quick_case
 from ehlectric.bearing.result import solve_bearing
-from ehlectric.bearing.solution import CONDUCTING, PARTIAL, lambda_ratio
+from ehlectric.bearing.solution import lambda_ratio
 from ehlectric.bearing.solving import quick_solution
 from ehlectric.bearing.speed_curves import listed, over_speed
 from ehlectric.errors import InputError
+from ehlectric.quantities.lubrication_states import BOUNDARY_LIMIT, FULL_FILM_LIMIT
 from tests.bearing.intermittency.test_duty import THIN
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
 
@@ -85,7 +86,7 @@ def test_crossings_are_those_of_a_search_by_single_bearings(margins):
 
     (crossing,), ((_, parted),) = found.crossings, found.partial
     assert crossing == pytest.approx(of(lambda at: math.log(max(at.margin, 1e-9))), rel=2e-4)
-    assert parted == pytest.approx(of(lambda at: at.lambda_ratio - PARTIAL), rel=2e-4)
+    assert parted == pytest.approx(of(lambda at: at.lambda_ratio - FULL_FILM_LIMIT), rel=2e-4)
 
 
 @pytest.mark.slow
@@ -98,7 +99,9 @@ def test_the_capacitive_speed_is_that_of_a_search_by_single_bearings():
     def excess(log):
         at = quick_solution(quick.replace({SPEED: math.exp(log)}))
         share = duty_of(at, film_scale=scale).contact_time_share
-        return min(math.log(CAPACITIVE / max(share, 1e-12)), math.log(scale * lambda_ratio(at) / CONDUCTING))
+        return min(
+            math.log(CAPACITIVE / max(share, 1e-12)), math.log(scale * lambda_ratio(at) / BOUNDARY_LIMIT)
+        )
 
     own = math.log(result.case.bearing.inner_speed)
     expected = math.exp(brentq(excess, own - math.log(27.0), own + math.log(27.0), xtol=1e-6))
@@ -136,7 +139,7 @@ def test_numbers_over_the_speed_are_those_of_whole_bearings():
         own = solve_bearing(case.replace({SPEED: speed}), workers=1).summary()
         for key in ("capacitance", "capacitance_air", "lambda_ratio", "shaft_voltage", "first_break"):
             assert summary["bearing"][key] == pytest.approx(own["bearing"][key], rel=1e-3, nan_ok=True)
-        assert summary["bearing"]["lubrication"] == own["bearing"]["lubrication"]
+        assert summary["bearing"]["lubrication_state"] == own["bearing"]["lubrication_state"]
         assert summary["inputs"]["bearing"]["inner_speed"] == speed
 
 

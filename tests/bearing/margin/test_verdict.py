@@ -179,7 +179,7 @@ def test_surfaces_that_touch_do_not_read_as_safe():
     assert verdict.level == "red"
     assert verdict.text.startswith("Discharges expected: ")
     assert verdict.text.endswith(
-        "The probability of breakdown, which counts touching surfaces, is above 99.9 %."
+        "The probability of breakdown, which includes frequent asperity contact, is above 99.9 %."
     )
     assert [part for part in ("30 rpm", "70 °C", "lambda ratio 0.") if part not in verdict.text] == []
     assert verdict.margin is None
@@ -260,9 +260,12 @@ def test_across_a_lambda_ratio_of_one_nothing_turns_safe():
     heavy, light = (
         [row for row in below.contacts() if (row["load"] > 4.0) == pressed] for pressed in (True, False)
     )
-    assert {row["regime"] for row in heavy} == {"touching", "partial film"}
+    assert {row["lubrication_state"] for row in heavy} == {"boundary lubrication", "mixed lubrication"}
     # Balls outside the load zone have only their centrifugal force of 3.3 N and thick films.
-    assert {(row["ring"], row["regime"]) for row in light} == {("inner", "gap"), ("outer", "full film")}
+    assert {(row["ring"], row["lubrication_state"]) for row in light} == {
+        ("inner", "gap"),
+        ("outer", "full film"),
+    }
 
 
 @pytest.mark.slow

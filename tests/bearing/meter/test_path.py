@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.bearing.circuit import Circuit, Path, shaft_first_break, shaft_through_breakdown
+from ehlectric.bearing.circuit import Circuit, Path, shaft_first_break, shaft_ring_to_ring_breakdown
 
 CAPACITANCES = st.floats(1e-13, 1e-6)
 
@@ -30,7 +30,7 @@ def test_without_coating_nothing_changes():
     assert Path().film_share(circuit.capacitance) == 1.0
     assert Path().total(circuit.capacitance) == circuit.capacitance
     assert shaft_first_break(circuit, Path()) == circuit.first_break
-    assert shaft_through_breakdown(circuit, Path()) == circuit.through_breakdown
+    assert shaft_ring_to_ring_breakdown(circuit, Path()) == circuit.ring_to_ring_breakdown
 
 
 def test_two_elements_behind_a_coating():
@@ -43,7 +43,7 @@ def test_two_elements_behind_a_coating():
     path = Path(coating=150e-12)
     assert circuit.first_break == pytest.approx(8.0, rel=1e-12)
     assert shaft_first_break(circuit, path) == pytest.approx(16.0, rel=1e-12)
-    assert shaft_through_breakdown(circuit, path) == pytest.approx(32.0, rel=1e-12)
+    assert shaft_ring_to_ring_breakdown(circuit, path) == pytest.approx(32.0, rel=1e-12)
 
 
 @given(films=CAPACITANCES, coating=CAPACITANCES, parallel=CAPACITANCES)
@@ -69,11 +69,11 @@ def test_a_cage_never_changes_a_breakdown_and_a_coating_never_lowers_it(
     coated, beside = Path(coating=coating), Path(coating=coating, parallel=parallel)
     for of_shaft, of_films in (
         (shaft_first_break, circuit.first_break),
-        (shaft_through_breakdown, circuit.through_breakdown),
+        (shaft_ring_to_ring_breakdown, circuit.ring_to_ring_breakdown),
     ):
         assert of_shaft(circuit, beside) == of_shaft(circuit, coated)
         assert of_shaft(circuit, coated) >= of_films * (1.0 - 1e-12)
-    first, through = (law(circuit, coated) for law in (shaft_first_break, shaft_through_breakdown))
+    first, through = (law(circuit, coated) for law in (shaft_first_break, shaft_ring_to_ring_breakdown))
     assert through >= first * (1.0 - 1e-12)
 
 

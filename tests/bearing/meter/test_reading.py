@@ -66,7 +66,7 @@ def test_the_margin_is_that_of_the_shaft(bare, coated):
     assert found["shaft_first_break"] == pytest.approx(plain["first_break"] / found["film_share"], rel=2e-3)
     assert found["margin"] == pytest.approx(found["shaft_first_break"] / found["shaft_voltage"], rel=1e-12)
     assert plain["shaft_first_break"] == plain["first_break"]
-    assert plain["shaft_through_breakdown"] == plain["through_breakdown"]
+    assert plain["shaft_ring_to_ring_breakdown"] == plain["ring_to_ring_breakdown"]
     assert (plain["film_share"], plain["coating_share"], plain["parallel_capacitance"]) == (1.0, None, 0.0)
     assert plain["shaft_capacitance"] == plain["capacitance"]
 
@@ -91,7 +91,13 @@ def test_ends_of_the_thickness(bare, thickness, share):
     found = totals(solved(bearing__coating=COATING | {"thickness": thickness, "area": "0.1 cm^2"}))
     if share:
         plain = totals(bare)
-        for key in ("shaft_voltage", "margin", "through_margin", "discharge_energy", "meter_capacitance"):
+        for key in (
+            "shaft_voltage",
+            "margin",
+            "ring_to_ring_margin",
+            "discharge_energy",
+            "meter_capacitance",
+        ):
             assert found[key] == pytest.approx(plain[key], rel=1e-3)
     assert found["film_share"] == pytest.approx(share, abs=1e-3)
 
@@ -223,5 +229,5 @@ def test_a_coating_below_the_shaft_voltage_is_told():
 def test_sweeps_of_a_coated_bearing_compare_voltages_of_the_shaft():
     coated = bearing_case(BALLS, bearing__coating=COATING)
     assert breakdown_of(coated).value == "bearing.shaft_first_break"
-    assert breakdown_of(coated, "bearing.through_margin").value == "bearing.shaft_through_breakdown"
+    assert breakdown_of(coated, "bearing.ring_to_ring_margin").value == "bearing.shaft_ring_to_ring_breakdown"
     assert breakdown_of(bearing_case(BALLS)).value == "bearing.first_break"

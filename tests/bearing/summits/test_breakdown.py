@@ -8,7 +8,7 @@ import pytest
 from ehlectric import BearingCase, InputError, evaluate, solve_bearing
 from ehlectric.bearing.bearing_discharges import breakdown_of, margin_with_films, shaft_voltage
 from ehlectric.bearing.impedance import film_share
-from ehlectric.bearing.solution import insulating, lambda_ratio, lubrication
+from ehlectric.bearing.solution import bearing_state, conducts, insulating, lambda_ratio
 from ehlectric.bearing.stored import dataset_of, solution_of
 from ehlectric.bearing.summary import contact_rows
 from ehlectric.quantities.result_bounds import breakdown_words
@@ -72,9 +72,13 @@ def test_the_voltage_ends_at_zero(smooth):
     for rq in (at * (1.0 + 1e-9), 1.5 * at):
         below = with_summits(smooth, 2.0, rq=rq)
         assert (breakdown_of(below), shaft_voltage(below), film_share(below)) == (None, None, None)
-        assert lubrication(below) == "conducting"
+        assert conducts(below)
+        assert bearing_state(below) == "frequent asperity contact"
         assert {row["breakdown_voltage"] for row in contact_rows(below)} == {None}
-        # Asperities touch at times only, which the regime of the contacts says.
+        # The contacts are on the scale of the bearing; the words of the former key are coarser.
+        states = {row["lubrication_state"] for row in contact_rows(below)}
+        assert "frequent asperity contact" in states
+        assert "boundary lubrication" not in states
         assert {row["regime"] for row in contact_rows(below)} <= {"partial film", "full film", "gap"}
     assert not insulating(with_summits(smooth, 2.0, rq=2.0 * at))
 
@@ -90,7 +94,7 @@ def test_a_lambda_ratio_below_one_has_no_voltage_with_any_height(smooth):
 def test_higher_summits_break_down_earlier(smooth):
     heights = np.linspace(0.0, 5.0, 11)
     voltages = [breakdown_of(with_summits(smooth, height)) for height in heights]
-    for name in ("first_break", "first_break_mean", "through_breakdown", "shaft_first_break"):
+    for name in ("first_break", "first_break_mean", "ring_to_ring_breakdown", "shaft_first_break"):
         assert np.all(np.diff([getattr(one, name) for one in voltages]) < 0.0)
 
 
@@ -114,9 +118,11 @@ def test_a_coating_takes_its_share_of_the_shaft_voltage_as_before():
 def test_ceramic_elements_have_no_voltage_and_no_other_state():
     ceramic = solved(bearing__element_material="silicon-nitride")
     for height, state in ((0.0, "full film"), (2.0, "full film")):
-        assert lubrication(with_summits(ceramic, height)) == state
+        assert bearing_state(with_summits(ceramic, height)) == state
     thin = ceramic.least_film / 1.5
-    assert lubrication(with_summits(ceramic, 2.0, rq=thin)) == "partial film"
+    rough = with_summits(ceramic, 2.0, rq=thin)
+    assert bearing_state(rough) == "frequent asperity contact"
+    assert not conducts(rough)
     assert breakdown_of(with_summits(ceramic, 2.0)) is None
 
 
@@ -139,8 +145,8 @@ def test_points_together_have_the_numbers_of_single_ones():
     for k, changes in enumerate(zip(speeds, heights, rqs, strict=True)):
         one = case.replace(dict(zip(("bearing.inner_speed", HEIGHT, RQ), changes, strict=True)))
         own = numbers_of(solve_bearing(one, workers=1))["bearing"]
-        assert found["bearing.lubrication"].values[k] == own["lubrication"]
-        for key in ("first_break", "margin", "through_breakdown", "max_strength", "shaft_voltage"):
+        assert found["bearing.lubrication_state"].values[k] == own["lubrication_state"]
+        for key in ("first_break", "margin", "ring_to_ring_breakdown", "max_strength", "shaft_voltage"):
             value = np.nan if own[key] is None else own[key]
             assert found[f"bearing.{key}"].values[k] == pytest.approx(value, rel=1e-9, nan_ok=True)
     assert found["bearing.lubrication"].values[1] == "conducting"

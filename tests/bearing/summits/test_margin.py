@@ -9,7 +9,7 @@ from ehlectric import solve_bearing
 from ehlectric.bearing import duty_points
 from ehlectric.bearing.bearing_discharges import first_margin
 from ehlectric.bearing.margin import QuickMargins, speed_range
-from ehlectric.bearing.solution import lambda_ratio, lubrication
+from ehlectric.bearing.solution import conducts, lambda_ratio
 from ehlectric.bearing.solving import solution_of
 from ehlectric.bearing.speed_curves import Curves, curves_of, opening_speed_of, over_speed
 from ehlectric.bearing.uncertain_inputs import changes_of
@@ -177,16 +177,16 @@ def test_a_drive_breaks_down_at_the_voltage_under_the_summits_and_not_below_that
     drive = small_drive(**{f"bearings.{HEIGHT}": 2.0})
     ready = prepare(drive, workers=1)
     (element, _), solution = ready.elements, ready.bearings[0].solution
-    through = [circuit.through_breakdown for circuit in solution.circuits()]
+    through = [circuit.ring_to_ring_breakdown for circuit in solution.circuits()]
     np.testing.assert_allclose(element.breakdown, through, rtol=1e-12)
-    smooth = [position.circuit("oil").through_breakdown for position in solution.positions]
+    smooth = [position.circuit("oil").ring_to_ring_breakdown for position in solution.positions]
     assert np.all(element.breakdown < 0.9 * np.array(smooth))
     lowest = drive.breakdown.lowest_voltage
     # Summits that touch in the most loaded contacts with both rings.
     changes = {RQ: solution.least_film / 1.05, "bearing.contact_resistance": "1 ohm"}
     changed = dataclasses.replace(solution, case=solution.case.replace(changes))
-    assert lubrication(changed) == "conducting"
-    assert min(circuit.through_breakdown for circuit in changed.circuits()) < 0.5 * lowest
+    assert conducts(changed)
+    assert min(circuit.ring_to_ring_breakdown for circuit in changed.circuits()) < 0.5 * lowest
     touching = dataclasses.replace(ready.bearings[0], solution=changed)
     found = bearing_element(touching, drive.breakdown, "drive_end").breakdown
     assert lowest < np.min(found) < 1.01 * lowest

@@ -13,7 +13,7 @@ from ehlectric.bearing.film_factor import rolling_power_loss, solved_contact, so
 from ehlectric.bearing.preparation import largest_load, prepare_bearing
 from ehlectric.bearing.result import solve_bearing
 from ehlectric.bearing.run import NETCDF, save
-from ehlectric.bearing.solution import lubrication
+from ehlectric.bearing.solution import conducts
 from ehlectric.bearing.speed_curves import capacitive_speed
 from ehlectric.bearing.stored import dataset_of, solution_of
 from ehlectric.bearing.summary import summary_of
@@ -177,7 +177,7 @@ def test_speed_of_the_capacitive_regime_follows_the_solved_film():
     """At this speed the share of time is 1 %, or surfaces part: of the same scaled films."""
     rough = solve_bearing(case(supply=0.5, bearing__composite_rq="0.06 um", bearing__summit_height=0.0))
     duty, speed = duty_of(rough.solution), capacitive_speed(rough.solution)
-    assert lubrication(rough.solution) != "conducting"
+    assert not conducts(rough.solution)
     assert (duty.regime == "capacitive") == (speed < rough.case.bearing.inner_speed)
     plain = duty_of(rough.solution, ring_scales=(1.0, 1.0))
     scales = solved_scales(rough.solution)

@@ -123,7 +123,7 @@ def test_what_is_told(geometry):
     assert result.film_error is None
     assert result.summary()["film"]["discretisation_error"] is None
     rows = {row.key: row for row in result_rows(result)}
-    assert rows["asperities.behaviour"].value == result.asperities.electrical.behaviour
+    assert rows["asperities.electrical_behaviour"].value == result.asperities.electrical.behaviour
     assert rows["film.minimum_thickness"].text.endswith("in the boundary film")
     assert "in the boundary film" in rows["field.max_strength"].text
     assert "field.max_strength_error" not in rows

@@ -113,7 +113,7 @@ def first_drop(values):
 @pytest.mark.parametrize("sign", [1, -1])
 def test_the_switch_closes_at_the_breakdown_voltage(plain, sign, tmp_path):
     """Within a time step of the ramp of 10 V in 1 ms; behind 1 kOhm the arc cannot hold its voltage."""
-    expected = plain.breaks()["through_breakdown"]
+    expected = plain.breaks()["ring_to_ring_breakdown"]
     _, values = ramp(tmp_path, plain, sign, 1e3)
     top = first_drop(values)
     step = 10.0 * 2e-3 / 4000 / 1e-3
@@ -127,7 +127,7 @@ def test_the_switch_closes_at_the_breakdown_voltage(plain, sign, tmp_path):
 
 def test_the_arc_stays_until_its_extinction_voltage(plain, tmp_path):
     """Behind 1 Ohm, an arc of 1 Ohm has half of the voltage of the source, down to 1 V."""
-    expected = plain.breaks()["through_breakdown"]
+    expected = plain.breaks()["ring_to_ring_breakdown"]
     times, values = ramp(tmp_path, plain, 1, 1.0)
     source = 10.0 * np.minimum(times, 2e-3 - times) / 1e-3
     before = times < (expected - 0.02) * 1e-4
@@ -141,7 +141,7 @@ def test_the_arc_stays_until_its_extinction_voltage(plain, tmp_path):
 
 def test_a_coating_keeps_its_share_at_the_breakdown(coated, tmp_path):
     """A fast ramp: the films have C_c/(C_c + C) of the shaft voltage, as the capacitors divide it."""
-    breakdown, share = coated.breaks()["through_breakdown"], totals(coated)["film_share"]
+    breakdown, share = coated.breaks()["ring_to_ring_breakdown"], totals(coated)["film_share"]
     include = written(coated, tmp_path, **ARC)
     shaft = breakdown / share
     lines = [include, f"V1 a 0 PWL(0 0 1u {1.2 * shaft})", "X1 a 0 bearing"]
@@ -171,7 +171,7 @@ def test_between_its_nodes_the_table_is_near_the_bearing(over_speed, tmp_path):
     found = capacitance_of(tmp_path, include, "bearing speed=2500")
     assert found == pytest.approx(result.capacitance(), rel=2e-3)
     _, values = ramp(tmp_path, None, 1, 1e3, "bearing speed=2500", include)
-    expected = result.breaks()["through_breakdown"]
+    expected = result.breaks()["ring_to_ring_breakdown"]
     assert abs(values[first_drop(values)]) == pytest.approx(expected, rel=4e-3)
 
 
@@ -220,7 +220,7 @@ def test_the_bench_discharges_where_breakdown_is_expected(tmp_path):
     result = solved(motor__common_mode_voltage="1 kV", **MOTOR)
     write_netlist(result, tmp_path / "bearing.lib", bench=tmp_path / "bench.cir", **ARC)
     found = run_netlist(tmp_path / "bench.cir")
-    limit = result.breaks()["through_breakdown"]
+    limit = result.breaks()["ring_to_ring_breakdown"]
     assert result.shaft_voltage > limit
     # In a step of the edge of 0.2 us, a twentieth of it, the voltage rises by so much.
     step = 2.0 * result.shaft_voltage / 20.0

@@ -34,7 +34,7 @@ def test_panels(result):
 def test_bands_end_halfway_between_rows(result):
     speed, *_ = duty_panels(result.duty)
     ends = {area.name: area.x[area.within][[0, -1]].tolist() for area in speed.areas}
-    assert ends == {"standstill": [0.0, 15.0], "touching, λ < 1": [15.0, 25.0]}
+    assert ends == {"standstill": [0.0, 15.0], "boundary lubrication, λ < 1": [15.0, 25.0]}
 
 
 @pytest.mark.slow

@@ -148,7 +148,7 @@ def at_speed(rpm, capacitance, first, shaft, *, lubrication="full film", fill="o
         "capacitance_oil": capacitance,
         "capacitance_air": 0.9 * capacitance,
         "first_break": first,
-        "through_breakdown": None if first is None else 1.5 * first,
+        "ring_to_ring_breakdown": None if first is None else 1.5 * first,
         "shaft_voltage": shaft,
         "lubrication": lubrication,
         "lambda_ratio": {"conducting": 0.5, "partial film": 1.5, "full film": 6.0}[lubrication],
@@ -229,7 +229,7 @@ def test_film_shades_the_sector_without_load_and_shows_the_lambdas_that_are_near
     for angle, unloaded in zip(np.mod(angles, 2.0 * np.pi), free, strict=True):
         assert any(low <= angle <= high for low, high in ends) == unloaded
     # 0.2 um is lambda 6.7 of 0.03 um: a circle at lambda 3, 0.09 um, none at 1.
-    np.testing.assert_allclose(line(ax, "λ = 3: surfaces may touch inside").get_ydata(), 0.09, rtol=1e-12)
+    np.testing.assert_allclose(line(ax, "λ = 3: mixed lubrication inside").get_ydata(), 0.09, rtol=1e-12)
     assert not [found for found in ax.get_lines() if found.get_label().startswith("λ = 1")]
 
 
@@ -263,7 +263,7 @@ def test_voltages_of_contacts_are_those_of_the_bearing(result):
 @pytest.mark.parametrize(("apart", "lines"), [(1.0, 1), (1.3, 2)])
 def test_breakdowns_that_coincide_are_one_line_with_both_names(result, monkeypatch, apart, lines):
     found = result.breaks()
-    changed = found | {"shaft_through_breakdown": apart * found["shaft_first_break"]}
+    changed = found | {"shaft_ring_to_ring_breakdown": apart * found["shaft_first_break"]}
     monkeypatch.setattr(BearingResult, "breaks", lambda _: changed)
     ax = bearing_circuit_plot.breakdown_voltages(result)
     names = {line.get_label() for line in ax.get_lines() if line.get_label().endswith("breakdown")}
@@ -380,10 +380,7 @@ def test_the_command_draws_unless_told_not_to(result, monkeypatch, tmp_path):
         ({}, "isothermal, fully flooded film, minimum λ 6.7, contacts solved: voltages are upper bounds"),
         (
             {"film": 0.02e-6},
-            (
-                "isothermal, fully flooded film, minimum λ 0.67, contacts solved: "
-                "surfaces touch, at times at least"
-            ),
+            ("isothermal, fully flooded film, minimum λ 0.67, contacts solved: frequent asperity contact"),
         ),
         (
             {"bearing": {"film_factor": 0.6}},
@@ -530,7 +527,7 @@ def test_the_crossing_is_marked_named_and_in_the_title(points):
     named = f"{float(f'{CROSSING:.3g}'):g} rpm"
     assert named in [text.get_text().strip() for text in ax.texts]
     assert title_of(drawn) == [
-        f"Margin below 1 up to about {named}; contacts open and close below 774 rpm",
+        f"Margin below 1 up to about {named}; frequent asperity contact below 774 rpm",
         "By hand",
         "curves: contacts by formula",
     ]
@@ -541,7 +538,7 @@ def test_a_critical_speed_of_the_summary_is_that_of_the_figure(points):
     at_case[1]["margin"] = {"critical_speed": 1234.0 / RPM}
     drawn = speed_figure(points, SPEED_FIGURE_FILES[1], at_case=at_case)
     assert said(drawn).startswith(
-        "Margin below 1 up to about 1230 rpm; contacts open and close below 774 rpm (margin 1.40"
+        "Margin below 1 up to about 1230 rpm; frequent asperity contact below 774 rpm (margin 1.40"
     )
     (mark,) = [found for found in drawn.axes[0].get_lines() if found.get_markerfacecolor() == "white"]
     assert mark.get_xdata()[0] == pytest.approx(1234.0)
@@ -610,7 +607,7 @@ def test_title_and_verdict_name_one_range_of_speeds():
     """At 200 rpm, lambda 1.04, the margin is below 1 from the speed where surfaces part to 800 rpm."""
     result = example_at(200)
     low, high = re.search(r"below 1 at all speeds computed, (\d+) to (\d+) rpm", str(result.verdict)).groups()
-    text = f"Margin below 1 at all speeds from {low} rpm to {high} rpm; contacts open and close"
+    text = f"Margin below 1 at all speeds from {low} rpm to {high} rpm; frequent asperity contact"
     assert said(figure(result, SPEED_FIGURE_FILES[1])).startswith(text)
 
 
@@ -641,7 +638,7 @@ def test_breakdown_over_speed_shades_where_the_shaft_has_more(points):
     across = band.get_paths()[0].vertices[:, 0]
     np.testing.assert_allclose((across.min(), across.max()), [1000.0, CROSSING], rtol=2e-3)
     names = [text.get_text() for text in ax.get_legend().get_texts()]
-    assert [name.partition(":")[0] for name in names] == ["margin below 1", "λ < 1", "λ from 1 to 3"]
+    assert [name.partition(":")[0] for name in names] == ["margin below 1", "λ < 1", "1 ≤ λ < 3"]
 
 
 def test_speeds_at_which_contacts_open_are_shaded_and_in_the_title(points):
@@ -660,7 +657,7 @@ def test_speeds_at_which_contacts_open_are_shaded_and_in_the_title(points):
         assert ends[1] == (pytest.approx(opening, rel=0.03), pytest.approx(parted, rel=0.03))
         assert ends[0][1] >= ends[1][0]
         assert touching.get_hatch()
-    assert f"contacts open and close below {float(f'{opening:.3g}'):g} rpm" in said(
+    assert f"frequent asperity contact below {float(f'{opening:.3g}'):g} rpm" in said(
         speed_figure(points, SPEED_FIGURE_FILES[1])
     )
 
@@ -668,7 +665,7 @@ def test_speeds_at_which_contacts_open_are_shaded_and_in_the_title(points):
 def test_curves_are_scaled_to_a_bearing_of_solved_contacts(points):
     """5.6 V by formula and 5.0 V solved at 3000 rpm: the curve has 5.0 V there, and keeps its shape."""
     at_case = at_speed(3000.0, 1.8e-10, 5.0, 5.0)
-    at_case[1]["bearing"] |= {"contacts": "solved", "through_breakdown": 5.0}
+    at_case[1]["bearing"] |= {"contacts": "solved", "ring_to_ring_breakdown": 5.0}
     curves = curves_of(points, at_case)
     np.testing.assert_allclose(curves["first_break"], np.array([np.nan, 2.5, 5.6, 9.0]) * 5.0 / 5.6)
     np.testing.assert_allclose(curves["shaft_voltage"], np.array([3.5, 3.7, 4.0, 4.2]) * 5.0 / 4.0)
@@ -691,7 +688,7 @@ def test_curves_are_scaled_to_a_bearing_of_solved_contacts(points):
 def test_no_curve_runs_through_the_label_of_the_margin(points, first):
     """Whether the first breakdown is far above the shaft voltage of 4 V, a little, or below it."""
     at_case = at_speed(3000.0, 1.8e-10, first, 4.0)
-    at_case[1]["bearing"]["through_breakdown"] = first
+    at_case[1]["bearing"]["ring_to_ring_breakdown"] = first
     no_curve_in_labels(speed_figure(points, SPEED_FIGURE_FILES[1], at_case=at_case))
 
 

@@ -48,8 +48,8 @@ def test_a_map_shades_where_contacts_open(rough):
     for speed, kelvin, there in ((120.0, 345.0, True), (150.0, 335.0, True), (300.0, 335.0, False)):
         assert shaded(ax, speed * rpm, kelvin - 273.15) == there
     texts = [text.get_text() for text in ax.get_legend().get_texts()]
-    assert "3 without a voltage: contacts open and close" in texts
-    assert "surfaces touch there or nearby: discharges likely, no voltage computed" in texts
+    assert "3 frequent asperity contact: no voltage computed" in texts
+    assert "frequent asperity contact there or nearby: discharges likely, no voltage computed" in texts
     assert any(isinstance(found, Patch) and found.get_hatch() for found in ax.get_legend().legend_handles)
 
 
@@ -61,4 +61,4 @@ def test_lines_mark_where_contacts_open(rough):
 def test_the_title_says_how_many_touch(rough):
     text = of_slice(rough, select_slice(rough, SPEED, TEMPERATURE, MARGIN))
     assert text.startswith("No breakdown expected at all 6 points with a voltage: ")
-    assert text.endswith("; at 3 more, contacts open and close, discharges are likely")
+    assert text.endswith("; at 3 more, asperity contact is frequent, discharges are likely")

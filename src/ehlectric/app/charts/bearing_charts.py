@@ -15,8 +15,7 @@ from ehlectric.bearing import (
     Speeds,
     curves_of,
     listed,
-    regime,
-    touches,
+    lubrication_state,
 )
 from ehlectric.cases.defaults import OF_CONTACTS
 from ehlectric.figures.data import Panel, Upright
@@ -122,7 +121,7 @@ def speed_rows(over: OverSpeed) -> list[tuple[str, ...]]:
                 readable(lambda_ratio),
                 *(readable(1e12 * value, 4) for value in capacitances),
                 *(readable(value, 4) if math.isfinite(value) else "none" for value in (first, shaft, ratio)),
-                _state(lambda_ratio, summary["bearing"]["lubrication"], over.curves.summit_height),
+                _state(lambda_ratio, summary["bearing"]["lubrication_state"], over.curves.summit_height),
             )
         )
     return rows
@@ -132,6 +131,4 @@ def _state(lambda_ratio: float, quick: str, summit_height: float) -> str:
     """State of lubrication at a scaled lambda ratio; ``quick`` is the state at the estimated ratio."""
     if not math.isfinite(lambda_ratio):
         return quick
-    if touches(lambda_ratio, summit_height) and quick != "touching":
-        return "conducting"
-    return str(regime(lambda_ratio, summit_height))
+    return str(lubrication_state(lambda_ratio, summit_height))

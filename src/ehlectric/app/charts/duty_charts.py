@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from ehlectric.app.charts.plotly_panels import Plot, kept_nodes, stack
-from ehlectric.bearing import STATES, DutyResult
+from ehlectric.bearing import DutyResult, lubrication_names
 from ehlectric.figures.data import Along, Panel
 from ehlectric.figures.duty_panels import duty_panels, time_axis
 from ehlectric.quantities.formats import rpm_text, scale_of
@@ -47,6 +47,7 @@ def _named_once(panels: Iterable[Panel]) -> Iterator[Panel]:
 def duty_rows(duty: DutyResult) -> list[tuple[str, ...]]:
     """Cells of the table over the time, of rows evenly spaced in the file."""
     rows, celsius = duty.rows, scale_of("°C")
+    names = lubrication_names(rows.state, rows.lambda_ratio)
     return [
         (
             readable(rows.time[k], 6),
@@ -56,7 +57,7 @@ def duty_rows(duty: DutyResult) -> list[tuple[str, ...]]:
                 readable(column[k]) if column[k] == column[k] else "none"
                 for column in (rows.lambda_ratio, rows.margin)
             ),
-            STATES[int(rows.state[k])],
+            names[k],
         )
         for k in kept_nodes(rows.time.size, MOST_DUTY_ROWS).tolist()
     ]

@@ -64,6 +64,7 @@ from ehlectric.cases.defaults import HOW, Contacts, quick_way
 from ehlectric.errors import InputError
 from ehlectric.figures.ring_panels import film_panel, largest_gap, load_panel
 from ehlectric.quantities.formats import amount
+from ehlectric.quantities.lubrication_states import is_shorted
 from ehlectric.quantities.result_bounds import bearing_bounds
 from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.rows import Row, value_at
@@ -165,8 +166,8 @@ def _no_voltage(summary: Mapping[str, Any]) -> str:
     """Reason why there is no breakdown voltage."""
     if not summary["converged"]:
         return "not converged"
-    if summary["bearing"]["lubrication"] == "conducting":
-        return "λ is below 1: contacts open and close, and discharge as they do; this is not safe"
+    if is_shorted(summary):
+        return "asperity contact is frequent: contacts discharge as they open; this is not safe"
     return "no dielectric strength is given"
 
 

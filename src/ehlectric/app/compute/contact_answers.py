@@ -183,7 +183,7 @@ def answer_of(result: Result | PointResult) -> ContactAnswer:
     drawn = point_figures(result) if isinstance(result, PointResult) else line_figures(result)
     known = "film.minimum_thickness" if result.converged else ""
     if result.spots is not None:
-        known = "asperities.behaviour"
+        known = "asperities.electrical_behaviour"
     return ContactAnswer(
         title=result.case.title,
         verdict=verdict,

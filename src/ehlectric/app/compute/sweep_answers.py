@@ -47,6 +47,7 @@ from ehlectric.figures.sweep_panels import labelled, lines_panel, map_panel, nee
 from ehlectric.quantities.formats import CELSIUS, Scale
 from ehlectric.quantities.grouped_digits import certain
 from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key, input_at
+from ehlectric.quantities.lubrication_states import is_shorted
 from ehlectric.quantities.quantity import key_of
 from ehlectric.quantities.result_warnings import CODES
 from ehlectric.quantities.rows import value_at
@@ -209,7 +210,7 @@ def _values(results: SweepResults) -> dict[str, str]:
     return {
         key: f"{about.label[0].upper()}{about.label[1:]}"
         for key, about in entries.items()
-        if about is not None and about.label
+        if about is not None and about.label and not about.successor
     }
 
 
@@ -283,8 +284,8 @@ def _reason(point: Point, state: PointState) -> str:
         return "see its severe warning"
     if state == "no value":
         summary = point.summary or {}
-        if summary.get("bearing", {}).get("lubrication") == "conducting":
-            return "surfaces touch, at times at least: contacts open and close, and no voltage is computed"
+        if is_shorted(summary):
+            return "asperity contact is frequent, and no voltage is computed"
         return "the case has no such number"
     return point.reason
 

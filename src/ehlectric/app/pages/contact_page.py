@@ -194,7 +194,9 @@ class ContactPage(AnswerPage[ContactAnswer]):
     start = contact_start("line")
     kind = "contact"
     short: ClassVar[Mapping[str, str]] = {
-        **dict.fromkeys(("discharge.margin", "breakdown_by_formula.margin", "asperities.behaviour"), ""),
+        **dict.fromkeys(
+            ("discharge.margin", "breakdown_by_formula.margin", "asperities.electrical_behaviour"), ""
+        ),
         **dict.fromkeys(("film.minimum_thickness", *_FILMS_BY_FORMULA), "minimum film"),
     }
     quick, solved = CONTACT_QUICK, CONTACT_SOLVED
