@@ -38,6 +38,7 @@ from ehlectric.commands.command_line import app as commands
 from ehlectric.formulas import load_ratings as ratings
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import read_motion
+from ehlectric.quantities.lubrication_states import bands
 from ehlectric.quantities.units import printed
 from ehlectric.sweep import sweep_inputs
 
@@ -207,6 +208,10 @@ def _write(app: Sphinx) -> None:
     pages["estimated_bearings"] = _estimated_bearings(Path(app.srcdir) / "data" / "estimated_bearings.csv")
     for name, file in (("bearing", "bearing_6208"), ("motion", "moving_roughness")):
         pages[f"{name}_example"] = _example(Path(app.srcdir).parent / "examples" / f"{file}.toml")
+    pages["lubrication_states"] = table_text(
+        ["state", "lambda ratio for $k = 2$", "meaning"],
+        [[state.name, text, state.meaning] for state, _, _, text in reversed([*bands(2.0)])],
+    )
     for geometry in _CONTACTS:
         result = solve(_small(geometry))
         pages[f"variables_{geometry}"] = _variables(result.to_xarray())
