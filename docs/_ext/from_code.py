@@ -272,7 +272,7 @@ def _library(kind: str) -> str:
         values = ", ".join(f"{key.replace('_', ' ')} {_value(v)}" for key, v in table[kind[:-1]].items())
         source = table["source"]
         rows.append([f'`"{name}"`', values, source["citation"], source.get("assumption", "\N{EN DASH}")])
-    return table_text(["name", "values", "source", "assumption"], rows)
+    return "```{rst-class} sources\n```\n\n" + table_text(["name", "values", "source", "assumption"], rows)
 
 
 def _catalogue() -> str:

@@ -90,6 +90,12 @@ def test_blocks_and_numbers_of_pages_are_those_of_their_runs(run):
     agrees(run)
 
 
+def test_no_line_of_a_page_begins_with_the_comment_of_a_number():
+    """Markdown ends a paragraph before a line that begins with a comment."""
+    lines = [line for file in pages.pages() for line in file.read_text("utf-8").splitlines()]
+    assert [line for line in lines if re.match(r"\s*<!--\w+: ", line)] == []
+
+
 def test_the_readme_names_the_command_of_its_output():
     text = (ROOT / "README.md").read_text(encoding="utf-8")
     assert "ehlectric bearing examples/bearing_6208.toml --contacts atlas -o" in text
