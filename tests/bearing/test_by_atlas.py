@@ -133,7 +133,7 @@ def test_outside_the_atlas_the_film_is_by_formula_and_says_so(tables, load):
         contact_film(contact.conditions.contact, ring.oil)
     found = quick_contact(ring, load, "atlas")
     (warning,) = (one for one in found.warnings if one.code == "atlas-left")
-    assert f"may be {100.0 * found.error:.0f} % off" in str(warning)
+    assert f"may be wrong by {100.0 * found.error:.0f} %" in str(warning)
     # The error grows from the error at the edge with the distance from it.
     edge = edge_of(ring, load)
     parts = (1.0, 0.99, 0.9, 0.7, 0.1, 0.05)
@@ -179,7 +179,7 @@ def test_light_contacts_outside_the_atlas_are_a_note_and_do_not_count():
     for curve, name in zip(solution.curves, ("inner", "outer"), strict=True):
         loads = curve.loads[curve.left & curve.used]
         assert f"{len(loads)} {name} contacts at {loads[0]:.4g} to {loads[-1]:.4g} N" in str(note)
-    assert f"may be {100.0 * error:.0f} % off" in str(note)
+    assert f"may be wrong by {100.0 * error:.0f} %" in str(note)
     largest = max(contact.error for curve in solution.curves for contact in curve.counted.solutions)
     assert largest <= film_error(solution) < 0.15
     assert f"{100.0 * film_error(solution):.2g} %" in str(warnings["atlas-contacts"])
@@ -196,7 +196,7 @@ def test_a_loaded_contact_outside_the_atlas_is_a_warning_and_counts():
     left = [one for one in bearing_warnings(solution) if one.code == "atlas-left"]
     assert {one.severity for one in left} == {"warning"}
     error = max(np.max(curve.error[curve.left & curve.counted.used]) for curve in solution.curves)
-    assert any(f"may be {100.0 * error:.0f} % off" in str(one) for one in left)
+    assert any(f"may be wrong by {100.0 * error:.0f} %" in str(one) for one in left)
     assert film_error(solution) >= error > 0.1
 
 
