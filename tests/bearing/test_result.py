@@ -219,8 +219,7 @@ def test_lambda(rollers, ratio, lubrication, code):
     assert found["bearing"]["lambda_ratio"] == pytest.approx(ratio, rel=1e-9, abs=0.0)
     assert found["bearing"]["lubrication_state"] == lubrication
     shorted = ratio < 1.0
-    with pytest.warns(DeprecationWarning, match="use bearing.lubrication_state"):
-        assert (found["bearing"]["lubrication"] == "conducting") == shorted
+    assert (found["bearing"]["lubrication"] == "conducting") == shorted
     said = [one for one in found["warning_codes"] if one in ("touching", "partial-film")]
     assert said == ([] if code is None else [code])
     for key in (*BREAKS, "bearing_voltage_ratio", "shaft_voltage"):

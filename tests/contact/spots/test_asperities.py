@@ -202,7 +202,9 @@ def test_verdict_speaks_of_the_spots():
     assert f"touch in {found.spots.number} spot" in verdict.text
     assert f"The contact is {found.electrical.behaviour}" in verdict.text
     # The heading of the traffic light says the same.
-    lead = {"resistive": "The spots conduct", "mixed": "Discharges expected"}[found.electrical.behaviour]
+    lead = {"resistive": "The spots conduct", "intermittent": "Discharges expected"}[
+        found.electrical.behaviour
+    ]
     assert verdict.heading == lead
     rows = {row.key: row for row in result_rows(result)}
     assert "discharge.breakdown_voltage" not in rows

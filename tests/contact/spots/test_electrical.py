@@ -80,10 +80,10 @@ def test_time_share_is_that_of_sites_that_touch_at_random():
     [
         (0, 0.0, None, None, "capacitive"),
         (9, 1.0, 0.09, 0.1, "capacitive"),
-        (9, 1.0, 9.0, 0.1, "mixed"),
+        (9, 1.0, 9.0, 0.1, "intermittent"),
         (9, 1.0, 11.0, 0.1, "resistive"),
-        (9, 1.0, 11.0, 1.0, "mixed"),
-        (9, 0.94, 11.0, 0.1, "mixed"),
+        (9, 1.0, 11.0, 1.0, "intermittent"),
+        (9, 0.94, 11.0, 0.1, "intermittent"),
         (9, 1.0, None, 0.1, "resistive"),
     ],
 )
