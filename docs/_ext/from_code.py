@@ -19,6 +19,7 @@ from tempfile import TemporaryDirectory
 from typing import Any, Literal, get_args, get_origin
 
 import typer
+from equation_pages import equation_pages
 from oil_tables import oil_pages
 from result_keys import summary_pages
 from sphinx.application import Sphinx
@@ -216,7 +217,7 @@ def _write(app: Sphinx) -> None:
         result = solve(_small(geometry))
         pages[f"variables_{geometry}"] = _variables(result.to_xarray())
     pages["variables_motion"] = _variables(_moved(_small("line")))
-    pages |= summary_pages() | oil_pages() | warning_pages()
+    pages |= summary_pages() | oil_pages() | warning_pages() | equation_pages(Path(app.srcdir))
     for name, text in pages.items():
         path = folder / f"{name}.md"
         if not path.exists() or path.read_text(encoding="utf-8") != text:
