@@ -32,7 +32,7 @@ def test_a_bearing_and_its_bench_are_written(ehlectric, bearing, tmp_path):
     for text in ("bearing_6208 shaft housing", "C_films", "V_ext", "film.lib", "bench.cir"):
         assert text in done.stdout
     assert "note: the switch closes at the ring-to-ring breakdown voltage" in done.stderr
-    assert "warning: contacts by formula" in done.stderr
+    assert "warning: the contacts use film formulas" in done.stderr
     assert '.include "../film.lib"' in (tmp_path / "sim" / "bench.cir").read_text()
     shaft = solve_bearing(BearingCase.from_toml(bearing), workers=1).shaft_voltage
     found = run_netlist(tmp_path / "sim" / "bench.cir")
@@ -98,7 +98,7 @@ def test_a_drive_is_written_with_its_inverter(ehlectric, tmp_path):
     for words in (ARC[:2], ARC[2:], ("--speeds", "500 rpm")):
         done = ehlectric("spice", "drive.toml", *words)
         assert done.returncode == 2
-        assert done.stderr.startswith(f"error: {words[0]}: got it beside a drive file; expected ")
+        assert done.stderr.startswith(f"error: {words[0]}: got it with a drive file; expected ")
 
 
 @pytest.mark.slow

@@ -80,7 +80,8 @@ def test_keys_have_their_texts_units_and_examples():
     """Beside each other: what a key is, its bounds in words, and values of the examples."""
     load = schema_of("bearing")["definitions"]["Bearing"]["properties"]["radial_load"]
     assert load["description"].startswith(
-        "radial load, F_r, force on the inner ring across the axis\na number in N or a string with its unit"
+        "radial load F_r: force on the inner ring perpendicular to the axis\n"
+        "a number in N or a string with its unit"
     )
     assert "1800 N" in load["examples"]
     assert {"type": "string"} in load["anyOf"]

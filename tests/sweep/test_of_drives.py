@@ -174,7 +174,7 @@ def test_keys_of_drives_are_none_of_contacts_and_bearings(key):
 def test_one_end_does_not_vary_beside_both():
     """The order of the keys would decide which of the values counts."""
     one = "drive_end.bearing.radial_load"
-    with pytest.raises(InputError, match=rf"^vary\.{one}: varies beside {LOAD}"):
+    with pytest.raises(InputError, match=rf"^vary\.{one}: varies together with {LOAD}"):
         over({LOAD: [1e3, 2e3], one: [1e3, 2e3]})
     assert over({one: [1e3, 2e3], "non_drive_end.bearing.radial_load": [1e3], "title": ["A"]}).size == 2
 
