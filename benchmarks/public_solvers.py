@@ -1,4 +1,4 @@
-"""Solve examples/ball_contact.toml with public packages, and print the table of performance.md.
+"""Solve examples/ball_contact.toml with public packages, and print the table of packages.md.
 
 python benchmarks/public_solvers.py
 
@@ -236,7 +236,7 @@ def _row(name: str, grid: str, taken: dict[str, Any]) -> tuple[str, ...]:
 
 
 def main() -> None:
-    """Print the table of docs/validation/performance.md."""
+    """Print the table of docs/validation/packages.md."""
     head = ("package", "grid", "seconds", "h_min [µm]", "h(0) [µm]", "converged", "what it says")
     rows = [*own_rows()]
     for package in PACKAGES:
