@@ -74,8 +74,10 @@ def told_of(rows, doubtful):
 
 
 def failures(stderr):
-    """What is on stderr beside the warnings of solved points and, on a slow machine, the progress."""
-    known = re.compile(r" solved points have |^\d+ of \d+ points, .* left$")
+    """What is on stderr in addition to warnings of solved points, the note on their domains, and progress."""
+    known = re.compile(
+        r" solved points have |^note: the inlet of the domain is at |^\d+ of \d+ points, .* left$"
+    )
     return "".join(line for line in stderr.splitlines(True) if not known.search(line.rstrip("\n")))
 
 
