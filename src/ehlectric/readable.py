@@ -137,3 +137,14 @@ def ratio_text(ratio: Any) -> str:
         return readable(ratio, 2)
     text = f"{ratio:.2f}"
     return readable(ratio, 4) if text == "1.00" else text
+
+
+def capital(text: str) -> str:
+    """Return a text with a capital letter at its beginning.
+
+    Examples
+    --------
+    >>> capital("first breakdown"), capital("")
+    ('First breakdown', '')
+    """
+    return f"{text[:1].upper()}{text[1:]}"

@@ -26,7 +26,7 @@ from ehlectric.formulas import film_point as point_formulas
 from ehlectric.lubricant.oil import Oil
 from ehlectric.quantities.formats import CELSIUS
 from ehlectric.quantities.result_warnings import ResultWarning, WarningCondition, active
-from ehlectric.readable import readable
+from ehlectric.readable import capital, readable
 
 # Hertz pressure at which bearing steel deforms permanently in line and in point contacts (ISO 76) [Pa].
 PERMANENT = {"line": 4e9, "point": 4.2e9}
@@ -259,9 +259,7 @@ def _advice(setup: Case | Setup, film: Film | PointFilm) -> str:
         hardness = setup.contact.hardness if isinstance(setup, Case) else None
         soft = "" if hardness is None else "raise or omit contact.hardness, "
         advice = f"{soft}lower the roughness, or raise speed or viscosity"
-        return (
-            f"{advice[0].upper()}{advice[1:]}; use more grid.nodes only if they do not resolve the roughness"
-        )
+        return f"{capital(advice)}; use more grid.nodes only if they do not resolve the roughness"
     if film.heated is not None and film.heated.thermal:
         return unconverged_heat(film.heated, film.scales.pressure)
     spacing = float(film.x[1] - film.x[0]) / film.scales.length
@@ -373,5 +371,4 @@ def inaccurate_field(
         advice = f"raise grid.field_degree to {min(sufficient, MOST_DEGREE)}, or {advice}"
         if degree >= MOST_DEGREE:
             advice = "remove waves that are far shorter than the film is thick, as by a cutoff_short"
-    advice = f"{advice[0].upper()}{advice[1:]}"
-    return ResultWarning.of("field-unresolved", "inaccurate", percent=100 * error, advice=advice)
+    return ResultWarning.of("field-unresolved", "inaccurate", percent=100 * error, advice=capital(advice))

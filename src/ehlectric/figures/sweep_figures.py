@@ -43,7 +43,7 @@ from ehlectric.figures.sweep_points import held_text, name_figure
 from ehlectric.quantities.formats import OF_TIME, Scale, time_share_text
 from ehlectric.quantities.inputs import SPEED
 from ehlectric.quantities.palette import BLUE, GREY, ORANGE
-from ehlectric.readable import ratio_text, readable
+from ehlectric.readable import capital, ratio_text, readable
 from ehlectric.sweep import (
     LEVEL,
     Sensitivity,
@@ -71,7 +71,7 @@ def of_slice(results: SweepResults, selection: Slice) -> str:
             return _of_time(finite)
         low, high = (readable(scale.of(float(of(finite)))) for of in (np.min, np.max))
         ends = low if low == high else f"{low} to {high}"
-        return f"{label.name[:1].upper()}{label.name[1:]}: {ends} {scale.unit}".rstrip()
+        return f"{capital(label.name)}: {ends} {scale.unit}".rstrip()
     return _of_margins(results, selection, margin) + _intermittent(selection)
 
 
@@ -151,7 +151,7 @@ def of_sensitivity(results: SweepResults, analysis: Sensitivity) -> str:
     most: Any = max(analysis.indices, key=lambda index: index.total)
     value = label_of(analysis.value, results.case).name
     name = label_of(most.key, results.case).name
-    text = f"{name[:1].upper()}{name[1:]} has {100.0 * most.total:.0f} % of the variance"
+    text = f"{capital(name)} has {100.0 * most.total:.0f} % of the variance"
     if analysis.share_below_voltage is None:
         return f"{text} of the {value}"
     voltage = breakdown_of(results.case, analysis.value).voltage_name

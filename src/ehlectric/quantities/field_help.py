@@ -13,6 +13,7 @@ from typing import Any
 from ehlectric.quantities.inputs import Input, attributes, first_clause, input_at, plain_text
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.units import printed, rounded
+from ehlectric.readable import capital
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,7 +67,7 @@ def help_text(key: str) -> str:
         raise KeyError(key)
     about, meaning = help_at(key), plain_text(first_clause(entry.meaning))
     parts = [meaning, about.more.rstrip("."), _usual_text(entry, about), _effect_text(about)]
-    return " ".join(f"{part[0].upper()}{part[1:]}." for part in parts if part)
+    return " ".join(f"{capital(part)}." for part in parts if part)
 
 
 def _usual_text(entry: Input, about: Help) -> str:

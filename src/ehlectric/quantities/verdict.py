@@ -13,12 +13,12 @@ from ehlectric.quantities.statement import Bound, Fact, Level, Statement
 from ehlectric.quantities.verdict_texts import (
     assumed_text,
     bound_words,
-    capital,
     first_words,
     heading,
     lines_of,
     statement_text,
 )
+from ehlectric.readable import capital
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from ehlectric.quantities.formats import CELSIUS, amount, rpm_text, speed_text, 
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.result_warnings import CODES
 from ehlectric.quantities.statement import Bound, Level, Statement
-from ehlectric.readable import bounds_text, chance_text, mean_text, ratio_text, readable
+from ehlectric.readable import bounds_text, capital, chance_text, mean_text, ratio_text, readable
 
 
 @cache
@@ -98,11 +98,6 @@ def statement_text(statement: Statement, at: str = "", form: str = "text") -> st
     template = entry.get(form, entry["text"])
     values = {name: _rendered(value, at, form) for name, value in statement.values.items()}
     return _Ways().vformat(template, (), {"at": at, **values})
-
-
-def capital(text: str) -> str:
-    """Text with a capital letter at its beginning."""
-    return f"{text[:1].upper()}{text[1:]}"
 
 
 def first_words(code: str, answer: Statement | None) -> str:

@@ -23,7 +23,7 @@ from ehlectric.quantities.result_warnings import CODES
 from ehlectric.quantities.results import BEARING_BOOK, NAMES_OF_ENDS
 from ehlectric.quantities.rows import Row, Summary, placed
 from ehlectric.quantities.sheets import FIRST_PAGE_OF_BEARING, FIRST_PAGE_OF_LIFE
-from ehlectric.readable import chance_text, ratio_text, readable
+from ehlectric.readable import capital, chance_text, ratio_text, readable
 from ehlectric.report.appendix import given_inputs, input_text, named
 from ehlectric.report.report_content import Block, Light, Numbers, Part, Picture, Section, Table, Text
 from ehlectric.report.report_facts import alarms_of, pictures_of
@@ -109,7 +109,7 @@ def _number(
     """Label, value and note of a large number; ``places``, what the label names besides the quantity."""
     row = rows[key]
     row = replace(row, digits=".3g") if row.digits == ".4g" else row
-    label = ", ".join(filter(None, [f"{row.name[:1].upper()}{row.name[1:]}", *places]))
+    label = ", ".join(filter(None, [capital(row.name), *places]))
     below = [
         f"{rows[name].name.removeprefix(f'{row.name}, ')} {rows[name].bounded}{_unit(rows[name])}"
         for name in further
@@ -310,7 +310,7 @@ def machine_of(case: BearingCase | DriveCase, summary: Mapping[str, Any]) -> str
         sentence = f"{source}, {_motor(*motor)}; {both}"
     if "duty" in summary:
         sentence += f"; beside this operation a duty cycle of {readable(summary['duty']['duration'], 6)} s"
-    return with_units_kept(f"{sentence[:1].upper()}{sentence[1:]}.")
+    return with_units_kept(f"{capital(sentence)}.")
 
 
 _MOTOR = (

@@ -39,6 +39,7 @@ from ehlectric.errors import short
 from ehlectric.quantities.palette import GREY, LIGHTS
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.result_warnings import SEVERITY_WORDS
+from ehlectric.readable import capital
 from ehlectric.report.pdf_letters import FOLDER, marked, runs_of
 from ehlectric.report.report_content import (
     Cell,
@@ -331,7 +332,7 @@ def _story(report: Report) -> Iterator[Flowable]:
 
 def _top(report: Report) -> list[Flowable]:
     """Title of a report, with what it is and its date."""
-    kind = f"{report.kind[0].upper()}{report.kind[1:]}. Report made on {_shown(report.date)}"
+    kind = f"{capital(report.kind)}. Report made on {_shown(report.date)}"
     return [Paragraph(marked(report.title), style("title")), Paragraph(marked(kind), style("soft"))]
 
 

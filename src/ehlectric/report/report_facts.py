@@ -17,7 +17,7 @@ from ehlectric.figures.result_figures import default_figure, figure, figure_name
 from ehlectric.quantities.quantity import unbroken
 from ehlectric.quantities.result_warnings import CODES, ResultWarning, Severity
 from ehlectric.quantities.rows import Row, value_at
-from ehlectric.readable import readable
+from ehlectric.readable import capital, readable
 from ehlectric.report.appendix import worded
 from ehlectric.report.report_content import DOI, Link, Part, Picture, Table, Text, WarningLine, Warnings
 from ehlectric.report.report_texts import SENTENCES, TEXTS
@@ -77,7 +77,7 @@ def lead_of(result: Any) -> str:
     if isinstance(result, BearingResult) and result.case.bearing.base:
         # The name of a bearing keeps its letters.
         line = f"Bearing {line}"
-    return unbroken(f"{line[:1].upper()}{line[1:]}.")
+    return unbroken(f"{capital(line)}.")
 
 
 def row_tables(rows: Iterable[Row], title: str) -> Iterator[Table | Text]:

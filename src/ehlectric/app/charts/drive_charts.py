@@ -28,7 +28,7 @@ from ehlectric.figures.duty_panels import drive_duty_panels
 from ehlectric.figures.duty_panels import time_axis as time_axis_of_cycle
 from ehlectric.quantities.formats import rpm_text, scale_of
 from ehlectric.quantities.results import EVENT_KEYS, STATISTICS
-from ehlectric.readable import formatted, readable
+from ehlectric.readable import capital, formatted, readable
 
 # Largest number of discharges of a bearing in the table.
 _LISTED = 400
@@ -154,7 +154,7 @@ def spectrum_figure(result: DriveResult) -> Figure:
 
 def _distribution(result: DriveResult, key: str) -> Figure:
     about, (along, panel) = EVENT_KEYS[key], findings.distribution_of(result, key)
-    words = f"{about.label[:1].upper()}{about.label[1:]}"
+    words = capital(about.label)
     ends = [end_summary(result.solution, b) for b in range(2)]
     rows = [
         (name, *(_cell(end, f"{key}_{short}", along.unit, about.digits) for end in ends))
@@ -164,7 +164,7 @@ def _distribution(result: DriveResult, key: str) -> Figure:
     lead = caption
     if key in ("energy", "charge", "peak_current"):
         line = findings.arc_line(result)
-        caption = f"{caption}. {line[:1].upper()}{line[1:]}."
+        caption = f"{caption}. {capital(line)}."
     heads = ("", *(f"{name} [{along.unit}]" for name in NAMES))
     return Figure(
         words,

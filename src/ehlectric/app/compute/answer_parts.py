@@ -20,7 +20,7 @@ from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.quantity import Quantity
 from ehlectric.quantities.result_warnings import CODES, ResultWarning
 from ehlectric.quantities.rows import Row, row_of
-from ehlectric.readable import ratio_text
+from ehlectric.readable import capital, ratio_text
 from ehlectric.runs.file_kinds import FileKind, kind_of_tables
 from ehlectric.sweep import Sweep
 
@@ -59,7 +59,7 @@ def card(row: Row) -> Number:
     >>> found.label, found.text, found.note
     ('Margin', '1.2', 'of the film')
     """
-    label = f"{row.name[:1].upper()}{row.name[1:]}"
+    label = capital(row.name)
     return Number(row.key, label, row.shown, row.unit, row.note.strip(" ,;:"), row.bound)
 
 

@@ -70,7 +70,7 @@ from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.rows import Row, value_at
 from ehlectric.quantities.sheets import BEARING_CARDS, DIFFERENCES, PAGE_COLUMNS
 from ehlectric.quantities.verdict import Verdict
-from ehlectric.readable import ratio_text, readable
+from ehlectric.readable import capital, ratio_text, readable
 from ehlectric.report.report_texts import TEXTS
 from ehlectric.runs.by_kind import run_bearing
 from ehlectric.runtime.files import plain
@@ -485,7 +485,7 @@ def _speed_figures(over: OverSpeed, *, bound: bool) -> dict[str, Figure]:
         label = " and ".join(name.replace("breakdown", "breakdown voltage") for name in drawn)
         figures["breakdown"] = Figure(
             "Breakdown voltage over speed" if breaks else "Shaft voltage over speed",
-            f"{label[0].upper()}{label[1:]} over the speed of the inner ring",
+            f"{capital(label)} over the speed of the inner ring",
             breakdown_figure(over),
             table,
             f"{'Breakdown voltages are upper bounds, with' if breaks and ideal else 'With'} "

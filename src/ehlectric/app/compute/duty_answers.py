@@ -16,7 +16,7 @@ from ehlectric.quantities.quantity import Quantity
 from ehlectric.quantities.result_bounds import bearing_bounds
 from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.rows import Row, row_of
-from ehlectric.readable import readable
+from ehlectric.readable import capital, readable
 from ehlectric.tables.bearing_tables import total_rows
 
 _STRETCH = "duty.stretches"
@@ -47,8 +47,8 @@ def shown_duty(duty: DutyResult, summary: Mapping[str, Any]) -> DutyAnswer:
         lines=lines_of(row for row in rows if not row.key.startswith(_STRETCH)),
         stretches=_stretches_table(summary),
         figure=Figure(
-            f"{what[0].upper()}{what[1:]} over the duty cycle",
-            f"{what[0].upper()}{what[1:]} over the time, with bands of the states of lubrication",
+            f"{capital(what)} over the duty cycle",
+            f"{capital(what)} over the time, with bands of the states of lubrication",
             duty_figure(duty),
             Table(caption, DUTY_HEADS, tuple(duty_rows(duty))),
         ),

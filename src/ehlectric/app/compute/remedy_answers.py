@@ -16,6 +16,7 @@ from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.rows import Summary
 from ehlectric.quantities.sheets import REMEDIED
 from ehlectric.quantities.verdict import Verdict
+from ehlectric.readable import capital
 from ehlectric.tables.bearing_tables import total_rows
 
 # Text instead of a number that one of both does not have.
@@ -68,7 +69,7 @@ def _answer(
         texts = now.get(key, _NONE), then.get(key, _NONE)
         if texts[0] != texts[1] or PENDING in texts or (key == "bearing.margin" and key in now):
             label = BEARING_BOOK[key].label
-            rows.append((f"{label[:1].upper()}{label[1:]}", *texts))
+            rows.append((capital(label), *texts))
     caption = f"With {remedy.title.lower()}; contacts {HOW[result.case.contacts]}"
     return RemedyAnswer(Table(caption, ("", "now", "with it"), tuple(rows)), whole)
 

@@ -54,7 +54,7 @@ from ehlectric.quantities.rows import value_at
 from ehlectric.quantities.sheets import SWEEPS, at_ends
 from ehlectric.quantities.units import in_unit, rpm, si_unit, split
 from ehlectric.quantities.verdict import Verdict
-from ehlectric.readable import ratio_text, readable
+from ehlectric.readable import capital, ratio_text, readable
 from ehlectric.runs.by_kind import run_sweep
 from ehlectric.runtime.display import is_number
 from ehlectric.sweep import (
@@ -208,7 +208,7 @@ def _values(results: SweepResults) -> dict[str, str]:
     some = replace(results, points=tuple(point for point in results.points if point.solved)[:_SAMPLE])
     entries = {key: key_of(documented, key) for key in known_values(some) if not key.startswith("inputs.")}
     return {
-        key: f"{about.label[0].upper()}{about.label[1:]}"
+        key: capital(about.label)
         for key, about in entries.items()
         if about is not None and about.label and not about.successor
     }
@@ -406,7 +406,7 @@ def named(key: str, case: SweptCase) -> str:
     name = _NAMES.get(key) or label_of(key, case).name
     if name == key:
         name = key.rpartition(".")[2].replace("_", " ")
-    return name[0].upper() + name[1:]
+    return capital(name)
 
 
 # Names by which people look for a result.

@@ -18,6 +18,7 @@ from ehlectric.quantities.grouped_digits import certain
 from ehlectric.quantities.inputs import attributes, form, input_at
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.units import in_unit, parts, printed, rounded, si_unit, split
+from ehlectric.readable import capital
 
 
 @cache
@@ -288,7 +289,7 @@ def field_of(key: str, **more: Any) -> Field:
     if entry is None:
         raise KeyError(key)
     values = {
-        "label": entry.label[0].upper() + entry.label[1:],
+        "label": capital(entry.label),
         "unit": entry.shown,
         "low": entry.slider[0],
         "high": entry.slider[1],

@@ -12,6 +12,7 @@ from ehlectric.app.pages.page_parts import figure, mark, say, scrolling_table
 from ehlectric.app.view_models import Deciding, Figure, Gauge, Note, Number, PageWarning, Table, counts
 from ehlectric.quantities.result_warnings import SEVERITY_WORDS
 from ehlectric.quantities.verdict import Verdict
+from ehlectric.readable import capital
 
 
 class Panel:
@@ -236,7 +237,7 @@ class NoteList:
         """Show notes under their count."""
         self.box.set_visibility(True)
         count = counts(note.warning for note in notes)
-        self._head.text = f"{count[:1].upper()}{count[1:]}"
+        self._head.text = capital(count)
         self._list.content = "".join(map(note_html, notes))
 
 

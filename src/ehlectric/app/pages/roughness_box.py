@@ -28,6 +28,7 @@ from ehlectric.app.session import Session
 from ehlectric.app.view_models import SummitsTable, SurfaceAnswer, Table
 from ehlectric.app.work import Job
 from ehlectric.errors import InputError, LostError
+from ehlectric.readable import capital
 
 Changed = Callable[[str, Any], Awaitable[None]]
 
@@ -82,7 +83,7 @@ def show_surface(answer: SurfaceAnswer) -> None:
 
 def _show_summits(summits: SummitsTable) -> None:
     """Table of the summits, which bearings and models of asperities take."""
-    title = summits.title[0].upper() + summits.title[1:]
+    title = capital(summits.title)
     table = Table(title, summits.heads, summits.rows)
     ui.html(table_html(table, "surface-summits"), sanitize=False)
     ui.label(summits.note).classes("soft")
