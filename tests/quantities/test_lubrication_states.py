@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ehlectric.bearing.cycle_rows import PARTIAL_FILM, TOUCHING, lubrication_names
-from ehlectric.bearing.solution import contact_limit, lubrication_state, touches
+from ehlectric.bearing.solution import contact_limit, full_film_limit, lubrication_state, touches
 from ehlectric.quantities.lubrication_states import FORMER_WORDS, STATES, bands, inner_states, limits
 
 # Height of the highest summits divided by the composite roughness, and states with their ranges by hand.
@@ -39,6 +39,7 @@ def test_states_without_a_voltage_are_those_of_bearings_without_one(height):
         if ratio > 0.0:
             assert voltages[str(lubrication_state(ratio, height))] == (not touches(ratio, height))
     assert contact_limit(height) == limits(height)[1] == next(inner_states(height))[0]
+    assert full_film_limit(height) == limits(height)[2]
 
 
 def test_rows_of_a_duty_cycle_are_on_the_scale():

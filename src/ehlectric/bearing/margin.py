@@ -31,6 +31,7 @@ from ehlectric.bearing.quick_contacts import formula_factor, is_quick, required_
 from ehlectric.bearing.solution import (
     BearingSolution,
     contact_limit,
+    full_film_limit,
     insulating,
     lambda_ratio,
 )
@@ -44,7 +45,6 @@ from ehlectric.bearing.uncertain_inputs import (
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import InputError
 from ehlectric.quantities.formats import speed_text
-from ehlectric.quantities.lubrication_states import FULL_FILM_LIMIT
 
 # Inputs of strength laws that only solved contacts have: others replace them by a constant strength.
 ONLY_SOLVED = ("discharge.weibull.shape", "discharge.weibull.reference_area")
@@ -301,7 +301,7 @@ def speed_range(margins: QuickMargins) -> SpeedRange:
 def _logarithms(points: Array, summit_height: float) -> Array:
     """Quantities that cross 0, shape (3, n), from margins and lambda ratios, shape (2, n)."""
     margin, ratio = points
-    limits = np.maximum(FULL_FILM_LIMIT, summit_height), contact_limit(summit_height)
+    limits = full_film_limit(summit_height), contact_limit(summit_height)
     return np.stack([log_of(margin), *(log_of(ratio / limit) for limit in limits)])
 
 

@@ -382,6 +382,19 @@ def contact_limit(summit_height: Numbers) -> Numbers:
     return np.maximum(BOUNDARY_LIMIT, summit_height)
 
 
+def full_film_limit(summit_height: Numbers) -> Numbers:
+    """Return the lambda ratio from which a film is full, shape (...), as ``lubrication_states.limits``.
+
+    ``summit_height`` in units of the composite Rq, shape (...).
+
+    Examples
+    --------
+    >>> float(full_film_limit(2.0)), float(full_film_limit(4.0))
+    (3.0, 4.0)
+    """
+    return np.maximum(FULL_FILM_LIMIT, summit_height)
+
+
 def part_over_summits(ratio: Numbers, summit_height: Numbers) -> Array:
     """Gap under the highest summits over the film, by its lambda ratio, shape (...); NaN where there is none.
 
@@ -436,12 +449,11 @@ def lubrication_state(ratio: Numbers, summit_height: Numbers = 0.0, *, loaded: A
     >>> lubrication_state(1.0), lubrication_state(0.9), lubrication_state(90.0, loaded=False)
     ('mixed lubrication', 'boundary lubrication', 'gap')
     """
-    full = np.maximum(FULL_FILM_LIMIT, summit_height)
     return labels(
         (np.logical_not(loaded), GAP),
         (np.asarray(ratio) < BOUNDARY_LIMIT, BOUNDARY.name),
         (ratio <= np.asarray(summit_height), FREQUENT.name),
-        (ratio < full, MIXED.name),
+        (ratio < full_film_limit(summit_height), MIXED.name),
         FULL.name,
     )
 
