@@ -134,7 +134,7 @@ lint: $(VENV)/.dev
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 	$(BIN)/python tools/lint_house.py
-	$(BIN)/python tools/lint_prose.py
+	$(BIN)/python -m tools.lint_prose
 
 check: lint test
 

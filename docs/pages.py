@@ -9,10 +9,14 @@ DOCS = Path(__file__).parent
 _BUILT = {"_build", "_generated", "api", "auto_gallery"}  # folders that a build writes
 
 
+def written_pages(docs: Path = DOCS) -> list[Path]:
+    """Return the files of the pages in a folder that are written by hand, sorted."""
+    return [file for file in sorted(docs.rglob("*.md")) if not _BUILT & set(file.relative_to(docs).parts)]
+
+
 def pages() -> list[Path]:
     """Return the files of all pages that are written by hand, README.md first."""
-    files = sorted(DOCS.rglob("*.md"))
-    return [DOCS.parent / "README.md", *(file for file in files if not _BUILT & set(file.parts))]
+    return [DOCS.parent / "README.md", *written_pages()]
 
 
 def page(name: str) -> str:
@@ -20,7 +24,7 @@ def page(name: str) -> str:
 
     Raises LookupError unless exactly one page below docs matches.
     """
-    files = [file for file in pages()[1:] if file.as_posix().endswith(f"/{name}")]
+    files = [file for file in written_pages() if file.as_posix().endswith(f"/{name}")]
     if len(files) != 1:
         raise LookupError(f"{len(files)} pages are called {name}")
     return files[0].read_text("utf-8")

@@ -1,9 +1,9 @@
 """Count constructions that make the texts of this repository hard to read, and reject a count that rises.
 
-`make lint` runs `python tools/lint_prose.py`. The allowed counts, for each rule and each group of texts, are
+`make lint` runs `python -m tools.lint_prose`. The allowed counts, for each rule and each group of texts, are
 in tools/prose_counts.toml. If a count is higher, the exit status is 1.
 
-`python tools/lint_prose.py C5` lists all places of a rule. `--renew` lowers the allowed counts to the counts
+`python -m tools.lint_prose C5` lists all places of a rule. `--renew` lowers the allowed counts to the counts
 of the texts, and raises none. `--table` prints the counts, and the lengths of pages and sentences.
 """
 
@@ -20,6 +20,8 @@ from collections.abc import Callable, Iterator
 from functools import cached_property
 from pathlib import Path
 from typing import Any, NamedTuple
+
+from docs.pages import written_pages
 
 ROOT = Path(__file__).parents[1]
 COUNTS = Path("tools/prose_counts.toml")
@@ -94,8 +96,7 @@ class Texts:
     @cached_property
     def pages(self) -> list[Path]:
         """Return the pages of the documentation that are written by hand."""
-        generated = {"_build", "_generated", "api", "auto_gallery"}
-        return [file for file in sorted((self.root / "docs").rglob("*.md")) if not generated & {*file.parts}]
+        return written_pages(self.root / "docs")
 
     @cached_property
     def groups(self) -> dict[str, list[Line]]:
@@ -597,7 +598,7 @@ def faults(root: Path, places: dict[str, list[Place]]) -> list[str]:
                 message += f" Write instead: {rule.write}."
                 if not new:
                     message += (
-                        f" No changed line contains one; python tools/lint_prose.py {name} lists all places."
+                        f" No changed line contains one; python -m tools.lint_prose {name} lists all places."
                     )
                 messages.append("\n".join([message, *map(_shown, new)]))
     return messages
@@ -630,7 +631,7 @@ def changed_lines(root: Path) -> dict[str, set[int]]:
 
 HEADER = """\
 # Allowed counts of constructions that make texts hard to read, by rule of tools/lint_prose.py and group of
-# texts. A count may fall and must not rise: `python tools/lint_prose.py --renew` lowers it. A group without a
+# texts. A count may fall and must not rise: `python -m tools.lint_prose --renew` lowers it. A group without a
 # number may contain none.
 """
 
