@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.legend import Legend
 
 from ehlectric.arrays import Array
 from ehlectric.bearing import (
@@ -404,10 +405,17 @@ def figure(result: BearingResult, name: str) -> Figure:
 def _make_room(figure: Figure, axes: Sequence[Axes]) -> None:
     """Make a figure of polar panels higher where its title or a legend has more lines than usual."""
     legends = (ax.get_legend() for ax in axes)
-    rows = max(math.ceil(len(legend.get_texts()) / 2) for legend in legends if legend is not None)
+    rows = max(_rows(legend) for legend in legends if legend is not None)
     lines = figure.get_suptitle().count("\n") + 1
     more = max(0, lines - _LINES) + max(0, rows - _ROWS)
     figure.set_figheight(figure.get_figheight() + _LINE * more)
+
+
+def _rows(legend: Legend) -> int:
+    """Number of lines of a legend whose entries fill two columns, the first column first."""
+    lines = [text.get_text().count("\n") + 1 for text in legend.get_texts()]
+    first = math.ceil(len(lines) / 2)
+    return max(sum(lines[:first]), sum(lines[first:]))
 
 
 def speed_figure(points: Speeds, name: str, title: str = "", *, at_case: Speed | None = None) -> Figure:

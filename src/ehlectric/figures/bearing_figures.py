@@ -26,6 +26,7 @@ from ehlectric.bearing import (
 from ehlectric.figures import contact_findings
 from ehlectric.figures.data import Panel, is_wide, with_unit
 from ehlectric.figures.draw import draw_area, draw_curves, line_look
+from ehlectric.figures.figure_names import broken
 from ehlectric.figures.ring_panels import film_panel, load_panel
 from ehlectric.figures.speed_panels import SHAFT, breakdown_lines
 from ehlectric.figures.style import (
@@ -191,18 +192,24 @@ def _radius(ax: Axes, panel: Panel, at: float) -> None:
         ax.text(at, tick, f"{tick:g}", path_effects=outlined(2.4), **where)
 
 
+# Letters of a line, and lines of an entry, of a legend with two columns below one of two rings.
+_LETTERS, _LINES = 30, 2
+
+
 def _legend_below(ax: Axes) -> None:
-    handles, names = ax.get_legend_handles_labels()
-    labels = [name.partition(": surfaces")[0] for name in names]
+    handles, labels = ax.get_legend_handles_labels()
     order = sorted(range(len(labels)), key=lambda k: ("inner" not in labels[k], "outer" not in labels[k], k))
     ax.legend(
         [handles[k] for k in order],
-        [labels[k] for k in order],
+        [broken(labels[k], _LETTERS, _LINES) for k in order],
         loc="upper center",
         bbox_to_anchor=(0.5, -0.1),
         ncols=2,
         frameon=False,
-        columnspacing=1.4,
+        columnspacing=1.0,
+        labelspacing=0.35,
+        borderpad=0.1,
+        handlelength=1.5,
     )
 
 

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 from typer.testing import CliRunner
 
+import ehlectric
 from ehlectric import solve_bearing
 from ehlectric.app.charts.bearing_charts import ring_figure
 from ehlectric.bearing.preparation import equilibria_of, resolve_bearing
@@ -231,6 +232,17 @@ def test_film_shades_the_sector_without_load_and_shows_the_lambdas_that_are_near
     # 0.2 um is lambda 6.7 of 0.03 um: a circle at lambda 3, 0.09 um, none at 1.
     np.testing.assert_allclose(line(ax, "λ = 3: mixed lubrication inside").get_ydata(), 0.09, rtol=1e-12)
     assert not [found for found in ax.get_lines() if found.get_label().startswith("λ = 1")]
+
+
+@pytest.mark.parametrize("style", ["screen", "journal"])
+def test_legends_below_the_rings_lie_within_the_figure(style):
+    """Both circles are drawn: their states have the longest names."""
+    drawn = ehlectric.figure(by_hand(film=0.07e-6), "bearing_loads.png", style=style)
+    drawn.canvas.draw()
+    for ax in drawn.axes:
+        box, page = ax.get_legend().get_window_extent(), drawn.bbox
+        assert page.x0 <= box.x0 < box.x1 <= page.x1
+        assert page.y0 <= box.y0 < box.y1 <= page.y1
 
 
 def test_lines_go_once_around_through_all_positions(result):
