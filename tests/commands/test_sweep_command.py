@@ -369,3 +369,18 @@ def test_a_script_without_a_main_guard_sweeps(tmp_path, swept):
     done = subprocess.run([sys.executable, script], cwd=tmp_path, capture_output=True, text=True, timeout=600)
     assert (done.returncode, done.stdout, failures(done.stderr)) == (0, "run\n", "")
     assert {point.status for point in read_sweep(tmp_path / "out").points} == {"solved"}
+
+
+@pytest.mark.slow
+def test_a_former_key_is_drawn_with_one_line_that_names_its_successor(ehlectric, tmp_path):
+    case = (EXAMPLES / "bearing_6208.toml").as_posix()
+    speeds = '"bearing.inner_speed" = ["2000 rpm", "3000 rpm"]'
+    (tmp_path / "speeds.toml").write_text(
+        f'case = "{case}"\n[vary]\n"contacts" = ["atlas"]\n{speeds}\n', "utf-8"
+    )
+    assert ehlectric("sweep", "speeds.toml", "-o", "out").returncode == 0
+    done = ehlectric("map", "out", "--x", "bearing.inner_speed", "--value", "bearing.through_breakdown")
+    assert done.returncode == 0
+    line = "warning: bearing.through_breakdown is deprecated; use bearing.ring_to_ring_breakdown\n"
+    assert done.stderr.count(line) == 1
+    assert "lines_bearing.through_breakdown.png" in done.stdout

@@ -7,7 +7,7 @@ import os
 import signal
 import sys
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated
@@ -120,9 +120,18 @@ class _OneLine(logging.Handler):
         say(f"note: {record.getMessage()}", err=True)
 
 
-def _show(message: Warning | str, *_: object) -> None:
-    """Print a warning of Python, such as a doubt about an input, as one line on stderr."""
-    say(f"warning: {message}", err=True)
+def _shown_once() -> Callable[..., None]:
+    """Return the function that prints a warning of Python, such as a doubt about an input, as one line on
+    stderr, at the first time only.
+    """
+    printed: set[str] = set()
+
+    def show(message: Warning | str, *_: object) -> None:
+        if str(message) not in printed:
+            printed.add(str(message))
+            say(f"warning: {message}", err=True)
+
+    return show
 
 
 def _free_of_the_display() -> None:
@@ -166,7 +175,9 @@ def process() -> Iterator[None]:
     for stream in (sys.stdout, sys.stderr):
         # A terminal without a micro sign must not end the run.
         stream.reconfigure(errors="replace")  # type: ignore[union-attr]
-    warnings.showwarning = _show  # type: ignore[assignment]
+    warnings.showwarning = _shown_once()
+    # Python shows warnings about deprecated names to programmers only.
+    warnings.filterwarnings("default", message=r".* is deprecated; use ", category=DeprecationWarning)
     handler = _OneLine(logging.WARNING)
     MACHINE.addHandler(handler)
     yield
