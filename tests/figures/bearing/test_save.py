@@ -392,7 +392,7 @@ def test_the_command_draws_unless_told_not_to(result, monkeypatch, tmp_path):
         ({}, "isothermal, fully flooded film, minimum λ 6.7, contacts solved: voltages are upper bounds"),
         (
             {"film": 0.02e-6},
-            ("isothermal, fully flooded film, minimum λ 0.67, contacts solved: frequent asperity contact"),
+            ("isothermal, fully flooded film, minimum λ 0.67, contacts solved: boundary lubrication"),
         ),
         (
             {"bearing": {"film_factor": 0.6}},
