@@ -212,16 +212,13 @@ def load_line(each: Compared) -> str:
 
 def time_line(each: Compared) -> str:
     """Line of a contact in the table of areas, spots, and shares of time with at least one spot."""
-    row, contacts, spots, names = each.row, each.contacts, each.spots, ("GW", "GW flattened")
+    row, spots = each.row, each.spots
     cells = [
         row.area_share,
-        *(float(contacts[name].area_fraction) for name in names),
         row.spots,
-        *(spots[name] for name in names),
+        *(spots[name] for name in ("GW", "GW flattened")),
         row.time_share,
         float(contact_time_share(row.spots)),
-        *(float(contact_time_share(spots[name])) for name in names),
-        each.shares["Clarke et al."],
     ]
     return _line([name_of(row.posed), f"{each.film_parameter:.2f}", *map(_cell, cells)])
 
@@ -235,8 +232,8 @@ def load_table() -> list[str]:
 
 def time_table() -> list[str]:
     """Lines of the table of areas, spots, and shares of time with at least one spot."""
-    head = "surface, nodes | λ | area: solved | GW | flattened | spots: solved | GW | flattened"
-    names = [*head.split(" | "), "time: solved", "of solved spots", "GW", "flattened", "Clarke"]
+    head = "surface, nodes | λ | area | spots: solved | GW | GW flattened | time: solved | of solved spots"
+    names = head.split(" | ")
     return [_line(names), _line(["---"] * len(names)), *map(time_line, compared())]
 
 

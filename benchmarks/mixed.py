@@ -5,7 +5,7 @@ python -m benchmarks.mixed lines --solve     (made and measured surfaces over la
 python -m benchmarks.mixed points --solve    (the same in contacts of a ball)
 python -m benchmarks.mixed grids --solve     (surfaces whose shortest wave has 16 nodes, from grid to grid)
 python -m benchmarks.mixed boundary --solve  (boundary films of 5 to 0.5 nm)
-python -m benchmarks.mixed short             (load share, mean film and time of lines and points in one table)
+python -m benchmarks.mixed short             (load share and mean film of the coarsest grids in one table)
 python -m benchmarks.mixed cost              (processor time beside that of full films)
 python -m benchmarks.mixed sweep --solve     (one rough ball over speed beside published fits, and a figure)
 
@@ -152,7 +152,7 @@ def percent(share: float | None) -> str:
 
 def nanometres(record: Record, key: str) -> str:
     """Film in nm."""
-    return f"{1e9 * record[key]:.3g}" if key in record else ""
+    return f"{float(f'{1e9 * record[key]:.3g}'):g}" if key in record else ""
 
 
 def cells(record: Record | None) -> list[str]:
@@ -180,7 +180,7 @@ def print_robust(contacts: list[Contact], found: dict[str, Record]) -> None:
 
 
 def print_short(contacts: list[Contact], found: dict[str, Record]) -> None:
-    """Load share, mean film and time of every surface and grid in one row."""
+    """Load share and mean film of every surface and grid in one row."""
     head("surface", "nodes", *(f"λ {ratio:g}" for ratio in LAMBDAS))
     for first in contacts:
         series = [found.get(other.key) for other in contacts if _same_but_speed(first, other)]
@@ -190,7 +190,7 @@ def print_short(contacts: list[Contact], found: dict[str, Record]) -> None:
         for record in series:
             if converged(record) and record is not None:
                 film = nanometres(record, "mean_film") or "none"
-                entries.append(f"{percent(record['share'])}, {film}, {record['seconds']:.1f}")
+                entries.append(f"{percent(record['share'])}, {film}")
             else:
                 entries.append("-" if record is None else status(record))
         kind = "²" if first.point else ""
@@ -287,6 +287,11 @@ def print_sweep(contacts: list[Contact], found: dict[str, Record]) -> None:
     draw(grids_)
 
 
+def coarsest_grids() -> list[Contact]:
+    """Every surface over lambda, on the coarsest grid of line and of point contacts."""
+    return robust(point=False, grids_=LINE_GRIDS[:1]) + robust(point=True, grids_=POINT_GRIDS[:1])
+
+
 def every_surface() -> list[Contact]:
     """Every surface over lambda, in line and point contacts."""
     return robust(point=False, grids_=LINE_GRIDS) + robust(point=True, grids_=POINT_GRIDS)
@@ -297,7 +302,7 @@ PARTS: dict[str, tuple[Callable[[], list[Contact]], Callable[[list[Contact], dic
     "points": (lambda: robust(point=True, grids_=POINT_GRIDS), print_robust),
     "grids": (grid_series, print_grids),
     "boundary": (boundary_series, print_boundary),
-    "short": (every_surface, print_short),
+    "short": (coarsest_grids, print_short),
     "cost": (every_surface, print_cost),
     "sweep": (sweep_series, print_sweep),
 }
