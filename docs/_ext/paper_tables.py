@@ -72,12 +72,12 @@ def _capacitances() -> str:
             ]
         )
     head = ["contact", "C [nF/m]", "C / plate value", "fingers", "layers", "constant ε_r"]
-    head += ["effect of pressure on ε_r", "Hertz zone / uniform film"]
+    head += ["effect of pressure on ε_r", "Hertzian zone / uniform film"]
     return table_text(head, rows)
 
 
 def _uniform_film(result: Any) -> float:
-    """Capacitance of a film of h(0) under the Hertz pressure, in the Hertz zone [F/m].
+    """Capacitance of a film of h(0) under the Hertzian pressure, in its zone [F/m].
 
     By the midpoint rule over t, with X = cos(t) and p = p_h sin(t).
     """

@@ -45,7 +45,7 @@ for ax in axes[:, 0]:
 
 # %%
 # The curvature of the film as a whole changes the maximum field by a ten-thousandth: its radius is
-# millimetres, the film a fraction of a micrometre. At the same Hertz pressure, the stiffer body makes the
+# millimetres, the film a fraction of a micrometre. At the same Hertzian pressure, the stiffer body makes the
 # contact narrower and the capacitance smaller.
 print(f"{'contact':26}{'h_min [µm]':>12}{'E max [V/µm]':>14}{'over V12/h_min - 1':>20}{'C [nF/m]':>10}")
 for name, result in results.items():

@@ -44,7 +44,7 @@ for step in result.rough[0]["steps"]:
 result.plot("roughness")
 
 # %%
-# Pressure and film. A ridge a few micrometres wide carries up to three times the Hertz pressure, which
+# Pressure and film. A ridge a few micrometres wide carries up to three times the Hertzian pressure, which
 # presses it nearly flat: the film hardly shows it.
 result.plot("film")
 

@@ -3,7 +3,7 @@ A ball on a plane
 =================
 
 A steel ball of 10 mm radius rolls on a steel plane at 2 m/s under 20 N; the potentials are -1 V and +1 V. It
-is a point contact whose dry contact is a circle. Film and field are maps over the plane.
+is a point contact whose Hertzian contact is a circle. Film and field are maps over the plane.
 """
 
 import ehlectric

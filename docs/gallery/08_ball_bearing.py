@@ -3,7 +3,7 @@ A ball bearing, and how fine its grid must be
 =============================================
 
 The ball of a deep groove ball bearing 6208 runs on its inner ring under 600 N, in mineral oil of ISO VG 68 at
-70 °C with 5 V across the film. The groove conforms closely to the ball, so that the dry contact is a long
+70 °C with 5 V across the film. The groove conforms closely to the ball. The Hertzian contact is a long
 ellipse across entrainment, and the film is thin compared with it. Both make this contact harder to solve than
 a ball on a plane.
 """
@@ -81,7 +81,7 @@ for ax in (left, right):
 result = results[513]
 conditions, film = result.conditions, result.film
 print(f"semi-axes         {1e6 * conditions.semi_axis_x:.0f} and {1e6 * conditions.semi_axis_y:.0f} µm")
-print(f"Hertz pressure    {1e-9 * conditions.max_pressure:.2f} GPa")
+print(f"Hertzian pressure    {1e-9 * conditions.max_pressure:.2f} GPa")
 for name, formula in result.formulas().items():
     for quantity, thickness in vars(formula).items():
         if thickness is not None:

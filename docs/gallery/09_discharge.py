@@ -62,7 +62,7 @@ ax.set(xlabel="entrainment speed $(u_1 + u_2)/2$ [m/s]", ylabel="breakdown volta
 ax.set_xticks([0.25, 0.5, 1, 2, 4, 8], ["0.25", "0.5", "1", "2", "4", "8"])
 ax.set_yticks([1, 2, 5, 10, 20], ["1", "2", "5", "10", "20"])
 ax.minorticks_off()
-ax.legend(title="Hertz pressure", loc="lower right")
+ax.legend(title="Hertzian pressure", loc="lower right")
 
 # %%
 # A Weibull law instead, with the same scale, a shape of 10 and a reference area of 1 mm²: in a longer line

@@ -48,11 +48,11 @@ result.plot("spots")
 
 # %%
 # What the spots carry and conduct, and the film around them. The least film is the boundary film, so the
-# breakdown voltage is given for parts of the Hertz zone outside of the spots.
+# breakdown voltage is given for parts of the Hertzian zone outside of the spots.
 touching, electrical = result.asperities.touching, result.asperities.electrical
 print(f"electrical behaviour         {electrical.behaviour}")
 print(f"spots                        {touching.spots}, {touching.spots_of_one_node} of a single node")
-print(f"part of the Hertz area       {100 * touching.contact_area_share:.0f} %")
+print(f"part of the Hertzian contact area       {100 * touching.contact_area_share:.0f} %")
 print(f"mean film outside of them    {1e9 * touching.mean_film:.0f} nm")
 print(f"resistance of the spots      {1e3 * electrical.resistance:.1f} mΩ")
 for part in (1, 5, 50):

@@ -80,7 +80,7 @@ def test_curves_of_a_line_contact_keep_their_extremes(line):
     assert min(trace(shown, "film thickness")["y"]) == pytest.approx(film.minimum_thickness * 1e6, rel=1e-6)
     walls = max(max(trace(shown, f"field at surface {k}")["y"]) for k in (1, 2))
     assert walls == pytest.approx(field.max_strength / 1e6, rel=1e-6)
-    assert max(trace(shown, "Hertz pressure")["y"]) == pytest.approx(
+    assert max(trace(shown, "Hertzian pressure")["y"]) == pytest.approx(
         line.conditions.max_pressure / 1e9, rel=1e-6
     )
     least = trace(shown, f"minimum film, {film.minimum_thickness * 1e6:.4g} µm")
@@ -169,7 +169,7 @@ def test_hertz_pressure_of_a_cut_is_that_of_the_dry_contact(long_point):
     cuts = point_cuts(long_point, 0.0, 0.0)
     conditions = long_point.conditions
     for name, edge in (("cut-x", conditions.semi_axis_x), ("cut-y", conditions.semi_axis_y)):
-        hertz = trace(cuts[name], "Hertz pressure")
+        hertz = trace(cuts[name], "Hertzian pressure")
         assert max(hertz["y"]) == pytest.approx(conditions.max_pressure / 1e9, rel=1e-3)
         inside = [abs(x) for x, y in zip(hertz["x"], hertz["y"], strict=True) if y > 0.0]
         assert max(inside) == pytest.approx(1e6 * edge, rel=0.1)
@@ -192,7 +192,7 @@ def test_dashed_lines_of_a_cut_are_the_edges_of_the_dry_contact_there(long_point
             assert ends[1] == -ends[0]
             assert f"{edges[1]:.4g} µm" in cuts[name].caption
             # Beyond its edges the dry contact carries nothing.
-            hertz = trace(cuts[name], "Hertz pressure")["y"]
+            hertz = trace(cuts[name], "Hertzian pressure")["y"]
             assert not any(np.array(hertz)[np.abs(along) > ends[1] + 1e-9])
 
 

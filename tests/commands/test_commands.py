@@ -283,7 +283,7 @@ def test_check_says_what_a_case_means(ehlectric, case_file):
     done = ehlectric("check", case_file)
     assert done.returncode == 0
     for text in (
-        "Hertz pressure",
+        "maximum Hertzian pressure",
         "half-width",
         "load parameter (Moes)",
         "material parameter (Moes)",
@@ -308,7 +308,7 @@ def test_check_says_what_is_doubtful_about_the_roughness(ehlectric, case_file, t
     for text in (
         "the asperity of surface 1, whose width is 1 µm",
         "does not resolve the profile of surface 2",
-        "it was continued by extend = 'mirror'",
+        "was continued by extend = 'mirror'",
         "1 of the 97 distances between positions are twice the others",
     ):
         assert text in checked.stderr

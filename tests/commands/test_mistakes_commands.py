@@ -80,7 +80,7 @@ def test_a_bearing_is_checked_by_formula(ehlectric, files):
     """E9: the numbers of the check are those of the run by formula, and the table says what they are."""
     checked = ehlectric("check", "bearing.toml")
     assert checked.returncode == 0, checked.stderr
-    for text in ("3000 rpm", "70 °C", "20 mPa s", "Hertz pressure", "films of the contacts", "30 % off"):
+    for text in ("3000 rpm", "70 °C", "20 mPa s", "Hertzian pressure", "films of the contacts", "30 % off"):
         assert text in words_of(checked)
     summary = json.loads(ehlectric("check", "bearing.toml", "--json").stdout)
     assert ehlectric("bearing", "bearing.toml", "-o", "out", "--no-plots", "-q").returncode == 0
@@ -148,7 +148,13 @@ def test_a_sweep_is_checked_with_its_first_point(ehlectric, files):
     assert found["sweep"]["inputs"] == {"contact.entrainment_speed": {"values": 2, "first": 1.0, "last": 2.0}}
     assert found["first_point"]["inputs"]["contact"]["entrainment_speed"] == 1.0
     shown = ehlectric("check", "sweep.toml")
-    for text in ("contact.entrainment_speed", "1 to 2 m/s", "in 2 values", "first point:", "Hertz pressure"):
+    for text in (
+        "contact.entrainment_speed",
+        "1 to 2 m/s",
+        "in 2 values",
+        "first point:",
+        "Hertzian pressure",
+    ):
         assert text in words_of(shown)
     # Points that are no case are counted, with the reason of the first.
     factors = 'case = "bearing.toml"\n[vary]\nbearing.film_factor = ["none", "inlet-shear", 0.8]\n'

@@ -45,8 +45,8 @@ def test_every_number_of_a_check_is_in_a_narrow_table(typed, case_file, monkeypa
         lines = [line.rstrip() for line in outputs[width].splitlines()[:30]]
         assert max(map(len, lines)) <= width
         # A number keeps its unit, beside its label or below it.
-        (at,) = (k for k, line in enumerate(lines) if line.strip().startswith("Hertz pressure"))
-        assert any(line.endswith(" 1 GPa") for line in lines[at : at + 2]), lines
+        (at,) = (k for k, line in enumerate(lines) if line.strip().startswith("maximum Hertzian"))
+        assert any(line.endswith(" 1 GPa") for line in lines[at : at + 3]), lines
 
 
 @pytest.mark.slow

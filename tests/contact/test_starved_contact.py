@@ -56,7 +56,7 @@ def test_summary_has_the_flooded_film_beside(starved, flooded):
     assert summary["flooded"]["minimum_thickness"] == pytest.approx(flooded.film.minimum_thickness, rel=1e-9)
     ratio = film.central_thickness / flooded.film.central_thickness
     assert summary["film_ratio"] == pytest.approx(ratio, rel=1e-9)
-    # The film of the Hertz zone is the layer, compressed as the oil is.
+    # The film of the Hertzian zone is the layer, compressed as the oil is.
     density = float(np.interp(0.0, film.x, film.density))
     assert film.central_thickness * density == pytest.approx(3e-7 * film.density[0], rel=1e-3)
     assert film.x[0] < summary["meniscus"] < -starved.conditions.half_width
@@ -78,7 +78,7 @@ def test_content_of_oil(starved, flooded):
 
 
 def test_oil_between_the_walls_counts_for_the_capacitance(starved):
-    """With gas beside the oil the inlet has less capacitance than full of oil; the Hertz zone has not."""
+    """With gas beside the oil the inlet has less capacitance than full of oil; the Hertzian zone has not."""
     full = solve(starved.case.replace({"discharge.outlet": "full"})).discharge.capacitances
     fingers = starved.discharge.capacitances
     assert fingers.capacitance_hertz == pytest.approx(full.capacitance_hertz, rel=1e-9)
@@ -118,7 +118,7 @@ def test_meniscus_at_the_edge_of_the_hertz_zone_and_of_the_domain(starved):
         for warning in solve(LINE.replace({"inlet.oil_layer": "5 nm"})).warnings
         if warning.code == "meniscus-at-edge"
     ]
-    assert "at the edge of the Hertz zone" in text
+    assert "at the edge of the Hertzian zone" in text
     short = LINE.replace({"inlet.film_ratio": 0.99, "grid.inlet": -1.8})
     (text,) = [w.text for w in solve(short).warnings if w.code == "meniscus-at-edge"]
     assert "at the edge of the domain" in text
@@ -172,7 +172,7 @@ def test_a_film_that_is_flooded_on_the_centre_line_alone_is_starved():
     assert result.film.film_fraction is not None
     assert result.film.inlet_deficit > 0.0
     assert not {"oil-layer-thick", "film-ratio-missed"} & codes(result)
-    # The table ends within the Hertz zone, whose semi-axis is 0.11 mm.
+    # The table ends within the Hertzian zone, whose semi-axis is 0.11 mm.
     assert "layer-table-short" in codes(result)
     (text,) = [warning.text for warning in result.warnings if warning.code == "meniscus-at-edge"]
     assert "on y = 0 already" in text

@@ -107,7 +107,7 @@ def unlike_text(**changes):
 def test_the_front_of_a_plain_wave_is_named_and_no_key_that_the_wave_does_not_have():
     wave = WAVE | {"wavelength": "100 um"}
     text = unlike_text(roughness=[wave], grid={"nodes": 129, "outlet": 1.5}, motion={"passes": 1.0})
-    assert "its front, one half-width long, is still in the Hertz zone (raise grid.outlet to 2)." in text
+    assert "its front, one half-width long, is still in the Hertzian zone (raise grid.outlet to 2)." in text
     assert "form" not in text
     assert "rescale_rq" not in text
     assert unlike_text(roughness=[wave], grid={"nodes": 129, "outlet": 2.0}, motion={"passes": 1.0}) == ""
@@ -118,7 +118,7 @@ def test_a_wave_that_moves_backwards_needs_a_longer_inlet():
     contact = LINE["contact"] | {"slide_to_roll_ratio": 4.0}
     grid = {"nodes": 129, "inlet": -1.6, "field_range": [-1.25, 1.25]}
     text = unlike_text(contact=contact, roughness=[wave], grid=grid, motion={"passes": 1.0})
-    assert "is still in the Hertz zone (lower grid.inlet to -2)." in text
+    assert "is still in the Hertzian zone (lower grid.inlet to -2)." in text
 
 
 def test_the_steps_that_depend_on_the_length_are_named_and_only_those_of_the_case():

@@ -96,7 +96,7 @@ def equation_of_state() -> tuple[Figure, list[str], Iterator[list[str]]]:
         ("central film [nm]", "central film", 1e9, ".1f"),
         ("minimum film [nm]", "minimum film", 1e9, ".1f"),
         ("capacitance per area at the centre [pF/mm²]", "capacitance, centre", 1e6, ".0f"),
-        ("capacitance per area of the Hertz zone [pF/mm²]", "capacitance, zone", 1e6, ".0f"),
+        ("capacitance per area of the Hertzian zone [pF/mm²]", "capacitance, zone", 1e6, ".0f"),
     )
     return (
         figure,

@@ -82,7 +82,7 @@ def _zones(ax: Axes, level: float) -> None:
         words(ax, place, 2.95, text, family="DejaVu Sans Mono", size=SIZE - 1.0)
     for place in (-1.0, 1.0):
         ax.plot([place, place], [level - 0.33, 2.2], color=GREY, lw=0.9, ls=":", zorder=5)
-    for start, stop, text in ((_IN, -1.0, "inlet"), (-1.0, 1.0, "Hertz zone"), (1.0, _OUT, "outlet")):
+    for start, stop, text in ((_IN, -1.0, "inlet"), (-1.0, 1.0, "Hertzian zone"), (1.0, _OUT, "outlet")):
         measure(ax, (start, level), (stop, level))
         words(ax, 0.5 * (start + stop), level + 0.22, text)
     for place, text in ((-1.0, "$-b$"), (0.0, "$0$"), (1.0, "$b$")):

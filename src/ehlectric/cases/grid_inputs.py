@@ -185,7 +185,7 @@ class Grid(Table, book="grid"):
             raise InputError(
                 "nodes",
                 got=f"{self.nodes_along} over {domain:g} {lengths}",
-                takes=f"at least {int(8.0 * domain) + 1} there: sixteen in the Hertz zone",
+                takes=f"at least {int(8.0 * domain) + 1} there: sixteen in the Hertzian zone",
             )
         self._check_field_range(domain)
         if self.of_point:
@@ -253,7 +253,7 @@ class Grid(Table, book="grid"):
             raise InputError(
                 key,
                 got=f"{nodes} across {2.0 * side:g} semi-axes",
-                takes=f"at least {least} there: sixteen in the Hertz zone",
+                takes=f"at least {least} there: sixteen in the Hertzian zone",
             )
 
 

@@ -544,8 +544,8 @@ def _warnings(oils: Sequence[KnownOil], pressure: float) -> Iterator[ResultWarni
         for warning in oil.warnings(pressure):
             if warning.code == "law-range" or warning.code not in known:
                 known.add(warning.code)
-                # The laws warn of the Hertz pressure of a contact. Here is none, but a pressure in the oil.
-                text = warning.text.replace("the Hertz pressure", "the pressure")
+                # The laws warn of the Hertzian pressure of a contact; here it is a pressure in the oil.
+                text = warning.text.replace("the maximum Hertzian pressure", "the pressure")
                 yield replace(warning, text=at + text)
         try:
             PROPERTIES["relative_permittivity"].value(oil, pressure)

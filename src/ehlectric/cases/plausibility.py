@@ -43,7 +43,9 @@ PLAUSIBLE: Mapping[str, Plausible] = MappingProxyType(
         # Plastics have 1 to 20 GPa; rubber carries no bearing and no gear; two diamonds have 1.2 TPa.
         "modulus": Plausible("the reduced modulus", 1e9, 1.3e12, "GPa", 1e-9, "Check the unit of the moduli"),
         # Steel on steel at 5 MPa carries less than a millionth of the load of a bearing.
-        "pressure": Plausible("the Hertz pressure", 5e6, 2e10, "MPa", 1e-6, "Check the unit of the load"),
+        "pressure": Plausible(
+            "the maximum Hertzian pressure", 5e6, 2e10, "MPa", 1e-6, "Check the unit of the load"
+        ),
         "speed": Plausible(
             "the entrainment speed",
             1e-6,

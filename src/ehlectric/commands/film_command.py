@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from ehlectric.quantities.rows import Row
     from ehlectric.runs.lookups import LookedUp
 
-_FILMS = {"central": "central film", "minimum": "minimum film", "mean": "mean film over the Hertz zone"}
+_FILMS = {"central": "central film", "minimum": "minimum film", "mean": "mean film over the Hertzian zone"}
 
 
 @command("film")

@@ -1,4 +1,4 @@
-"""Operating conditions of line and point contacts: bodies, load, speeds, and size of the dry contact."""
+"""Operating conditions of line and point contacts: bodies, load, speeds, and size of the Hertzian contact."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def check_width(half_width: float, radius: float) -> None:
     if half_width > 0.5 * radius:
         raise InputError(
             "contact",
-            f"the dry contact would be {readable(half_width)} m wide on each side, more than half of "
+            f"the Hertzian contact would be {readable(half_width)} m wide on each side, more than half of "
             f"the smallest radius {readable(radius)} m;",
             takes="less load, a larger modulus or less conforming bodies",
         )
@@ -65,7 +65,7 @@ def check_pressure(pressure: float, oil: Oil) -> None:
     if pressure < least:
         raise InputError(
             "contact",
-            f"the Hertz pressure would be {readable(pressure)} Pa",
+            f"the maximum Hertzian pressure would be {readable(pressure)} Pa",
             takes=f"a load that gives at least {readable(least)} Pa, well above the ambient "
             f"{readable(oil.ambient_pressure)} Pa",
         )
@@ -105,7 +105,7 @@ class SharedConditions(ABC, Generic[V]):
     # asymptotic coefficient alpha* [1/Pa].
     viscosity: V
     pressure_viscosity_coefficient: V
-    max_pressure: V  # Hertz pressure p_h of the dry contact [Pa]
+    max_pressure: V  # Hertz pressure p_h of the Hertzian contact [Pa]
     # Surface 1's share of 2/E', dimensionless; 0.5 if only the reduced modulus is known.
     compliance_share: V = 0.5
     # Thickness of the boundary film [m] at which the surfaces touch; zero where they are taken not to.
@@ -167,7 +167,7 @@ class Conditions(SharedConditions[V]):
 
     reduced_radius: V  # R [m]
     load_per_length: V  # w [N/m]
-    half_width: V  # half-width b of the dry contact [m]
+    half_width: V  # half-width b of the Hertzian contact [m]
     # Surface 1's share of 1/R, dimensionless; 0.5 if only the reduced radius is known.
     curvature_share: V = 0.5
 
@@ -188,7 +188,7 @@ class Conditions(SharedConditions[V]):
 
     @property
     def semi_axes(self) -> tuple[V, ...]:
-        """Half-width of the dry contact [m], as a tuple of one number."""
+        """Half-width of the Hertzian contact [m], as a tuple of one number."""
         return (self.half_width,)
 
     @property
@@ -213,7 +213,7 @@ class PointConditions(SharedConditions[V]):
     radius_x: V
     radius_y: V
     load: V  # F [N]
-    # semi_axis_x and semi_axis_y: semi-axes b along and a across entrainment of the dry contact [m].
+    # semi_axis_x and semi_axis_y: semi-axes b along and a across entrainment of the Hertzian contact [m].
     semi_axis_x: V
     semi_axis_y: V
     side: V  # half of the domain's width across entrainment, in semi-axes across
@@ -236,12 +236,12 @@ class PointConditions(SharedConditions[V]):
 
     @property
     def half_width(self) -> V:
-        """Semi-axis of the dry contact along entrainment [m], which scales x and y."""
+        """Semi-axis of the Hertzian contact along entrainment [m], which scales x and y."""
         return self.semi_axis_x
 
     @property
     def semi_axes(self) -> tuple[V, ...]:
-        """Semi-axes of the dry contact along and across entrainment [m]."""
+        """Semi-axes of the Hertzian contact along and across entrainment [m]."""
         return self.semi_axis_x, self.semi_axis_y
 
     @property
@@ -256,7 +256,7 @@ class PointConditions(SharedConditions[V]):
 
     @property
     def ratio(self) -> V:
-        """Ratio k = a/b of the semi-axes of the dry contact, a across and b along entrainment."""
+        """Ratio k = a/b of the semi-axes of the Hertzian contact, a across and b along entrainment."""
         return self.semi_axis_y / self.semi_axis_x
 
 
@@ -336,9 +336,9 @@ def point_conditions(
 def default_side(ratio: Numbers) -> Numbers:
     """Default half-width of the domain of a point contact: 1.6 + 1.4/k, at most 4.5 semi-axes across.
 
-    The ``ratio`` k = a/b is the ratio of the semi-axes of the dry contact, a across and b along entrainment,
-    dimensionless, shape (...). The result is half of the domain's width, in semi-axes across, dimensionless,
-    shape (...).
+    The ``ratio`` k = a/b is the ratio of the semi-axes of the Hertzian contact, a across and b along
+    entrainment, dimensionless, shape (...). The result is half of the domain's width, in semi-axes across,
+    dimensionless, shape (...).
 
     Examples
     --------

@@ -172,8 +172,8 @@ def unconverged_heat(heated: HeatedFilm, max_pressure: float) -> str:
     if heated.rheology == "newtonian" and not stress < _CARRIED * max_pressure:
         return (
             f"The film would have shear stresses up to {readable(stress / max_pressure, 2)} times the "
-            f"Hertz pressure, but oils carry less than {_CARRIED:g} times. Give lubricant.eyring_stress, and "
-            "set film.rheology to 'eyring'"
+            f"maximum Hertzian pressure, but oils carry less than {_CARRIED:g} times. Give "
+            "lubricant.eyring_stress, and set film.rheology to 'eyring'"
         )
     return (
         f"Temperature and pressure do not converge together ({reached_rise(heated)}), also with more Newton "

@@ -450,7 +450,7 @@ class Subcircuit:
         yield f"contacts: {HOW[case.contacts]}, {'converged' if converged else 'NOT CONVERGED'}"
         rough = rough_capacitance(solution)
         if rough is not None:
-            yield f"C_films is that of smooth films; with roughness in their Hertz areas: {rough:.4g} F"
+            yield f"C_films is for smooth films; with roughness in the Hertzian contact areas: {rough:.4g} F"
         yield TEXTS["circuit"]
         yield from (f"note: {text}" for text in self.notes)
         yield from (f"{warning.severity}: {warning}" for warning in self.warnings())

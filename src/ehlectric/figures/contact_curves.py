@@ -249,7 +249,7 @@ def meter(result: AnyContact, ax: Axes | None = None) -> Axes:
         )
     # Between both lines there may be no room for a name.
     for edge, name, side in (
-        (result.conditions.half_width, "Hertz zone", "right"),
+        (result.conditions.half_width, "Hertzian zone", "right"),
         (profile.edge, "nearest edge of the domain", "left"),
     ):
         ax.axvline(1e3 * edge, color=GREY, lw=0.8)

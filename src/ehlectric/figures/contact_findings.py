@@ -172,7 +172,7 @@ def deviation_text(result: AnyContact) -> str:
     place = tuple(float(axis[k]) for axis, k in zip(field.axes, where, strict=True))
     text = f"The estimate V12/h is within {per_cent(float(np.max(deviation)))} of the field on this grid"
     if isinstance(result, PointResult):
-        return f"{text} inside the Hertz ellipse"
+        return f"{text} inside the Hertzian ellipse"
     text += f", worst at {place_text(result, place)}"
     # The faces at the ends of the field range belong to the computation, not to the contact.
     ends = float(np.max(apart, where=~counted, initial=0.0))
@@ -185,7 +185,7 @@ def pressure_text(result: PointResult) -> str:
     film, hertz = result.film, result.conditions.max_pressure
     peak = with_unit(film.max_pressure, "Pa")
     what = f"Pressure spike of {peak} on this grid" if has_spike(result) else f"Maximum pressure {peak}"
-    return f"{what}; Hertz pressure {with_unit(hertz, 'Pa')}"
+    return f"{what}; maximum Hertzian pressure {with_unit(hertz, 'Pa')}"
 
 
 def has_spike(result: PointResult) -> bool:
@@ -255,7 +255,7 @@ def meter_text(result: AnyContact) -> str:
     """Capacitance that a meter reads, and how much of it is outside the Hertz zone and the film's domain."""
     reading = result.meter
     assert reading is not None
-    parts = f"{per_cent(reading.share_of_hertz)} in the Hertz zone"
+    parts = f"{per_cent(reading.share_of_hertz)} in the Hertzian zone"
     parts += f", {per_cent(reading.share_of_outside)} outside the film's domain"
     return f"The meter reads {with_unit(reading.capacitance, 'F', least=1.0)}: {parts}"
 

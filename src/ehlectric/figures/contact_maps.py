@@ -277,7 +277,7 @@ def hertz_ellipse(result: OfPointContact, ax: Axes, ink: str = MAP_EDGE) -> Elli
         linestyle=(0, (6.0, 3.0)),
         linewidth=0.8,
         path_effects=_outlined(ink, 2.0),
-        label="Hertz ellipse",
+        label="Hertzian ellipse",
     )
     return cast("Ellipse", ax.add_patch(edge))
 

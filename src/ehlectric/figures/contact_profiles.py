@@ -200,7 +200,7 @@ def pressure(line: Line) -> Panel:
     film, smooth = line.result.film, line.result.smooth
     largest = max(film.max_pressure, line.result.conditions.max_pressure)
     factor, unit = unit_for(largest, "Pa")
-    curves = [Curve("Hertz pressure", line.x, factor * line.hertz, MIDDLE_GREY, "dot", 1.0)]
+    curves = [Curve("Hertzian pressure", line.x, factor * line.hertz, MIDDLE_GREY, "dot", 1.0)]
     if smooth is not None:
         curves.insert(0, line.curve("pressure, smooth surfaces", factor * smooth.pressure, *_SMOOTH))
     curves.append(line.curve("pressure", factor * film.pressure, BLUE))

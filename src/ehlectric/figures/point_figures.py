@@ -66,9 +66,8 @@ def pressure_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x
     factor, unit = unit_for(film.max_pressure, "Pa")
     across = np.linspace(-1.0, 1.0, 401)
     hertz = factor * conditions.max_pressure * np.sqrt(1.0 - across**2)
-    lines = ax.plot(
-        _semi_axis(result, along) * across, hertz, color=GREY, ls=":", lw=0.9, label="Hertz pressure, centre"
-    )
+    label = "Hertzian pressure, centre"
+    lines = ax.plot(_semi_axis(result, along) * across, hertz, color=GREY, ls=":", lw=0.9, label=label)
     lines += _film_lines(result, ax, along, factor * film.pressure)
     ax.set_ylabel(fitted_label(ax, f"pressure $p$ [{unit}]", along=False))
     ax.set_ylim(0.0, 1.05 * factor * max(film.max_pressure, conditions.max_pressure))

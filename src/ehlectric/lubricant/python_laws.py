@@ -189,8 +189,9 @@ class SampledLaws:
         raise InputError.worded(
             "laws",
             f"this result contains values of {', '.join(self.names.values())} at {self.temperature:.6g} K "
-            f"for a Hertz pressure of {self.max_pressure / 1e9:.4g} GPa only, not at {temperature:.6g} K and "
-            f"{max_pressure / 1e9:.4g} GPa; give the functions again, as in case.replace(laws=Laws(...))",
+            f"for a maximum Hertzian pressure of {self.max_pressure / 1e9:.4g} GPa only, not at "
+            f"{temperature:.6g} K and {max_pressure / 1e9:.4g} GPa; give the functions again, as in "
+            "case.replace(laws=Laws(...))",
             takes="Laws of functions",
         )
 
@@ -342,6 +343,6 @@ def _sampled(key: str, name: str, law: Function, temperature: float, max_pressur
             got=f"{bad:g} {_UNITS[key]}".strip()
             + f" of {name} at {pressure[min(end, pressure.size - 1)] / 1e9:.4g} GPa and {temperature:g} K",
             takes=f"a finite value {least}, up to {_NEEDED * max_pressure / 1e9:.3g} GPa, 1.5 times the "
-            "Hertz pressure",
+            "maximum Hertzian pressure",
         )
     return Samples(name, pressure[:end], values[:end])

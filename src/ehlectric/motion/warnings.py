@@ -27,9 +27,10 @@ from ehlectric.surfaces.surface_warnings import LEAST_IN_SHAPE, shortest_wave, s
 # Part of its height by which moving roughness may differ from the stationary one without a warning.
 _ALIKE = 1e-3
 
-# Distance of the end of the domain behind which the front of moving roughness leaves the Hertz zone
+# Distance of the end of the domain behind which the front of moving roughness leaves the Hertzian zone
 # undisturbed [half-widths]: the half-width of the zone, and the length of the front.
 _CLEAR = 2.0
+_FRONT_IN_ZONE = "its front, one half-width long, is still in the Hertzian zone"
 
 # Processing steps of a surface whose effect depends on its length.
 _LONGER = ("form", "cutoff_long", "cutoff_short", "rescale_rq", "truncate")
@@ -126,9 +127,9 @@ def _causes(contact: TransientContact) -> Iterator[str]:
     inlet, outlet = schedule.domain
     forwards = any(speed > 0.0 for speed in schedule.moving_speeds)
     if forwards and outlet < _CLEAR:
-        yield f"its front, one half-width long, is still in the Hertz zone (raise grid.outlet to {_CLEAR:g})"
+        yield f"{_FRONT_IN_ZONE} (raise grid.outlet to {_CLEAR:g})"
     if inlet > -_CLEAR and any(speed < 0.0 for speed in schedule.moving_speeds):
-        yield f"its front, one half-width long, is still in the Hertz zone (lower grid.inlet to {-_CLEAR:g})"
+        yield f"{_FRONT_IN_ZONE} (lower grid.inlet to {-_CLEAR:g})"
     moving = [table for table in contact.case.roughness if schedule.speed_of(table.surface)]
     keys = [key for key in _LONGER if any(getattr(table, key) not in (None, "none") for table in moving)]
     if keys:

@@ -154,7 +154,7 @@ def _current_density(study: Study) -> str:
     """Check of the unit of the current density by the currents that it gives."""
     area = 2.0 * study.smooth[CONTACTS[4]].conditions.half_width * 10e-3
     return (
-        f"over the Hertz area of a 2 GPa contact 10 mm long, {area * 1e6:.0f} mm^2, 0.8 A/m^2 is "
+        f"over the Hertzian contact area of a 2 GPa contact 10 mm long, {area * 1e6:.0f} mm^2, 0.8 A/m^2 is "
         f"{0.8 * area * 1e6:.0f} µA and 0.8 A/mm^2 is {0.8e6 * area:.0f} A; limits of bearing currents are "
         "given in A/mm^2 (Busse et al., the paper's reference 45)"
     )

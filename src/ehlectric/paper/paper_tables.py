@@ -88,7 +88,7 @@ def agrees(computed: float, printed: float) -> bool:
 
 
 # Films of a contact in Table 3, by their names in its heads, and who printed or computed them.
-_FILMS = {"h_min": "minimum film", "h_av": "mean film in the Hertz zone"}
+_FILMS = {"h_min": "minimum film", "h_av": "mean film in the Hertzian zone"}
 _SOURCES = ("Venner & Napel", "paper", "first order", "second order")
 
 

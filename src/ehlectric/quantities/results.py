@@ -119,8 +119,8 @@ _ROUGH: Mapping[str, Keys] = {
     "point": {**_OF_PROFILE, **under("steps", {**_within("map_step", _SURFACES), **_MAP})},
 }
 _COMBINED: Mapping[str, Keys] = {
-    "line": _of_heights(_PROFILE, "Hertz zone"),
-    "point": _of_heights(_MAP, "rectangle around the Hertz ellipse"),
+    "line": _of_heights(_PROFILE, "Hertzian zone"),
+    "point": _of_heights(_MAP, "rectangle around the Hertzian ellipse"),
 }
 _OIL = under("lubricant", _within("oil", _read("oil")))
 

@@ -120,7 +120,7 @@ def _motion(result: MotionResult) -> Part:
 def _bearing(result: BearingResult) -> Part:
     summary, case = result.summary(), result.case
     rows, name = total_rows(summary), case.bearing.name
-    loads = "Loads and dry contacts of the elements with both rings"
+    loads = "Loads and Hertzian contacts of the elements with both rings"
     films = "Films, capacitances and voltages of the contacts"
     loads, films = (placed(caption, "contacts", summary) for caption in (loads, films))
     contacts = cell_table(loads_table(summary), loads), cell_table(films_table(summary), films)

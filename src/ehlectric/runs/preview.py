@@ -89,7 +89,7 @@ def _preview_contact(case: Case) -> Preview:
     if lambda_ratio is not None:
         summary["lambda_by_formula"] = lambda_ratio
         rows += _lambda_rows(
-            lambda_ratio, ", in the Hertz zone, undeformed" if contact.rough else ", as given"
+            lambda_ratio, ", in the Hertzian zone, undeformed" if contact.rough else ", as given"
         )
     if case.motion is not None:
         summary["motion"] = TransientContact.of(case, contact.rough).schedule.described()

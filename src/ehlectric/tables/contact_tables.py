@@ -140,7 +140,7 @@ def _in_spot(summary: Summary) -> str:
 
 
 def _zone(summary: Summary) -> str:
-    return "Hertz zone" if _geometry(summary) == "line" else "Hertz ellipse"
+    return "Hertzian zone" if _geometry(summary) == "line" else "Hertzian ellipse"
 
 
 def _pressure_error(summary: Summary) -> str:
@@ -251,7 +251,7 @@ def _area_error(summary: Summary) -> str:
     error = summary["asperities"]["contact_area_error"]
     part = "width" if _geometry(summary) == "line" else "area"
     within = "" if error is None else f", ± {min(100.0 * error, 100.0):.0f} % of it by the grid"
-    return f", of the Hertz {part}{within}"
+    return f", of the Hertzian {part}{within}"
 
 
 def _spots(summary: Summary) -> ValueWithNote:

@@ -267,7 +267,7 @@ def test_fields_that_coincide_are_one_line_and_rough_ones_are_beside_the_smooth_
     smooth = next(line for line in ax.lines if line.get_label().endswith("mid-film, smooth surfaces"))
     assert smooth.get_zorder() > max(line.get_zorder() for line in ax.lines if line is not smooth)
     np.testing.assert_array_equal(smooth.get_ydata(), 1e-6 * rough.smooth.middle_strength[rough.field.inner])
-    # From the minimum of the Hertz zone, with a tenth of the range below it.
+    # From the minimum of the Hertzian zone, with a tenth of the range below it.
     low, high = ax.get_ylim()
     hertz = np.abs(rough.field.x) <= rough.conditions.half_width
     least = 1e-6 * rough.field.strength[hertz].min()
@@ -284,7 +284,7 @@ def test_films_are_told_apart_without_colours(below, rough):
         left = film(result)
         right = next(ax for ax in left.figure.axes if ax.get_ylabel().startswith("film"))
         lines = {line.get_label(): line for ax in (left, right) for line in ax.lines}
-        names = ("Hertz pressure", "pressure", "film thickness")
+        names = ("Hertzian pressure", "pressure", "film thickness")
         assert len({str(lines[name]._dash_pattern) for name in names}) == 3
     for ax, name in ((left, "pressure"), (right, "film thickness")):
         (smooth,) = (line for line in ax.lines if line.get_color() == LIGHT_GREY)

@@ -154,7 +154,7 @@ def _profiles(result: Result) -> Figure:
         panels += [field_strength(line), *heat(line)]
     sentence = f"Over x in {unit}: {', '.join(names_of(panels))}."
     notes = (
-        f"Oil enters on the left. Dashed lines: edges of the dry contact, x = ±{readable(b, 4)} {unit}.",
+        f"Oil enters on the left. Dashed lines: edges of the Hertzian contact, x = ±{readable(b, 4)} {unit}.",
         spots_text(result),
         BEYOND if result.converged and touches(result) else "",
     )
@@ -209,7 +209,7 @@ def _section(result: Result) -> Figure:
             yaxis=plot_axis(f"height [{height}]", range=[float(z[0]), float(z[-1])]),
             hovermode="closest",
         ),
-        caption=f"Heights are stretched. The colours begin at the smallest field of the dry contact, "
+        caption=f"Heights are stretched. The colours begin at the smallest field of the Hertzian contact, "
         f"{readable(to_e * low)} {strength}. Values between nodes are interpolated; the maximum is a "
         "node's own." + (f" {BEYOND}" if touches(result) else ""),
     )

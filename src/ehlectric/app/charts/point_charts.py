@@ -57,7 +57,7 @@ from ehlectric.readable import readable
 # Largest number of nodes along an axis of the surface, and of a map.
 _MOST, _MAP = 129, 141
 
-# Part of the dry contact [%] whose film is above the end of the colours.
+# Part of the Hertzian contact [%] whose film is above the end of the colours.
 _THICKER = 2.0
 
 
@@ -98,7 +98,7 @@ def film_surface(result: PointResult) -> Figure:
 
 
 def _least_field(result: PointResult) -> float:
-    """Smallest field of the dry contact, at its largest across the film [V/m]."""
+    """Smallest field of the Hertzian contact, at its largest across the film [V/m]."""
     field = result.field
     inside = result.zones["hertz"](field.x[:, np.newaxis], field.y)
     return float(np.min(np.max(field.strength, axis=-1)[inside])) if inside.any() else 0.0
@@ -188,10 +188,10 @@ def _cut(result: PointResult, along: str, at: float) -> Figure:
         f"Cut along {along} at {'y' if first else 'x'} = {readable(lengths.factor * place, 4)} {lengths.unit}"
     )
     if edge is None:
-        caption = "This cut is outside of the dry contact."
+        caption = "This cut is outside of the Hertzian contact."
     else:
         caption = (
-            f"Dashed lines: edges of the dry contact on this cut, {along} = ±{readable(edge, 4)} "
+            f"Dashed lines: edges of the Hertzian contact on this cut, {along} = ±{readable(edge, 4)} "
             f"{lengths.unit}."
         )
     return Figure(
@@ -203,7 +203,7 @@ def _cut(result: PointResult, along: str, at: float) -> Figure:
 
 
 def _edge(semi: float, off: float) -> float | None:
-    """Half-length of a chord of the dry contact, ``off`` semi-axes from its middle; None outside of it."""
+    """Half-length of a chord of the Hertzian contact, ``off`` semi-axes from its middle; None outside."""
     return semi * math.sqrt(1.0 - off**2) if abs(off) < 1.0 else None
 
 
@@ -287,7 +287,7 @@ def _field_map(result: PointResult) -> _Map:
     scale = field_scale(result)
     factor, unit = unit_for(scale, "V/m")
     low = factor * _least_field(result)
-    below = f"Field below {readable(low)} {unit}, outside of the dry contact, has the first colour."
+    below = f"Field below {readable(low)} {unit}, outside of the Hertzian contact, has the first colour."
     beyond = BEYOND if touches(result) else ""
     return _Map(
         title="Maximum field across the film",
@@ -303,7 +303,7 @@ def _field_map(result: PointResult) -> _Map:
 
 
 def _drawn(result: PointResult, what: _Map) -> Figure:
-    """Map with lines of equal values, the edge of the dry contact, its extreme and the lines of the cuts."""
+    """Map with contour lines, the edge of the Hertzian contact, the extreme and the lines of the cuts."""
     lengths, turned = Lengths.of(result), is_turned(result.conditions)
     kept = [_window(result, axis_, k, what.mark[k]) for k, axis_ in enumerate(what.axes)]
     x, y = (lengths.factor * axis_[nodes] for axis_, nodes in zip(what.axes, kept, strict=True))
@@ -347,7 +347,7 @@ def _drawn(result: PointResult, what: _Map) -> Figure:
         what.title,
         f"Map of the {what.title.lower()} in {what.unit} over x and y in {lengths.unit}{said}",
         figure,
-        caption=" ".join(filter(None, ["Dashed: edge of the dry contact.", what.caption, entrainment])),
+        caption=" ".join(filter(None, ["Dashed: edge of the Hertzian contact.", what.caption, entrainment])),
     )
 
 
@@ -402,7 +402,7 @@ def _levels(low: float, high: float) -> dict[str, float]:
 
 
 def _shapes(result: PointResult, lengths: Lengths) -> list[Plot]:
-    """Edge of the dry contact, and the lines of the cuts, the third and the fourth."""
+    """Edge of the Hertzian contact, and the lines of the cuts, the third and the fourth."""
     b, a = (lengths.factor * length for length in result.conditions.semi_axes)
     at = [lengths.factor * place for place in spot_position(result)]
     turned = is_turned(result.conditions)
