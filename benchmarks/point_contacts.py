@@ -59,16 +59,6 @@ def film_rows() -> Iterator[tuple[str, ...]]:
                 )
 
 
-def coarser_rows() -> Iterator[tuple[str, ...]]:
-    """Rows of GMRES iterations per Newton step on all grids of the nested iteration to the finest grid."""
-    for contact, example in CONTACTS.items():
-        for wedge in WEDGES[contact]:
-            film = solve_point_film(cases.point_film_problem(example, max(SECONDS), wedge))
-            grids = sorted({step.nodes for step in film.steps})
-            taken = [iterations(film, nodes) for nodes in grids]
-            yield (f"{contact}, {wedge}", *(f"{most}, {mean:.1f}" for most, mean in taken))
-
-
 def whole_field(example: str) -> PointField:
     """Field of a contact on both sides of its plane of symmetry."""
     field = solve_point_field(cases.point_field_problem(example, FIELD_COLUMNS))
@@ -107,9 +97,6 @@ def print_tables() -> None:
     markdown(
         ("film", "grid", "seconds", "limit", "Newton steps", f"{gmres}: most, mean", memory), film_rows()
     )
-    finest = cases.point_film_problem("ball_contact", max(SECONDS), "second-order")
-    grids = sorted({step.nodes for step in solve_point_film(finest).steps})
-    markdown((f"{gmres} by grid: most, mean", *(f"{n} × {n}" for n in grids)), coarser_rows())
     markdown(("what", "seconds", "limit", "CG iterations", "memory [GB]"), field_rows())
     with tempfile.TemporaryDirectory() as folder:
         seconds = command("run", str(cases.EXAMPLES / "ball_contact.toml"), "-o", folder)
