@@ -130,7 +130,7 @@ def test_units_that_people_print(typed, tmp_path, changes):
             {'"10 um"': '"C3"'},
             0.01246,
             24e-6,
-            "clearance class C3 is 15 to 33 µm before mounting",
+            "the initial clearance of class C3 is 15 to 33 µm",
             id="E13",
         ),
     ],

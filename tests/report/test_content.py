@@ -88,7 +88,7 @@ def test_every_input_has_its_origin(report):
     radius = found["contact.reduced_radius"]
     assert radius[0].text == "reduced radius"
     assert radius[1:3] == ("14.1\xa0mm", "given")
-    assert radius[3].startswith("R, with ")
+    assert radius[3].startswith("reduced radius R of a line contact, with ")
     assert found["lubricant.relative_permittivity"][2] == "given"
     assert found["lubricant.roelands_z"][2] == "library paper: assumed [1]"
     assert found["grid.field_degree"][2] == "default"

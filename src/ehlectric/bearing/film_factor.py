@@ -246,7 +246,7 @@ def _solved(hot: _HotContact) -> _FloodedFilm:
         if film.converged and isothermal is not None:
             factor = float(film.central_thickness / isothermal)
             nodes = " x ".join(map(str, film.thickness.shape))
-            LOGGER.info("film factor of the heat: %.4g on %s nodes", factor, nodes)
+            LOGGER.info("thermal reduction factor: %.4g on %s nodes", factor, nodes)
             return _FloodedFilm(factor, _friction(film, hot), grid)
         grid = _with_nodes(grid, 2 * (grid.nodes_along - 1))
     if film.converged:
@@ -448,8 +448,8 @@ _SOON = 3600.0
 
 # Heat of a film factor in words.
 _HEAT: Mapping[object, str] = {
-    "inlet-shear": "the heat in the inlet",
-    "solved": "the solved heat in the film in pure rolling",
+    "inlet-shear": "inlet shear heating",
+    "solved": "the thermal solution for pure rolling",
 }
 
 # Ways of supply that bring little or no oil to the track at each passage.
@@ -511,9 +511,9 @@ def _film_words(solution: BearingSolution) -> tuple[str, str]:
     if supply != "flooded":
         given = isinstance(factor, float) and factor != 1.0
         other = f"a given factor of {readable(float(factor))}" if given else _HEAT.get(factor)
-        words += f", of {other} and the supply of oil" if other else ", of the supply of oil"
+        words += f", from {other} and the oil supply" if other else ", from the oil supply"
     elif factor in _HEAT:
-        left, words = "starvation and grease", f"{words}, of {_HEAT[factor]}"
+        left, words = "starvation and grease", f"{words}, from {_HEAT[factor]}"
     if factor == "solved":
         left = f"{left}, spin and sliding"
     return words, left
@@ -525,7 +525,9 @@ def supply_words(solution: BearingSolution) -> str:
     by = f" by {supply}" if solution.case.bearing.by_supply_rule else ""
     heat = solution.case.bearing.film_factor
     more = f" and a given factor of {readable(heat)}" if isinstance(heat, float) else ""
-    more = {"inlet-shear": " and inlet shear heating", "solved": " and solved heat"}.get(str(heat), more)
+    more = {"inlet-shear": " and inlet shear heating", "solved": " and the thermal solution"}.get(
+        str(heat), more
+    )
     return f"{readable(float(share or 1.0))} of the flooded thickness{by}{more}"
 
 

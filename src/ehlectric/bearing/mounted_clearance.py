@@ -50,7 +50,7 @@ def mounted_clearance(bearing: Bearing) -> MountedClearance | None:
         overlap = f"whose interference with the outer ring is {readable(float(1e6 * pressing))} um"
         raise InputError.missing("fits.housing_diameter", f"the outer diameter of the housing, {overlap}")
     if beyond:
-        got = f"a clearance in operation of {readable(float(1e6 * clearance), 4)} um"
+        got = f"an operating clearance of {readable(float(1e6 * clearance), 4)} um"
         takes = f"fits and temperatures for {1e6 * PLAY.least:g} to {1e6 * PLAY.most:g} um"
         raise InputError("fits", got=got, takes=takes)
     return mounted

@@ -385,7 +385,7 @@ def _films(solution: BearingSolution) -> Statement:
 
 
 # Words for the heat of a film by its film factor.
-_HEAT = {"inlet-shear": "inlet shear heating", "solved": "the solved heat of pure rolling"}
+_HEAT = {"inlet-shear": "inlet shear heating", "solved": "the thermal solution for pure rolling"}
 
 
 def equal_bearings(case: BearingCase) -> tuple[Statement, ...]:

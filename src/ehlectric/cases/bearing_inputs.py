@@ -136,7 +136,9 @@ class Pair(Table, book="bearing.pair"):
     def _check(self) -> Self:
         if (self.preload is None) == (self.axial_clearance is None):
             both = None if self.preload is None else "it and axial_clearance together"
-            raise InputError("preload", got=both, takes="either preload or axial_clearance, in operation")
+            raise InputError(
+                "preload", got=both, takes="either preload or axial_clearance, the operating clearance"
+            )
         return self
 
 
@@ -152,7 +154,7 @@ _RING_TEMPERATURE = {True: "inner_ring_temperature", False: "outer_ring_temperat
 # What a message says of a needed key that is missing, where a few words help.
 _CHOICES = {
     "profile": "'none' or 'logarithmic'",
-    "radial_clearance": "the clearance in operation, clearance_class with bore, or [bearing.fits]",
+    "radial_clearance": "the operating clearance, clearance_class with bore, or [bearing.fits]",
     "contact_angle": "the angle between the contacts and the radial plane",
 }
 
@@ -612,7 +614,7 @@ class Bearing(Table, book="bearing", named_by="base"):
             raise InputError(
                 "radial_clearance",
                 got=f"{self.radial_clearance:g} m with [bearing.fits]",
-                takes="fits.unmounted_clearance or clearance_class, the clearance before mounting",
+                takes="fits.unmounted_clearance or clearance_class, the initial clearance",
             )
         if (fits.unmounted_clearance is None) == (self.clearance_class is None):
             both = None if self.clearance_class is None else "it and clearance_class together"

@@ -174,8 +174,8 @@ _STATES = {
     "contacts": {contacts: f"contacts {how}" for contacts, how in HOW.items()},
     "bearing.film_factor": {
         "none": "isothermal, fully flooded film",
-        "inlet-shear": "film with inlet shear",
-        "solved": "film with solved heat",
+        "inlet-shear": "film with inlet shear heating",
+        "solved": "thermal film",
     },
     "bearing.supply": {
         "flooded": "fully flooded",

@@ -208,7 +208,7 @@ def film_factor_note(summary: Summary) -> str:
     other = _HEAT.get(factor) or (
         f"given factor of {readable(factor)}" if factor not in ("none", 1.0) else ""
     )
-    return f"({' and '.join(filter(None, (other, 'supply of oil')))})"
+    return f"({' and '.join(filter(None, (other, 'oil supply')))})"
 
 
 def _supply_note(summary: Summary) -> str:
@@ -220,7 +220,7 @@ def _rolling_note(summary: Summary) -> str:
     supply, solved = _supply(summary), value_at(summary, "bearing.inner_solved_thickness")
     what = ""
     if supply != "flooded":
-        by_rule = "by SKF's factor of the supply" if isinstance(supply, str) else "of starved contacts"
+        by_rule = "by SKF's replenishment factor" if isinstance(supply, str) else "of starved contacts"
         what = f", {'of flooded contacts' if solved is None else by_rule}"
     return f"{what}, without spin, slip, cage, seals and churned oil"
 

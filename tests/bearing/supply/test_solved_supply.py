@@ -147,7 +147,7 @@ def test_a_rule_is_a_factor_on_film_and_resistance(flooded):
         )
     assert own.friction.oil_layer is None
     rows = {row.key: row.text for row in total_rows(summary_of(greased))}
-    assert "by SKF's factor of the supply" in rows["bearing.rolling_power_loss"]
+    assert "by SKF's replenishment factor" in rows["bearing.rolling_power_loss"]
 
 
 @pytest.mark.slow
@@ -178,7 +178,7 @@ def test_speed_of_the_capacitive_regime_follows_the_solved_film():
     rough = solve_bearing(case(supply=0.5, bearing__composite_rq="0.06 um", bearing__summit_height=0.0))
     duty, speed = duty_of(rough.solution), capacitive_speed(rough.solution)
     assert not conducts(rough.solution)
-    assert (duty.regime == "capacitive") == (speed < rough.case.bearing.inner_speed)
+    assert (duty.behaviour == "capacitive") == (speed < rough.case.bearing.inner_speed)
     plain = duty_of(rough.solution, ring_scales=(1.0, 1.0))
     scales = solved_scales(rough.solution)
     assert (duty.contact_time_share < plain.contact_time_share) == (min(scales) > 1.0)

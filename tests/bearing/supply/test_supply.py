@@ -115,8 +115,8 @@ def test_starved_films_are_told():
 @pytest.mark.parametrize(
     ("factor", "note", "row"),
     [
-        (0.9, "factor of 0.9 and the supply", "factor of 0.9 and supply"),
-        ("none", "of the supply", "supply"),
+        (0.9, "factor of 0.9 and the oil supply", "factor of 0.9 and oil supply"),
+        ("none", "from the oil supply", "oil supply"),
     ],
 )
 def test_parts_of_a_film_factor_are_all_named(factor, note, row):
