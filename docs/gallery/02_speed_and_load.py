@@ -1,6 +1,6 @@
 """
-Speed and load against the film formulas
-========================================
+Speed and load against the film-thickness formulas
+==================================================
 
 A film-thickness formula is a fit to films that were computed or measured when it was published. Here four
 formulas are compared with the solved film, over two decades of speed at two loads.

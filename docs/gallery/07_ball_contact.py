@@ -60,7 +60,7 @@ for name, zone in result.zones.items():
     print(f"  {name:<15} {1e12 * field.capacitance_of(zone):.2f} pF")
 
 # %%
-# For comparison, the values of the film formulas, which are fits to solutions like this one:
+# For comparison, the values of the film-thickness formulas, which are fits to solutions like this one:
 for name, formula in result.formulas().items():
     for quantity, thickness in vars(formula).items():
         if thickness is not None:

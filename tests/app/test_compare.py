@@ -69,7 +69,7 @@ def test_an_upper_bound_says_so(both):
     """The films are isothermal, so that its voltages are upper bounds."""
     assert "isothermal-film" in {told.code for told in both[0].warnings}
     found = {result.name: result for result in both[0].results}
-    assert found["first breakdown voltage"].shown.startswith("≤ ")
+    assert found["first breakdown voltage"].words.startswith("≤ ")
     assert found["capacitance of the bearing"].bound == ""
     assert found["shaft voltage"].bound == ""
     assert found["minimum lambda ratio"].bound == "≤"
@@ -159,7 +159,7 @@ def test_contacts_are_compared_by_formula():
     both = side(case.table)
     assert (both.verdict, both.deciding) == (alone.verdict, alone.deciding)
     assert both.number.text == alone.number(alone.deciding.key).text
-    broken = {row.name: row for row in both.results}["breakdown voltage by formula"]
+    broken = {row.name: row for row in both.results}["breakdown voltage (film-thickness formula)"]
     assert broken.main
     assert (broken.group, broken.bound) == ("breakdown", "≤")
     expected = preview_of(contact_case(case.table)).summary["breakdown_by_formula"]

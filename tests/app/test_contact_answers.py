@@ -91,7 +91,7 @@ def test_verdict_by_formula_has_the_error_of_the_formula(tmp_path):
     # examples/discharge.toml: margin 1.03, which 40 % of film and 20 % of strength take across 1.
     answer = check_contact(table_of("discharge"), str(tmp_path))
     assert answer.verdict.level == "yellow"
-    assert "By formula" in words(answer)
+    assert "With the film-thickness formula" in words(answer)
     # 40 % of the film and 20 % of the strength, either way.
     margin = float(number(answer, answer.deciding.key).text)
     ends = (margin * 0.8 / 1.4, margin * 1.2 / 0.6)

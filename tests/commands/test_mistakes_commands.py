@@ -176,7 +176,7 @@ def test_the_breakdown_of_a_contact_is_estimated_by_formula(ehlectric, files):
     assert estimate["breakdown_voltage"] == pytest.approx(15e6 * film, rel=1e-12, abs=0.0)
     voltage = Case.from_toml(case).electric.voltage
     assert estimate["margin"] == pytest.approx(15e6 * film / abs(voltage), rel=1e-12, abs=0.0)
-    assert "by formula" in ehlectric("check", "case.toml").stdout
+    assert "from the film-thickness formula" in ehlectric("check", "case.toml").stdout
     table = '[discharge.strength_table]\npressure = ["0 GPa", "1 GPa"]\nstrength = ["15 V/um", "20 V/um"]\n'
     case.write_text(case.read_text().replace('[discharge]\ndielectric_strength = "15 V/um"\n', table))
     assert "breakdown_by_formula" not in json.loads(ehlectric("check", "case.toml", "--json").stdout)
@@ -194,7 +194,9 @@ def test_lambda_of_a_rough_contact_is_estimated_by_formula(ehlectric, files):
     assert estimate["rq"] == pytest.approx(500e-9 / np.sqrt(2.0), rel=0.01)
     film = found["film_formulas"]["pan_hamrock"]["minimum_thickness"]
     assert estimate["lambda_ratio"] == pytest.approx(film / estimate["rq"], rel=1e-12)
-    assert ("likely to touch" in words_of(ehlectric("check", "case.toml"))) == (film < estimate["rq"])
+    assert ("asperity contact is likely" in words_of(ehlectric("check", "case.toml"))) == (
+        film < estimate["rq"]
+    )
 
 
 @pytest.mark.slow

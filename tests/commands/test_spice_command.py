@@ -32,7 +32,7 @@ def test_a_bearing_and_its_bench_are_written(ehlectric, bearing, tmp_path):
     for text in ("bearing_6208 shaft housing", "C_films", "V_ext", "film.lib", "bench.cir"):
         assert text in done.stdout
     assert "note: the switch closes at the ring-to-ring breakdown voltage" in done.stderr
-    assert "warning: the contacts use film formulas" in done.stderr
+    assert "warning: the contacts use film-thickness formulas" in done.stderr
     assert '.include "../film.lib"' in (tmp_path / "sim" / "bench.cir").read_text()
     shaft = solve_bearing(BearingCase.from_toml(bearing), workers=1).shaft_voltage
     found = run_netlist(tmp_path / "sim" / "bench.cir")

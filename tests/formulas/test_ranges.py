@@ -70,14 +70,14 @@ def test_rows_mark_formulas_and_limit_their_accuracy():
 def test_every_regime_says_that_formulas_do_not_hold(contact, holds):
     one = case(**contact)
     (text,) = [w.text for w in case_warnings(one, resolve_point(one)) if w.code == "regime"]
-    assert f"where only the film formula of {holds} holds" in text
+    assert f"where only the film-thickness formula of {holds} holds" in text
 
 
 def test_a_rigid_line_says_that_formulas_do_not_hold():
     contact = {"reduced_radius": "15 mm", "reduced_modulus": "230 GPa", "load_per_length": "500 N/m"}
     one = Case.from_dict({"contact": contact | {"entrainment_speed": "8 m/s"}, "lubricant": OIL})
     (text,) = [w.text for w in case_warnings(one, resolve(one)) if w.code == "regime"]
-    assert "where only the film formula of Moes holds" in text
+    assert "where only the film-thickness formula of Moes holds" in text
 
 
 @each(

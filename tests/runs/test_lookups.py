@@ -130,7 +130,7 @@ def test_lambda_is_the_minimum_film_divided_by_the_composite_rq():
     film = checked.summary["film_formulas"]["chittenden"]["minimum_thickness"]
     rq = math.sqrt(math.pi / 2.0) * 50e-9
     assert checked.summary["lambda_by_formula"]["lambda_ratio"] == pytest.approx(film / rq, rel=1e-12)
-    assert any(row.name == "lambda ratio by formula" for row in checked.rows)
+    assert any(row.name == "lambda ratio (film-thickness formula)" for row in checked.rows)
 
 
 @pytest.mark.slow

@@ -127,7 +127,10 @@ def test_temperatures_are_in_degrees_celsius():
 
 def test_words_that_are_held_are_read_as_words():
     found = over(contacts=("formula",))
-    assert held_text(found, select_slice(found, SPEED, None, "bearing.first_break")) == "contacts by formula"
+    assert (
+        held_text(found, select_slice(found, SPEED, None, "bearing.first_break"))
+        == "contacts from the film-thickness formula"
+    )
 
 
 def test_without_a_motor_there_is_no_voltage_of_the_shaft():

@@ -18,11 +18,11 @@ Contacts = Literal["solved", "atlas", "formula"]
 QUICK: tuple[Contacts, ...] = ("atlas", "formula")
 
 # How contacts and films are obtained, and such contacts, in words.
-HOW = {"solved": "solved", "atlas": "from the atlas", "formula": "by formula"}
+HOW = {"solved": "solved", "atlas": "from the atlas", "formula": "from the film-thickness formula"}
 OF_CONTACTS = {
     "solved": "solved contacts",
     "atlas": "contacts from the atlas",
-    "formula": "contacts by formula",
+    "formula": "contacts from the film-thickness formula",
 }
 
 # Values of ``film_factor`` that are words; all except the first compute the heat.

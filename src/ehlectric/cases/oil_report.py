@@ -398,7 +398,9 @@ _ALL = (
     OilProperty("viscosity", "viscosity", "Pa*s", _viscosity, viscosity_keys, ("viscosity_law",)),
     OilProperty("kinematic_viscosity", "kinematic viscosity", "m**2/s", _kinematic, kinematic_keys),
     OilProperty(ALPHA, "alpha (initial slope)", "1/Pa", lambda oil, _: oil.alpha, alpha_keys),
-    OilProperty("alpha_star", "alpha* (film formulas)", "1/Pa", lambda oil, _: oil.alpha_star, alpha_keys),
+    OilProperty(
+        "alpha_star", "alpha* (reciprocal asymptotic)", "1/Pa", lambda oil, _: oil.alpha_star, alpha_keys
+    ),
     OilProperty("density", "density", "kg/m**3", _density, density_keys, ("density_law",)),
     _of_law("density_ratio", "density over ambient", "", "density_law"),
     OilProperty(

@@ -84,7 +84,10 @@ _OVER_TEMPERATURE = (
 # Colour and dashes of the curves in a panel over temperature, and their names where there are two.
 _LOOKS = ((BLUE, "-"), (ORANGE, "--"))
 _NAMES: Mapping[str, str] = MappingProxyType(
-    {"alpha_star": r"$\alpha^*$, of film formulas", "pressure_viscosity_coefficient": r"$\alpha$, at $p=0$"}
+    {
+        "alpha_star": r"$\alpha^*$, of film-thickness formulas",
+        "pressure_viscosity_coefficient": r"$\alpha$, at $p=0$",
+    }
 )
 
 

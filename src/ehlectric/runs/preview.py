@@ -117,19 +117,21 @@ def _lambda_by_formula(contact: PreparedContact, case: Case) -> dict[str, Any] |
 def _lambda_rows(estimate: Mapping[str, Any], where: str) -> Iterator[Row]:
     ratio, reason = estimate["lambda_ratio"], estimate["outside_range"]
     yield _row("lambda_by_formula.rq", estimate["rq"], where)
-    likely = "are likely to touch" if ratio < 1.0 else "may touch" if ratio < 3.0 else "touch rarely"
+    likely = "likely" if ratio < 1.0 else "possible" if ratio < 3.0 else "rare"
     formula = f"{estimate['formula']}, outside its range: {reason}" if reason else estimate["formula"]
-    note = f", minimum film ({formula}) / combined Rq: the surfaces {likely}"
+    note = f", minimum film ({formula}) / combined Rq: asperity contact is {likely}"
     yield _row("lambda_by_formula.lambda_ratio", ratio, note)
 
 
 def _breakdown_rows(estimate: Mapping[str, Any]) -> Iterator[Row]:
     reason = estimate["outside_range"]
     error = f"outside its range: {reason}" if reason else "up to 40 % off"
-    about = f", by formula: {estimate['formula']}, {error}; isothermal, fully flooded film"
+    about = f", film from {estimate['formula']}, {error}; isothermal, fully flooded film"
     yield _row("breakdown_by_formula.breakdown_voltage", estimate["breakdown_voltage"], about)
     if estimate["margin"] is not None:
-        yield _row("breakdown_by_formula.margin", estimate["margin"], f"by formula: {error}")
+        yield _row(
+            "breakdown_by_formula.margin", estimate["margin"], f", from the film-thickness formula: {error}"
+        )
 
 
 def _row(key: str, value: float, note: str) -> Row:
@@ -146,7 +148,10 @@ def _preview_bearing(case: BearingCase) -> Preview:
     check_bearing(case)
     judged, refused = quick_case(case)
     if judged is None:
-        reason = "the atlas and film formulas need a piezoviscous oil; ehlectric bearing solves the contacts"
+        reason = (
+            "the atlas and film-thickness formulas need a piezoviscous oil; "
+            "ehlectric bearing solves the contacts"
+        )
         return _without_films(case, reason)
     # The file of a duty cycle is checked; it is computed by ehlectric bearing.
     result = solve_bearing(judged.model_copy(update={"duty": None}), workers=1)

@@ -86,7 +86,14 @@ def test_the_header_says_what_was_computed(plain, tmp_path):
     write_netlist(plain, tmp_path / "bearing.lib")
     text = (tmp_path / "bearing.lib").read_text()
     joined = " ".join(line.removeprefix("*").strip() for line in text.splitlines())
-    numbers = ("3000 rpm", "70 degC", "radial load 1.8 kN", "axial load 300 N", "by formula", "converged")
+    numbers = (
+        "3000 rpm",
+        "70 degC",
+        "radial load 1.8 kN",
+        "axial load 300 N",
+        "from the film-thickness formula",
+        "converged",
+    )
     assert [number for number in numbers if number not in joined] == []
     for warning in plain.warnings:
         assert warning.text.replace("µ", "u")[:60] in joined

@@ -541,7 +541,7 @@ def test_the_crossing_is_marked_named_and_in_the_title(points):
     assert title_of(drawn) == [
         f"Margin below 1 up to about {named}; frequent asperity contact below 774 rpm",
         "By hand",
-        "curves: contacts by formula",
+        "curves: contacts from the film-thickness formula",
     ]
 
 
@@ -689,7 +689,8 @@ def test_curves_are_scaled_to_a_bearing_of_solved_contacts(points):
         np.testing.assert_allclose(star.get_data(), [[3000.0], [height]], rtol=1e-12)
         assert key in curves.values
         assert said(drawn).endswith(
-            "curves: contacts by formula, scaled by 0.783 and 0.893 to the solved contacts at 3000 rpm (star)"
+            "curves: contacts from the film-thickness formula, "
+            "scaled by 0.783 and 0.893 to the solved contacts at 3000 rpm (star)"
         )
     assert "margin 1" in [text.get_text() for text in drawn.axes[0].texts]
     assert RPM * critical_speed_of(curves) == pytest.approx(3000.0, rel=1e-9)

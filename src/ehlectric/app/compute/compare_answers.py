@@ -74,7 +74,7 @@ def _contact(case: Case) -> Side:
         number=_number(preview.rows, decides.key),
         results=tuple(_results(_outcomes_first(preview.rows))),
         warnings=page_warnings_of(preview.warnings),
-        method="films by formula: usually up to 40 % off a solved film",
+        method="films from film-thickness formulas: usually up to 40 % off a solved film",
     )
 
 

@@ -74,7 +74,9 @@ def quick_answer(table: Mapping[str, Any], session: Path | str | None = None) ->
     try:
         return answer_of(solve(case))
     except ConvergenceError as error:
-        return replace(by_formula(case), how=f"By formula, as the film is not solved: {error}")
+        return replace(
+            by_formula(case), how=f"From a film-thickness formula, because the film is not solved: {error}"
+        )
 
 
 def by_formula(case: Case) -> ContactAnswer:

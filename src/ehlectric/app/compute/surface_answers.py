@@ -60,7 +60,7 @@ def too_rough(table: Roughness, rough: RoughSurface | RoughMap, formula: Thickne
     advice = "remove the form first" if formless else "filter its long waves, and check the units of heights"
     text = (
         f"{name} is {_times(float(ratio))} times the film thickness ({_length(heights)}, against "
-        f"{_length(float(film))} by formula), so the surfaces would touch: {advice}"
+        f"{_length(float(film))} from a film-thickness formula), so asperities would be in contact: {advice}"
     )
     return PageWarning("", "warning", text)
 

@@ -167,7 +167,7 @@ class RangesForm:
         self._link = control("base-link", "Or paste a link of a page", self._take_over)
         kinds = {
             "atlas": "from the atlas: half a second each",
-            "formula": "by formula: half a second each",
+            "formula": "from the film-thickness formula: half a second each",
             "solved": "solved: ten seconds or more each",
         }
         contacts = partial(self._changed_case, "contacts")
