@@ -237,7 +237,7 @@ def test_numbers_and_remedies_of_a_drive(pages):
             [own["events_per_second_low"], own["events_per_second_high"]], rel=5e-3
         )
         assert found[f"Energy of a discharge, mean, {place}"][0] == f"{1e9 * own['energy_mean']:.3g} nJ"
-    remedies = tables_of(report)["Remedies: discharges [1/s]"]
+    remedies = tables_of(report)["Mitigation measures: discharges [1/s]"]
     assert [row[0] for row in remedies.rows] == ["as it is", *(one["title"] for one in summary["remedies"])]
     rates = [summary[table]["events_per_second"] for table in ("drive_end", "non_drive_end", "drive")]
     assert [number_in(text) for text in remedies.rows[0][2:]] == pytest.approx(rates, rel=5e-3)
@@ -326,7 +326,7 @@ def test_the_answer_can_be_repeated_from_the_page(pages, name):
             compared += 1
     assert compared >= 14
     if name == "drive":
-        changes = " ".join(row[1] for row in tables_of(report)["Remedies: discharges [1/s]"].rows)
+        changes = " ".join(row[1] for row in tables_of(report)["Mitigation measures: discharges [1/s]"].rows)
         text = changes.replace("\xa0", " ")
         assert all(change in text for change in ("= 1 Ω", "= silicon-nitride", "= 5 pF", "= 5 kHz"))
 
@@ -367,7 +367,9 @@ def test_the_page_of_a_drive_has_a_row_for_each_bearing_and_a_figure_of_the_whol
     wide, high = 72.0 * picture.figure.get_size_inches()
     assert wide == pytest.approx(A4[0] - 36.0 * mm, rel=0.02)
     assert high < 0.5 * wide
-    (remedies,) = (table for name, table in tables_of(report).items() if name.startswith("Remedies"))
+    (remedies,) = (
+        table for name, table in tables_of(report).items() if name.startswith("Mitigation measures")
+    )
     assert sum(remedies.shares) == pytest.approx(1.0)
     changes = [row[1] for row in remedies.rows]
     assert changes[0] == "none"
@@ -384,7 +386,7 @@ def test_all_parts_of_the_first_page_have_one_width_at_every_size(pages, remedie
     first, *others = report.sections
     longer = [
         replace(block, rows=block.rows[:1] + block.rows[1:2] * remedies)
-        if isinstance(block, Table) and block.caption.startswith("Remedies")
+        if isinstance(block, Table) and block.caption.startswith("Mitigation measures")
         else block
         for block in first.blocks
     ]

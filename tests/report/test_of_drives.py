@@ -205,11 +205,11 @@ def test_figures_have_findings_and_captions(report):
 
 
 def test_remedies_stand_beside_the_drive_with_what_they_change(report, drive):
-    found = tables(report, "Remedies")
-    assert found["What each remedy changes"].rows == (
+    found = tables(report, "Mitigation measures")
+    assert found["What each mitigation measure changes"].rows == (
         ("Grounding ring", named("circuit.grounding_ring_resistance"), "not given", "1\xa0Ω"),
     )
-    sides = found["Remedies side by side"].rows
+    sides = found["Mitigation measures compared"].rows
     assert [row[:2] for row in sides] == [
         (name, place)
         for name in ("as it is", "Grounding ring")
@@ -219,7 +219,7 @@ def test_remedies_stand_beside_the_drive_with_what_they_change(report, drive):
     assert sides[3][2:5] == ("0", f"at most {high:.3g}", "–")
     both = drive.summary()["drive"]["events_per_second"]
     assert number_in(sides[2][2]) == pytest.approx(both, rel=5e-3)
-    verdicts = rows(found["Verdict on each remedy"])
+    verdicts = rows(found["Verdict on each mitigation measure"])
     assert verdicts["as it is"] == ("Discharges expected", "none")
     assert verdicts["Grounding ring"][0].endswith("in an ideal film (upper bound)")
 

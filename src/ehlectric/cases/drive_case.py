@@ -47,7 +47,9 @@ class Remedy(Table, book="remedies"):
     def _check(self) -> Self:
         if not self.changes:
             takes = 'values by dotted key, such as { "drive.speed" = "1500 rpm" }'
-            raise InputError("changes", got=f"none in the remedy {shown(self.title)}", takes=takes)
+            raise InputError(
+                "changes", got=f"none in the mitigation measure {shown(self.title)}", takes=takes
+            )
         return self
 
 

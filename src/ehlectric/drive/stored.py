@@ -143,7 +143,7 @@ def duties_of(dataset: xr.Dataset, remedies: int) -> tuple[DriveDuty | None, tup
     of_drive, *others = (_duty_of(dataset, variant) for variant in range(1 + remedies))
     known = tuple(duty for duty in others if duty is not None)
     if len(known) not in (0, remedies):
-        raise UnfitError("some remedies have no duty cycle")
+        raise UnfitError("some mitigation measures have no duty cycle")
     return of_drive, known
 
 

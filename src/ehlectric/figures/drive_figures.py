@@ -129,9 +129,9 @@ def remedies(result: DriveResult) -> str:
     best = [name for (name, _), rate in zip(others, rates, strict=True) if rate == least]
     if not now + max(rates):
         highest = max(end["events_per_second_high"] for _, pair in rows for end in pair)
-        return f"No discharge, with or without remedies: at most {readable(highest)} a second"
+        return f"No discharge, with or without mitigation measures: at most {readable(highest)} a second"
     if not least < now:
-        return f"No remedy lowers the {readable(now)} discharges a second of both bearings"
+        return f"No mitigation measure lowers the {readable(now)} discharges a second of both bearings"
     names = " and ".join(textwrap.shorten(name, 40, placeholder=" ...") for name in best[:3])
     if not least:
         return f"No discharge with {names}; {readable(now)} a second in both bearings as it is"

@@ -169,8 +169,8 @@ def number_tables(summary: Summary) -> Iterator[Table | Text]:
 def remedy_blocks(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[Block]:
     """Tables of the remedies: what they change, and their numbers next to the unchanged drive."""
     yield Text(SENTENCES["remedies"])
-    heads, changes = ("remedy", "input", AS_IT_IS, "with the remedy"), tuple(_changes(result))
-    yield Table("What each remedy changes", heads, changes, shares=(0.25, 0.39, 0.18, 0.18))
+    heads, changes = ("mitigation measure", "input", AS_IT_IS, "with the measure"), tuple(_changes(result))
+    yield Table("What each mitigation measure changes", heads, changes, shares=(0.25, 0.39, 0.18, 0.18))
     drives = [(AS_IT_IS, result, summary)]
     drives += [(variant.title, variant.result, variant.result.summary()) for variant in result.variants]
     known = {warning.code for warning in result.warnings}
@@ -179,11 +179,11 @@ def remedy_blocks(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[B
         for title, variant, of_drive in drives
     )
     judged = ("drive", "verdict", "further warnings")
-    yield Table("Verdict on each remedy", judged, verdicts, shares=(0.25, 0.35, 0.4))
+    yield Table("Verdict on each mitigation measure", judged, verdicts, shares=(0.25, 0.35, 0.4))
     columns, *cells = remedy_cells([(title, of_drive) for title, _, of_drive in drives])
     rows = tuple((title, place, *map(unbroken, values)) for title, place, *values in cells)
     shares = (0.18, 0.12, *(0.7 / (len(columns) - 2) for _ in columns[2:]))
-    yield Table("Remedies side by side", columns, rows, tuple(range(2, len(columns))), shares=shares)
+    yield Table("Mitigation measures compared", columns, rows, tuple(range(2, len(columns))), shares=shares)
 
 
 def _words(result: DriveResult, summary: Mapping[str, Any]) -> str:
@@ -311,10 +311,10 @@ def _remedy_table(result: DriveResult, summary: Summary) -> Table:
         for _, changed, solved in result.remedies
     ]
     rows = tuple((title, change, *rates) for (title, *rates), change in zip(cells, changes, strict=True))
-    heads = ("remedy", "change", *heads[1:])
+    heads = ("mitigation measure", "change", *heads[1:])
     numeric = (0.11, 0.15, 0.11, 0.15)[: len(heads) - 2]
     shares = (0.22, 0.78 - sum(numeric), *numeric)
-    return Table(f"Remedies: {RATES}", heads, rows, tuple(range(2, len(heads))), shares=shares)
+    return Table(f"Mitigation measures: {RATES}", heads, rows, tuple(range(2, len(heads))), shares=shares)
 
 
 def _kind(case: DriveCase) -> str:
@@ -339,5 +339,5 @@ def _lead(summary: Mapping[str, Any]) -> str:
 
 def _sections(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[Section]:
     if result.remedies:
-        yield Section("Remedies", tuple(remedy_blocks(result, summary)))
+        yield Section("Mitigation measures", tuple(remedy_blocks(result, summary)))
     yield Section("Largest discharges", tuple(event_blocks(result)))

@@ -145,7 +145,7 @@ def remedy_cells(
         for key in REMEDIES[0].keys
         if (intervals or not key.endswith("_range")) and any(key in rows for _, _, rows in blocks)
     ]
-    yield "remedy", "bearing", *(head_of(DRIVE_BOOK[key]) for key in keys)
+    yield "mitigation measure", "bearing", *(head_of(DRIVE_BOOK[key]) for key in keys)
     for title, place, rows in blocks:
         yield printable(title), place, *(_cell(rows.get(key)) for key in keys)
 
@@ -164,7 +164,7 @@ def remedy_rates(summary: Summary) -> Iterator[tuple[str, ...]]:
     columns = [(_RATE, end) for end in places]
     columns += [("end.duty_discharges", BOTH)] if summary.get("duty") else []
     names = (f"{head_of(DRIVE_BOOK[key])}, {places[end]}" for key, end in columns[len(places) :])
-    yield "remedy", *places.values(), *names
+    yield "mitigation measure", *places.values(), *names
     for title, tables in remedied(summary):
         rows = {end: _remedy_rows(tables, end) for end in places}
         yield printable(title), *(_cell(rows[end].get(key)) for key, end in columns)

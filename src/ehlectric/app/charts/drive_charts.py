@@ -185,8 +185,8 @@ def remedies_figure(result: DriveResult) -> Figure:
     along, panel = findings.rates_of(rows)
     finding = findings.remedies(result)
     return Figure(
-        "Remedies side by side",
-        f"Discharges per second of the drive as it is and with each remedy. {finding}.",
+        "Mitigation measures compared",
+        f"Discharges per second of the drive as it is and with each mitigation measure. {finding}.",
         stack(along, [panel], height=_REST + _ROW * len(rows), hovermode="closest"),
         Table(
             "Discharges per second with bounds of 95 %",

@@ -70,7 +70,9 @@ class DriveView(AnswerView[DriveAnswer]):
         self.body.props["data-simulated"] = str(answer.simulated).lower()
         self.body.update()
         remedies = answer.remedies
-        self._remedies.content = "" if remedies is None else f"<h2>Remedies</h2>{table_html(remedies)}"
+        self._remedies.content = (
+            "" if remedies is None else f"<h2>Mitigation measures</h2>{table_html(remedies)}"
+        )
         self._remedies.set_visibility(remedies is not None)
         self._ends.content = behind("Both bearings, as the command prints them", table_html(answer.ends))
         leading = answer.deciding.figure
@@ -96,12 +98,12 @@ class RemedyBox:
         self._session, self._change = session, change
         self._boxes: dict[str, tuple[ui.checkbox, ui.label, ui.element]] = {}
         with (
-            ui.element("div").classes("form").props('role="form" aria-label="Remedies"'),
-            GroupBox("Remedies", title="Remedies to compare", opened=True),
+            ui.element("div").classes("form").props('role="form" aria-label="Mitigation measures"'),
+            GroupBox("Remedies", title="Mitigation measures to compare", opened=True),
         ):
-            ui.label("Each is simulated beside the drive, with the same random numbers.").classes(
-                "field-help"
-            )
+            ui.label(
+                "Each measure is simulated in addition to the drive, with the same random numbers."
+            ).classes("field-help")
             for title in PRESETS:
                 self._preset(title)
             self._others = ui.element("div")
@@ -121,7 +123,9 @@ class RemedyBox:
             for title, changes in given.items():
                 if title not in PRESETS:
                     removable(
-                        f"{title}: {_text(changes)}", f"the remedy {title}", partial(self._remove, title)
+                        f"{title}: {_text(changes)}",
+                        f"the mitigation measure {title}",
+                        partial(self._remove, title),
                     )
 
     def _preset(self, title: str) -> None:

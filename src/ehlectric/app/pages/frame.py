@@ -233,7 +233,7 @@ class Toolbar:
         table = self._case.table
         case = table.get("case", table)
         if "drive_end" in case:
-            self._tell(error="drives are compared by their remedies, on the page Drive")
+            self._tell(error="drives are compared on the page Drive, with mitigation measures")
             return
         self._go("/compare", Inputs({"a": case, "b": case}))
 

@@ -48,7 +48,7 @@ class RemediesBox:
         with ui.element("section").classes("helps").props('aria-label="What would help"') as self._box:
             self._box.props('data-testid="helps"')
             heading("What would help", 2)
-            self._choices = Choices(BEARING_REMEDIES, "Remedies", self._press)
+            self._choices = Choices(BEARING_REMEDIES, "Mitigation measures", self._press)
             self._list = Control("remedy.oil", kind="list", label="Oil", options=_oils())
             self._list.on("commit", self._other_oil)
             with ui.element("div").props('aria-live="polite" data-testid="helps-effect"') as self._effect:
