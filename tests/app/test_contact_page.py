@@ -178,7 +178,7 @@ def assert_touching(page, folder, *, micrometres):
     assert shown(page, "film.minimum_thickness") == pytest.approx(micrometres, rel=1e-3)
     assert "boundary film" in page.get_by_test_id("number-film.minimum_thickness").inner_text()
     legend = page.get_by_test_id("figure-profiles").locator(".legendtext")
-    legend.filter(has_text="surfaces touch").wait_for()
+    legend.filter(has_text="contact spots").wait_for()
     legend.filter(has_text="pressure of asperities").wait_for()
     summary = summary_by_command("run", downloaded(page, "download-toml", folder), folder)
     mean = 1e6 * summary["film"]["mean_thickness"]

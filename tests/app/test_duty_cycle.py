@@ -58,7 +58,7 @@ def test_a_cycle_is_uploaded_and_its_result_follows_the_inputs(page, tmp_path):
     wait_for_address(page, "duty.file=")
     # Each row stands for the time from halfway to the row before to halfway to the next.
     wait_for_share(page, "share of the duty cycle at a standstill", 5.0)
-    wait_for_share(page, "with touching surfaces", 10.0)
+    wait_for_share(page, "with frequent asperity contact", 10.0)
     assert not error.is_visible()
     assert "my <i>cycle.csv: 6 rows over 100 s" in page.get_by_test_id("duty-used").inner_text()
     assert "operating point of the form" in page.get_by_test_id("operating-point").inner_text()

@@ -244,7 +244,7 @@ def test_spots_of_a_line_contact_are_drawn_where_its_film_touches(touching_line)
     assert film.contact.any()
     shown = line_figures(touching_line)["profiles"]
     written(shown)
-    spots = trace(shown, "surfaces touch")
+    spots = trace(shown, "contact spots")
     assert spots["x"] == pytest.approx(1e6 * film.x[film.contact], rel=1e-6)
     # The film is drawn in µm, although it is 1 nm thick at the spots.
     assert spots["y"] == pytest.approx([1e-3] * len(spots["x"]), rel=1e-4)
@@ -266,7 +266,7 @@ def test_spots_of_a_point_contact_are_marked_and_the_cuts_go_through_one(touchin
     i, j = np.nonzero(film.contact)
     for name in ("film-map", "pressure-map", "field-map"):
         written(shown[name])
-        spots = trace(shown[name], "surfaces touch")
+        spots = trace(shown[name], "contact spots")
         found = sorted(zip(spots["x"], spots["y"], strict=True))
         expected = sorted(zip(1e6 * film.x[i], 1e6 * film.y[j], strict=True))
         # Numbers of the page have seven digits.
@@ -276,14 +276,14 @@ def test_spots_of_a_point_contact_are_marked_and_the_cuts_go_through_one(touchin
         written(cut)
         most = max(trace(cut, "pressure of asperities")["y"])
         assert most == pytest.approx(film.contact_pressure.max() / 1e9, rel=1e-6)
-        assert min(trace(cut, "surfaces touch")["y"]) == pytest.approx(1.0, rel=1e-4)
+        assert min(trace(cut, "contact spots")["y"]) == pytest.approx(1.0, rel=1e-4)
     assert reach.first == "the spot of the highest pressure"
 
 
 def test_surfaces_that_do_not_touch_have_no_spots(line, point):
     drawn = all_of(line_figures(line), point_figures(point), point_cuts(point, 0.0, 0.0))
     names = {one.get("name") for shown in drawn for one in shown.plot["data"]}
-    assert not names & {"surfaces touch", "pressure of asperities"}
+    assert not names & {"contact spots", "pressure of asperities"}
     assert reach_of(point).first == "the smallest film"
 
 

@@ -115,7 +115,7 @@ def test_films_thinner_than_the_boundary_film_are_contact(ehlectric, case_file, 
     assert done.returncode == 0, done.stderr
     assert {path.name for path in (tmp_path / "out").iterdir()} == FIGURES | DATA | {"spots.png"}
     assert all(line.startswith("warning: ") for line in done.stderr.splitlines())
-    assert "the surfaces touch in 1 spot" in done.stderr
+    assert "asperities are in contact in 1 spot" in done.stderr
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     assert summary["film"]["minimum_thickness"] == pytest.approx(1e-9, rel=1e-6)
     assert summary["asperities"]["load_share"] == pytest.approx(1.0, abs=0.01)

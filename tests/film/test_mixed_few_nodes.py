@@ -53,7 +53,7 @@ def test_surfaces_that_touch_at_the_edge_of_the_domain_are_told(tmp_path):
     assert film.thickness[-1] == pytest.approx(1e-9, rel=1e-12)
     assert film.thickness.min() > 1e-9 * (1.0 - 1e-9)
     (told,) = [each.text for each in result.warnings if each.code == "domain-too-small"]
-    assert told.startswith("the surfaces touch at the edge of the domain")
+    assert told.startswith("asperities are in contact at the edge of the domain")
     wide = solve(Case.from_dict(LIGHT | {"roughness": [table], "grid": LIGHT["grid"] | {"outlet": 4.0}}))
     assert "domain-too-small" not in [each.code for each in wide.warnings]
     np.testing.assert_array_equal(load(save(result, tmp_path)[1]).film.thickness, film.thickness)

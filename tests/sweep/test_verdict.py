@@ -108,7 +108,7 @@ def test_margins_of_boundary_films_are_named_and_leave_no_green_verdict():
     for margins, level in (([2.0, 3.0], "yellow"), ([0.1, 0.2], "red")):
         verdict = sweep_verdict(sweep(axes, margins, case=CONTACT, at_0=touch))
         assert verdict.level == level
-        assert "At 1 of the points the surfaces touch: spots conduct" in verdict.text
+        assert "At 1 of the points asperities are in contact: the contact spots conduct" in verdict.text
 
 
 def test_points_without_a_margin_leave_no_green_verdict():

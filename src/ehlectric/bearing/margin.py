@@ -51,7 +51,7 @@ ONLY_SOLVED = ("discharge.weibull.shape", "discharge.weibull.reference_area")
 
 
 # Reason for which a bearing with a margin has none at changed inputs.
-TOUCHING_ALREADY = "without solved contacts the surfaces touch already in the case itself"
+TOUCHING_ALREADY = "without solved contacts asperity contact is frequent already in the case itself"
 
 
 @dataclass(frozen=True)

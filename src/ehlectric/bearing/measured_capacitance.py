@@ -162,7 +162,7 @@ class FilmState:
             raise InputError.worded(
                 "bearing.composite_rq",
                 f"is more than 1/{LEAST_RATIO:g} of a central film (lambda ratio {readable(ratio, 2)}), "
-                "at which asperities touch",
+                "at which asperities are in contact",
             )
         return cls(float(capacitance), ratio)
 
@@ -466,7 +466,8 @@ def _row(
     ratio = float(correction.of(point.at(factor)).lambda_ratio)
     if ratio < BOUNDARY_LIMIT:
         raise NoFactorError(
-            f"its film would have a lambda ratio of {readable(ratio, 2)}, at which surfaces touch and conduct"
+            f"its film would have a lambda ratio of {readable(ratio, 2)}, boundary lubrication, in which "
+            "asperity contacts conduct"
         )
     yield from (("film_factor", factor), ("slope", slope), ("lambda_ratio", ratio))
 

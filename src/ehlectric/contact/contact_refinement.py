@@ -95,7 +95,7 @@ def _reason(film: Film | PointFilm) -> str:
     if film.discretisation_error is None:
         return f"the error is unknown on {UNKNOWN} grids in succession"
     if np.any(film.contact):
-        return "the surfaces touch, and a finer grid has other spots"
+        return "asperities are in contact, and a finer grid has other contact spots"
     return "no film that conserves its oil was found on the next grid"
 
 

@@ -71,7 +71,7 @@ class ContactResult(Solution[ConditionsT, FilmT, FieldT]):
         strongest: str | None = f"maximum field {field.with_sign(amount(self.field.max_strength, 'V/m'))}"
         if touching is not None:
             # Minimum film and maximum field belong to the boundary film.
-            least = f"{touching.spots.number} spots touch, {touching.electrical.behaviour}"
+            least = f"{touching.spots.number} contact spots, {touching.electrical.behaviour}"
             strongest = f"mean film {amount(film.mean_thickness, 'm')}"
         return (
             f"{self.conditions.geometry} contact",

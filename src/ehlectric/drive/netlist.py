@@ -189,8 +189,9 @@ def _metal_resistance(solution: BearingSolution) -> float:
     if resistance is None:
         raise InputError.missing(
             "bearing.contact_resistance",
-            f"a value: at {speed_text(solution.case.bearing.inner_speed)} the surfaces touch (lambda ratio "
-            f"{lambda_text(solution)}), so that the bearing is a resistance; or a film that parts them",
+            f"a value: at {speed_text(solution.case.bearing.inner_speed)} asperity contact is frequent "
+            f"(lambda ratio {lambda_text(solution)}), so that the bearing is a resistance; or a "
+            "film that separates the surfaces",
         )
     shares = [
         float(np.sum(inner.contact_time_share * outer.contact_time_share))

@@ -130,7 +130,7 @@ def impedance(result: BearingResult) -> str:
     values = ", ".join(f"{value} at {prefixed(at, 'Hz')}" for value, at in shown)
     if curve.mean is not None:
         share = time_share_text(float(duty_of(result.solution).touching_time_share))
-        return f"An element touches both rings {share}: mean |Z| = {values}"
+        return f"An element is in contact with both rings {share}: mean |Z| = {values}"
     value = prefixed(float(shaft_capacitance(result.solution)), "F")
     return f"A capacitor of {value} above {prefixed(curve.corner, 'Hz')}: |Z| = {values}"
 

@@ -88,7 +88,7 @@ def film_text(result: AnyContact) -> str:
     film, touching = result.film, result.spots
     if touching is not None:
         spots, mean = touching.spots.number, _film(result, film.mean_thickness)
-        return f"The surfaces touch in {spots} spot{'s' if spots > 1 else ''}; mean film {mean}"
+        return f"Mixed lubrication, {spots} contact spot{'s' if spots > 1 else ''}; mean film {mean}"
     text = (
         f"Minimum film {_film(result, film.minimum_thickness)} at {place_text(result, film.minimum_position)}"
     )
@@ -125,7 +125,7 @@ def strength_text(result: AnyContact) -> str:
 def _boundary_film_text(result: AnyContact) -> str:
     """Field where the surfaces touch, with the thickness of the boundary film, which it belongs to."""
     film = _film(result, result.film.minimum_thickness)
-    return f"Field {with_unit(result.field.max_strength, 'V/m')} where the surfaces touch, over {film}"
+    return f"Field {with_unit(result.field.max_strength, 'V/m')} at the contact spots, over {film}"
 
 
 def profiles_text(result: AnyContact) -> str:
@@ -234,7 +234,7 @@ def breakdown_text(result: AnyContact) -> str:
             "5 % of the film around the spots breaks down at "
             f"{readable(touching.electrical.breakdown_5, 2)} V"
         )
-        return f"The surfaces touch, {touching.electrical.behaviour}: {around}"
+        return f"Mixed lubrication, {touching.electrical.behaviour}: {around}"
     assert discharge is not None and discharge.breakdown_voltage is not None and discharge.margin is not None
     applied, place = f"{readable(volts)} V", place_text(result, discharge.zone_position)
     breaking = f"{readable(discharge.breakdown_voltage)} V"
@@ -295,7 +295,7 @@ def _thinning(result: AnyContact) -> str:
     assert heated is not None
     if result.film.contact.any():
         # The minimum is the boundary film with heat and without.
-        return "; the surfaces touch"
+        return "; asperities are in contact"
     if heated.isothermal_minimum_thickness is None:
         return ""
     change = result.film.minimum_thickness / heated.isothermal_minimum_thickness - 1.0

@@ -421,7 +421,7 @@ def _map(result: PointResult, ax: Axes | None) -> Axes:
     )
     edge = hertz_ellipse(result, ax, ON_MAP)
     entrainment(result, ax)
-    legend_above(ax, [Patch(color=ORANGE, label="surfaces touch"), legend_line(edge)])
+    legend_above(ax, [Patch(color=ORANGE, label="contact spots"), legend_line(edge)])
     ticks = round_levels(*limits, 5)
     label = f"film thickness [{unit}]"
     colour_bar(result, mesh, [ax], label, window=window, ticks=ticks, extend="max")

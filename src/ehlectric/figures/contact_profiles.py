@@ -22,7 +22,7 @@ from ehlectric.quantities.units import unit_for
 from ehlectric.readable import readable
 
 # Name of the pressure between asperities, and of the nodes at which surfaces touch, in legends.
-ASPERITIES, SPOTS = "pressure of asperities", "surfaces touch"
+ASPERITIES, SPOTS = "pressure of asperities", "contact spots"
 
 # Range of x/b that figures of the film show, before and behind the middle of the dry contact.
 BEFORE, BEHIND = -2.0, 1.5

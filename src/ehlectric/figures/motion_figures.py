@@ -61,7 +61,7 @@ def of_history(run: MotionRun) -> str:
     if touching is not None:
         share = share_text(touching.mean_share, touching.coarser)
         time = f"{readable(100.0 * touching.time_share)} % of the time"
-        return f"The surfaces touch {time}, asperities carry {share} % of the load on average"
+        return f"Asperities are in contact {time}, and carry {share} % of the load on average"
     unit = film_unit(run)
     least = float(run.values("minimum_thickness")[settled_steps(run)].min())
     text = f"Minimum film {in_unit(least, unit)}"
@@ -213,7 +213,7 @@ def asperities(run: MotionRun, ax: Axes | None = None) -> Axes:
     touch = f"{readable(100.0 * touching.time_share)} % of {touching.steps} time steps"
     share = share_text(touching.mean_share, touching.coarser)
     ax.plot(time, load, color=BLUE, lw=0.9, label=f"load of asperities, mean {share} %")
-    ax.plot(time, area, color=ORANGE, lw=0.9, label=f"real contact area, touching at {touch}")
+    ax.plot(time, area, color=ORANGE, lw=0.9, label=f"real contact area, contact at {touch}")
     ax.set(ylabel="share [%]", ylim=fitted(load, area))
     _over_time(run, ax)
     legend_above(ax)

@@ -155,7 +155,7 @@ def _film_grid(summary: Summary) -> str:
     nodes = film["nodes"] if isinstance(film["nodes"], Sequence) else (film["nodes"],)
     target = film["target_error"]
     target_note = "" if target is None else f", {100.0 * target:g} % asked"
-    touch = "where surfaces touch" if _touches(summary) else ""
+    touch = "with asperity contact" if _touches(summary) else ""
     return f"{touch}, {' x '.join(map(str, nodes))} nodes{target_note}"
 
 
@@ -185,7 +185,7 @@ def _change(name: str) -> Callable[[Summary], str]:
             return ""
         if name == "minimum" and (summary.get("asperities") or {}).get("load_share"):
             # The minimum is the boundary film with heat and without.
-            return ", the surfaces touch"
+            return ", asperities are in contact"
         return f", {100.0 * (film[f'{name}_thickness'] / simple - 1.0):+.2g} % by {effect}"
 
     return note
@@ -413,7 +413,7 @@ def _difference_note(summary: Summary, key: str, value: float) -> str:
 
 def _formula_error(summary: Summary) -> Any:
     if _touches(summary):
-        return ValueWithNote("none: surfaces touch", ", formulas are of smooth ones")
+        return ValueWithNote("none: asperities are in contact", ", and formulas hold for smooth surfaces")
     given = [
         value_at(summary, f"film_formula_ranges.{name}.{key}")
         for name, film in summary["film_formulas"].items()

@@ -129,8 +129,8 @@ def test_what_is_told(geometry):
     assert "field.max_strength_error" not in rows
     assert "field.max_dimensionless" not in rows
     spots = result.asperities.spots.number
-    assert f"{spots} spots touch, {result.asperities.electrical.behaviour}" in repr(result)
-    assert "where surfaces touch" in rows["film.discretisation_error"].text
+    assert f"{spots} contact spots, {result.asperities.electrical.behaviour}" in repr(result)
+    assert "with asperity contact" in rows["film.discretisation_error"].text
 
 
 @pytest.mark.slow
@@ -190,7 +190,7 @@ def test_titles_name_the_field_of_the_boundary_film(geometry):
     figures = ("field_map.png", "cuts.png") if geometry == "point" else ("field_strength.png",)
     for name in (*figures, *(("field_profiles.png",) if geometry == "line" else ())):
         title = finding(result, name)
-        assert "where the surfaces touch, over 1 nm" in title
+        assert "at the contact spots, over 1 nm" in title
         assert "Maximum" not in title
 
 
@@ -233,4 +233,4 @@ def test_figure_of_the_spots(geometry):
     assert f"{figure_names(result)[-1]}.png" == known.SPOTS_FIGURE
     drawn = figure(result, known.SPOTS_FIGURE)
     legend = [text.get_text() for text in drawn.axes[0].get_legend().get_texts()]
-    assert "surfaces touch" in legend
+    assert "contact spots" in legend

@@ -60,7 +60,7 @@ class Lengths:
 def main_numbers(result: Result | PointResult) -> str:
     """Sentence with minimum film, maximum pressure and maximum field of a solved contact."""
     film = result.film
-    least = "The surfaces touch: minimum film" if touches(result) else "Minimum film"
+    least = "Asperities are in contact: minimum film" if touches(result) else "Minimum film"
     to_h, length = unit_for(film_scale(result), "m")
     to_p, pressure = unit_for(film.max_pressure, "Pa")
     error = pressure_error_text(film.max_pressure_error)
@@ -113,7 +113,7 @@ def spots_text(result: Result | PointResult) -> str:
         return ""
     least = result.film.minimum_thickness
     factor, unit = unit_for(least, "m")
-    return f"Surfaces touch where the film is the boundary film of {readable(factor * least)} {unit}."
+    return f"At the contact spots the film is the boundary film of {readable(factor * least)} {unit}."
 
 
 # Largest number of columns of the map, and its rows.

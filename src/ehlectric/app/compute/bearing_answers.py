@@ -104,7 +104,7 @@ def _cells(effect: Mapping[str, Any], bound: str) -> Iterator[str]:
     ]
     yield effect["label"]
     for margin, value in sorted(ends, key=lambda end: end[0]):
-        yield f"{bound} {ratio_text(margin)}".strip() if margin > 0.0 else "surfaces touch"
+        yield f"{bound} {ratio_text(margin)}".strip() if margin > 0.0 else "frequent asperity contact"
         yield value
 
 
@@ -173,7 +173,7 @@ def _no_voltage(summary: Mapping[str, Any]) -> str:
 
 def _no_shaft(summary: Mapping[str, Any]) -> str:
     """Reason why there is no shaft voltage."""
-    return "the surfaces touch" if "motor" in summary["inputs"] else "no motor is given"
+    return "asperity contact is frequent" if "motor" in summary["inputs"] else "no motor is given"
 
 
 # Interval of the margin and probability of breakdown, and codes of statements and of a warning that
