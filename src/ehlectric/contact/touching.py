@@ -599,7 +599,7 @@ class Asperities:
             **asdict(self.touching),
             **{f"{name}_coarser": value for name, value in coarser.items()},
             **_values(self.balance, OilBalance),
-            "electrical_behaviour": electrical["behaviour"],
+            "electrical_behaviour": self.electrical.behaviour,
             **electrical,
         }
 

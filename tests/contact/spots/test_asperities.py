@@ -199,7 +199,7 @@ def test_verdict_speaks_of_the_spots():
     result = solve(POINT.replace(discharge={"dielectric_strength": "15 V/um"}), beside_smooth=False)
     verdict, found = result.verdict, result.asperities
     assert verdict.level == "red"
-    assert f"touch in {found.spots.number} spot" in verdict.text
+    assert f"asperities are in contact in {found.spots.number} spot" in verdict.text
     assert f"The contact is {found.electrical.behaviour}" in verdict.text
     # The heading of the traffic light says the same.
     lead = {"resistive": "The spots conduct", "intermittent": "Discharges expected"}[
