@@ -46,7 +46,7 @@ result.plot("field_map")
 result.plot("cuts")
 
 # %%
-# The key figures. The capacitance over the field range is divided into that of the Hertz ellipse, of the
+# The key figures. The capacitance over the field range is divided into that of the Hertzian ellipse, of the
 # strips before and behind it, and of the sides.
 film, field = result.film, result.field
 print(f"minimum film      {1e6 * film.minimum_thickness:.3f} µm")

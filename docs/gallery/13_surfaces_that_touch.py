@@ -1,9 +1,10 @@
 """
-Surfaces that touch
-===================
+Mixed lubrication
+=================
 
-A ball runs on a rough plane at 20 mm/s. The film is thinner than the roughness, so that asperities touch,
-carry a part of the load and conduct. ``examples/mixed_contact.toml`` is a similar case on more nodes.
+A ball runs on a rough plane at 20 mm/s. The film is thinner than the roughness, so that asperities are in
+contact, carry a part of the load and conduct. ``examples/mixed_contact.toml`` is a similar case on more
+nodes.
 """
 
 import ehlectric
@@ -42,7 +43,7 @@ case = ehlectric.Case.from_dict(
 result = ehlectric.solve(case, require_convergence=True)
 
 # %%
-# The film, with the nodes at which the surfaces touch: there the gap is the boundary film of 1 nm. The spots
+# The film, with the nodes in contact: there the gap is the boundary film of 1 nm. The spots
 # are patches and strips on asperities that the contact has flattened.
 result.plot("spots")
 
@@ -61,9 +62,9 @@ for part in (1, 5, 50):
 
 # %%
 # The load share of the asperities depends on the grid more than any other number. The contact is therefore
-# solved with half the nodes as well, and both shares stand beside each other. At higher speeds oil carries
-# the load. At 0.5 m/s no asperity touches on this grid. The word "mixed" is also printed where the grid
-# leaves open whether there are spots at all.
+# solved with half the nodes as well, and both shares are printed next to each other. At higher speeds oil
+# carries the load. At 0.5 m/s no asperity is in contact on this grid. The word "intermittent" is also printed
+# where the grid leaves open whether there are spots at all.
 for speed in ("20 mm/s", "0.1 m/s", "0.5 m/s"):
     at_speed = result
     if speed != "20 mm/s":
