@@ -123,9 +123,9 @@ def strength_text(result: AnyContact) -> str:
 
 
 def _boundary_film_text(result: AnyContact) -> str:
-    """Field where the surfaces touch, with the thickness of the boundary film, which it belongs to."""
-    film = _film(result, result.film.minimum_thickness)
-    return f"Field {with_unit(result.field.max_strength, 'V/m')} at the contact spots, over {film}"
+    """Field at the contact spots, with the thickness of the boundary film, which it belongs to."""
+    film, field = _film(result, result.film.minimum_thickness), with_unit(result.field.max_strength, "V/m")
+    return f"Field {field} at the contact spots, in the boundary film of {film}"
 
 
 def profiles_text(result: AnyContact) -> str:

@@ -190,7 +190,7 @@ def test_titles_name_the_field_of_the_boundary_film(geometry):
     figures = ("field_map.png", "cuts.png") if geometry == "point" else ("field_strength.png",)
     for name in (*figures, *(("field_profiles.png",) if geometry == "line" else ())):
         title = finding(result, name)
-        assert "at the contact spots, over 1 nm" in title
+        assert "at the contact spots, in the boundary film of 1 nm" in title
         assert "Maximum" not in title
 
 
