@@ -58,7 +58,7 @@ def test_an_insulated_bearing_does_not_hide_the_other_one(drive):
     """Insulation of one bearing ends its discharges; the other bearing and the sum remain in the table."""
     summary = drive.summary()
     (first, second, *names), *rows = remedy_cells(remedied(summary))
-    assert (first, second) == ("remedy", "bearing")
+    assert (first, second) == ("mitigation measure", "bearing")
     assert [row[:2] for row in rows] == [
         (title, place)
         for title in ("as it is", "insulated", "ring")
