@@ -18,12 +18,12 @@ from ehlectric.bearing.uncertainty import (
     NO_MARGINS,
     Design,
     MarginSpread,
-    sobol_points,
     spread_at,
     spread_of_result,
     without_spread,
 )
 from ehlectric.errors import InputError
+from ehlectric.formulas.sobol import sobol_points
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.runtime.files import plain
 

@@ -21,6 +21,7 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.input_keys import is_quantity
 from ehlectric.discharge.breakdown_rule import UNLIKELY, Chance
 from ehlectric.errors import InputError
+from ehlectric.formulas.sobol import sobol_points
 from ehlectric.formulas.variance_shares import variance_shares
 from ehlectric.quantities.inputs import SPEED
 from ehlectric.quantities.result_warnings import ResultWarning
@@ -188,15 +189,6 @@ class Uncertainty(MarginSpread):
 
     def _shares(self) -> dict[str, Any]:
         return {"indices": [asdict(entry) for entry in self.inputs], "predicted": self.predicted}
-
-
-def sobol_points(width: int, number: int, seed: int) -> Array:
-    """Points of a scrambled Sobol sequence from 0 to 1, shape (number, width)."""
-    # scipy.stats takes longer to load than most of the rest of a command.
-    from scipy.stats import qmc
-
-    points: Array = qmc.Sobol(width, seed=seed).random(number)
-    return points
 
 
 @dataclass(frozen=True)

@@ -44,8 +44,8 @@ def variance_shares(at: Array, values: Array) -> VarianceShares:
     --------
     f = x + 2 y + 3 x y has the variance 1/3 + 4/3 + 1: x explains 1/8 of it, and x with y 1/2.
 
-    >>> from scipy.stats import qmc
-    >>> at = 2.0 * qmc.Sobol(2, seed=1).random(256) - 1.0
+    >>> from ehlectric.formulas.sobol import sobol_points
+    >>> at = 2.0 * sobol_points(2, 256, seed=1) - 1.0
     >>> shares = variance_shares(at, at[:, 0] + 2.0 * at[:, 1] + 3.0 * at[:, 0] * at[:, 1])
     >>> shares.first.round(9).tolist(), shares.total.round(9).tolist(), round(shares.predicted, 9)
     ([0.125, 0.5], [0.5, 0.875], 1.0)

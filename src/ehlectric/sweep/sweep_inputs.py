@@ -41,6 +41,7 @@ from ehlectric.cases.table import (
     similar_keys,
 )
 from ehlectric.errors import InputError, printable, short, shown, within
+from ehlectric.formulas.sobol import sobol_points
 from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED, end_and_key, key_of_drive
 from ehlectric.quantities.sheets import BREAKDOWNS
 from ehlectric.runtime.display import Tabled, headline
@@ -213,12 +214,10 @@ def sobol(
     >>> len(points), points[8] == {"a": points[4]["a"], "b": points[0]["b"]}
     (16, True)
     """
-    from scipy.stats import qmc
-
     count = len(ranges)
-    engine = qmc.Sobol(2 * count, scramble=True, seed=np.random.default_rng(seed))
     # The sequence is balanced only for a power of two of samples.
-    unit = engine.random_base2(samples.bit_length() - 1)
+    number = 2 ** (samples.bit_length() - 1)
+    unit = sobol_points(2 * count, number, np.random.SeedSequence(seed).spawn(1)[0])
     first, second = unit[:, :count], unit[:, count:]
     yield from _rows(ranges, first, whole)
     yield from _rows(ranges, second, whole)
