@@ -20,7 +20,8 @@ from scipy.interpolate import RectBivariateSpline, make_interp_spline
 
 from ehlectric.arrays import Array
 from ehlectric.film.atlas.atlas_films import MOST_HERTZ, OilGroups, reference_laws
-from ehlectric.film.atlas.atlas_groups import SKEW, Groups, film_problem, lubricant_coordinate
+from ehlectric.film.atlas.atlas_groups import SKEW, Groups, lubricant_coordinate
+from ehlectric.film.atlas.atlas_problem import film_problem
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.newton import GridSolution

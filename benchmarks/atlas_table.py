@@ -18,7 +18,8 @@ from scipy.interpolate import BSpline, make_interp_spline
 from benchmarks.atlas_nodes import LINES, POINTS, Axes, rows_of
 from ehlectric.arrays import Array, Mask
 from ehlectric.film.atlas.atlas_films import REFERENCE, OilGroups, reference_laws
-from ehlectric.film.atlas.atlas_groups import TOLERANCE, Groups
+from ehlectric.film.atlas.atlas_groups import Groups
+from ehlectric.film.atlas.atlas_problem import TOLERANCE
 from ehlectric.film.atlas.atlas_table import HALVED, NAMES
 from ehlectric.version import __version__
 

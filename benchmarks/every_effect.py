@@ -25,7 +25,7 @@ from benchmarks.time_limit import GivenUpError, processor_limit
 from ehlectric import Case
 from ehlectric.contact.contact_kinds import KINDS
 from ehlectric.contact.preparation import prepare
-from ehlectric.contact.problems import Setup
+from ehlectric.contact.setup import Setup
 from ehlectric.film.isothermal_film import solve_film, solve_point_film
 
 DATA = Path(__file__).parent / "data" / "every_effect.csv"

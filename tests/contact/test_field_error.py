@@ -6,9 +6,9 @@ import pytest
 
 from ehlectric import Case, load, save, solve
 from ehlectric.cases.grid_inputs import Grid
+from ehlectric.contact.film_warnings import accuracy_warnings, inaccurate_field
 from ehlectric.contact.solver import DEFAULT_SOLVERS
 from ehlectric.contact.solver import solve as solve_with
-from ehlectric.contact.warnings import accuracy_warnings, inaccurate_field
 from ehlectric.errors import ConvergenceError
 from ehlectric.tables.contact_tables import result_rows
 

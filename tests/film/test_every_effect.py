@@ -13,7 +13,7 @@ from scipy.interpolate import BarycentricInterpolator
 
 from ehlectric import Case
 from ehlectric.contact.preparation import prepare
-from ehlectric.contact.problems import Setup
+from ehlectric.contact.setup import Setup
 from ehlectric.film.isothermal_film import solve_film, solve_point_film
 from ehlectric.film.moving_patch import MovingFilm
 from ehlectric.film.problem import OilSupply

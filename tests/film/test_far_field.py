@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from ehlectric.film.atlas.atlas_films import OilGroups, reference_laws
-from ehlectric.film.atlas.atlas_groups import Groups, film_problem
+from ehlectric.film.atlas.atlas_groups import Groups
+from ehlectric.film.atlas.atlas_problem import film_problem
 from ehlectric.film.deflection import point_geometry
 from ehlectric.film.face_flow import Fluid
 from ehlectric.film.far_field import load_outside, with_far_field

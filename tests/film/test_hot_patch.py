@@ -135,7 +135,7 @@ def test_a_grid_that_takes_minutes_is_not_tried():
     """A patch of 8192 intervals along x has 20 million nodes: heat and shear end the refinement before."""
     from ehlectric.contact.contact_refinement import finer_grids
     from ehlectric.contact.preparation import prepare
-    from ehlectric.contact.problems import Setup
+    from ehlectric.contact.setup import Setup
 
     for film, most in ((None, 4097), ({}, 4097), ({"rheology": "eyring"}, 1025), (HOT, 1025)):
         contact = prepare(ball(film, {"error": 1e-4}))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.special import elliprd
 
-from ehlectric.formulas.hertz import both_rd
+from ehlectric.formulas.carlson import both_rd
 
 
 @pytest.mark.slow

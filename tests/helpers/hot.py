@@ -16,9 +16,10 @@ from ehlectric.film.energy_equation import (
 from ehlectric.film.face_flow import Fluid
 from ehlectric.film.hot_oil import Body, HotOil, Physics, Thermal
 from ehlectric.film.mesh import Mesh, Width, at_centre
-from ehlectric.film.problem import FilmProblem, Scales, velocity_parameter
+from ehlectric.film.problem import FilmProblem, Scales
 from ehlectric.film.shear_flow import ShearedFlow
 from ehlectric.film.shear_laws import Rheology
+from ehlectric.formulas.film_line import velocity_parameter
 from ehlectric.lubricant.density import dowson_higginson, incompressible
 from ehlectric.lubricant.electrical_laws import constant_permittivity
 from ehlectric.lubricant.oil import BoundLaw, OfDensity, Oil

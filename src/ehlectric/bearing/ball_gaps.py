@@ -13,7 +13,6 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from scipy.special import elliprd, elliprf
 
 from ehlectric.arrays import Array, IntArray, Numbers, as_float
 from ehlectric.bearing.gaps import (
@@ -27,6 +26,7 @@ from ehlectric.bearing.gaps import (
 )
 from ehlectric.contact import DomainRule, Ends
 from ehlectric.formulas.capacitances import matched_offset
+from ehlectric.formulas.carlson import complete_rd, complete_rf
 from ehlectric.formulas.hertz import DryContact, axis_ratio
 from ehlectric.formulas.hertz_outside import unit_deflection
 
@@ -95,8 +95,8 @@ class UnitContact:
         """Contact of bodies with reduced radii [m]."""
         ratio = _axis_ratios(radius_x, radius_y)
         # b^3 = 2 F Rx R_D(0, k^2, 1)/(pi E') and p_h = 3 F/(2 pi k b^2).
-        size = elliprd(0.0, ratio**2, 1.0)
-        opening, approach = as_float(0.75 / size), as_float(1.5 * elliprf(0.0, 1.0, ratio**2) / size)
+        size = complete_rd(ratio**2, 1.0)
+        opening, approach = as_float(0.75 / size), as_float(1.5 * complete_rf(1.0, ratio**2) / size)
         return cls(ratio, radius_y / radius_x, opening, approach)
 
     def gap(self, x: Array, y: Array) -> tuple[Array, Array]:

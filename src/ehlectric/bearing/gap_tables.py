@@ -18,7 +18,6 @@ from functools import lru_cache
 from typing import Any, overload
 
 import numpy as np
-from scipy.constants import epsilon_0
 
 from ehlectric.arrays import Array, IntArray, Mask, Numbers
 from ehlectric.bearing.ball_gaps import (
@@ -35,6 +34,7 @@ from ehlectric.bearing.gaps import (
     roller_capacitance,
     roller_tail,
 )
+from ehlectric.constants import EPSILON_0
 from ehlectric.contact import Ends
 from ehlectric.formulas.hertz import line_gap, reduced_radius
 from ehlectric.formulas.smooth_tables import Function, SmoothTable, smooth_table
@@ -484,7 +484,7 @@ def _tail_of_side(race: RollerRaceway, b: Array, length: Array, films: Array) ->
     """Capacitance per length [F/m] beyond one end of the domains of films, at a length over b."""
     reduced = reduced_radius(race.roller_radius, -1.0 / race.curvature)
     thickness = films + b**2 / reduced * line_gap(length)
-    return np.asarray(epsilon_0 * roller_tail(race, b, b * length, thickness))
+    return np.asarray(EPSILON_0 * roller_tail(race, b, b * length, thickness))
 
 
 @lru_cache(maxsize=64)

@@ -32,9 +32,9 @@ from dataclasses import dataclass, replace
 from typing import Any, overload
 
 import numpy as np
-from scipy.constants import epsilon_0
 
 from ehlectric.arrays import Array, IntArray, Mask, Numbers
+from ehlectric.constants import EPSILON_0
 from ehlectric.errors import InputError, shown
 from ehlectric.formulas.capacitances import charge_density, matched_offset, stretched
 from ehlectric.formulas.hertz import DryContact, line_opening, reduced_radius
@@ -347,7 +347,7 @@ def groove_capacitance(
         return charge
 
     integral = _in_chunks(whole, shape, _ALONG * _ACROSS, race, gap)
-    return 2.0 * epsilon_0 * relative_permittivity * integral
+    return 2.0 * EPSILON_0 * relative_permittivity * integral
 
 
 def outside_capacitance(
@@ -391,7 +391,7 @@ def outside_capacitance(
         focus = np.sqrt(np.maximum(0.0, a**2 - b**2))
         return _outside(race, offset, opening, (*domain, focus), obliquity, nodes, shoulders=shoulders)
 
-    return epsilon_0 * relative_permittivity * _in_chunks(outside, shape, nodes.number, race, *numbers)
+    return EPSILON_0 * relative_permittivity * _in_chunks(outside, shape, nodes.number, race, *numbers)
 
 
 def _outside(
@@ -669,7 +669,7 @@ def roller_capacitance(
 
     >>> race = RollerRaceway(5.5e-3, 27.25e-3, outer=False)
     >>> reduced = 1.0 / (1.0 / 5.5e-3 + 1.0 / 27.25e-3)
-    >>> parabolas = epsilon_0 * np.pi * np.sqrt(2.0 * reduced / 1e-6)
+    >>> parabolas = EPSILON_0 * np.pi * np.sqrt(2.0 * reduced / 1e-6)
     >>> round(float(roller_capacitance(race, 1e-6) / parabolas), 3)
     0.987
     """
@@ -683,7 +683,7 @@ def roller_capacitance(
         return _charge(race, distance, tilt, weights)
 
     shape = np.broadcast_shapes(np.shape(gap), np.shape(race.roller_radius), np.shape(race.race_radius))
-    return 2.0 * epsilon_0 * relative_permittivity * _in_chunks(whole, shape, _NODES, race, gap)
+    return 2.0 * EPSILON_0 * relative_permittivity * _in_chunks(whole, shape, _NODES, race, gap)
 
 
 def roller_tails(
@@ -715,10 +715,10 @@ def roller_tails(
     >>> reduced = 1.0 / (1.0 / 5.5e-3 + 1.0 / 27.25e-3)
     >>> film = 5e-7 + 4e-4**2 / (2.0 * reduced)
     >>> inlet, outlet = roller_tails(race, 1e-4, (-4e-4, 4e-4), (film, film))
-    >>> inlet == outlet, round(inlet / (2.0 * epsilon_0 * reduced / 4e-4), 2)
+    >>> inlet == outlet, round(inlet / (2.0 * EPSILON_0 * reduced / 4e-4), 2)
     (True, 0.91)
     """
-    scale = epsilon_0 * relative_permittivity
+    scale = EPSILON_0 * relative_permittivity
     inlet, outlet = (
         scale * roller_tail(race, half_width, start, film, obliquity=obliquity)
         for start, film in zip((-np.asarray(domain[0]), domain[1]), thickness, strict=True)

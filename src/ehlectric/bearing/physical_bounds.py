@@ -12,11 +12,11 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from scipy.constants import epsilon_0
 
 from ehlectric.arrays import Array, Booleans, Mask, Numbers, any_of
 from ehlectric.bearing.bearing_discharges import first_margin
 from ehlectric.bearing.solution import BearingSolution, RingState, capacitance
+from ehlectric.constants import EPSILON_0
 from ehlectric.discharge.discharge_laws import MOST_MARGIN
 from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.readable import readable
@@ -111,5 +111,5 @@ def _plate(solution: BearingSolution, ring: RingState) -> Array:
     bearing = solution.case.bearing
     length = bearing.element_diameter if bearing.roller_length is None else bearing.roller_length
     area = 0.5 * np.pi * bearing.element_diameter * length
-    plate = epsilon_0 * solution.conditions.oil.relative_permittivity * np.asarray(area)
+    plate = EPSILON_0 * solution.conditions.oil.relative_permittivity * np.asarray(area)
     return np.asarray(plate[..., np.newaxis] / ring.values.minimum_thickness)

@@ -9,12 +9,11 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from scipy.constants import g as gravity
 
 from ehlectric.arrays import Array, Mask, Numbers, as_float
 from ehlectric.bearing.bearing_kinds import KINDS, kind_of
 from ehlectric.bearing.conditions import BearingConditions, RingConditions, Solid
-from ehlectric.bearing.film_factor import factors_of, solved_contact
+from ehlectric.bearing.film_factor import factors_of
 from ehlectric.bearing.loads.geometry import Geometry
 from ehlectric.bearing.loads.ring import Operation
 from ehlectric.bearing.loads.totals import Equilibrium, check_balance, mirrored
@@ -24,6 +23,7 @@ from ehlectric.bearing.ring_contacts import BallContact, Contact, RingContacts
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.bearing_inputs import Bearing
 from ehlectric.cases.discharge_inputs import Discharge
+from ehlectric.constants import GRAVITY
 from ehlectric.errors import InputError
 from ehlectric.formulas.hertz import reduced_modulus
 from ehlectric.lubricant.law import is_many, same
@@ -46,7 +46,7 @@ def too_light(conditions: BearingConditions[Geometry]) -> Mask:
 
 def element_weight(conditions: BearingConditions[Geometry]) -> Numbers:
     """Weight of one element [N]."""
-    return conditions.geometry.element_mass(conditions.element.density) * gravity
+    return conditions.geometry.element_mass(conditions.element.density) * GRAVITY
 
 
 def check_load(conditions: BearingConditions[Geometry]) -> None:
@@ -373,6 +373,10 @@ def prepare_bearing(case: BearingCase, positions: int) -> PreparedBearing:
     inner, outer = (_contacts_with(conditions, equilibria[0], inner=inner) for inner in (True, False))
     prepared = PreparedBearing(conditions, equilibria, (inner, outer))
     if case.bearing.film_factor == "solved":
+        from ehlectric.bearing.heated_contact import (
+            solved_contact,  # late: bearings of the atlas do not need it
+        )
+
         factors = [solved_contact(case, ring, float(largest_load(prepared, ring))) for ring in prepared.rings]
         # The friction of a bearing is the friction of both rings, or it is not known.
         known = all(friction is not None for _, friction in factors)

@@ -8,7 +8,6 @@ from functools import lru_cache, partial
 from typing import Any
 
 import numpy as np
-from scipy.constants import epsilon_0
 
 from ehlectric.arrays import Array, Mask, Numbers
 from ehlectric.bearing.ball_gaps import around_directly
@@ -31,6 +30,7 @@ from ehlectric.cases.bearing_kinds import has_rollers
 from ehlectric.cases.defaults import OF_CONTACTS, QUICK, quick_way
 from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.cases.grid_inputs import DEFAULT_ENDS
+from ehlectric.constants import EPSILON_0
 from ehlectric.contact import Setup, case_warnings
 from ehlectric.errors import InputError
 from ehlectric.film import contact_film
@@ -238,13 +238,13 @@ def quick_curve(
         semi_axis_y=across,
         minimum_thickness=least,
         central_thickness=central,
-        inside=epsilon_0 * quick.inside,
+        inside=EPSILON_0 * quick.inside,
         outside_oil=outside * contact.ring.conditions.oil.relative_permittivity,
         outside_air=outside,
-        plate=epsilon_0 * oil.relative_permittivity * contact.area / central,
+        plate=EPSILON_0 * oil.relative_permittivity * contact.area / central,
         strength_per_volt=1.0 / least,
         breakdown_voltage=gap_breakdown(strength, least),
-        hertz=epsilon_0 * quick.hertz,
+        hertz=EPSILON_0 * quick.hertz,
     )
 
     def column(numbers: Numbers | Mask) -> Any:

@@ -38,7 +38,6 @@ from ehlectric.contact import (
     check_width,
     default_side,
     least_pressure,
-    solve_contact,
 )
 from ehlectric.errors import InputError
 from ehlectric.film import Ellipse
@@ -608,6 +607,8 @@ def solve(contact: Contact, solver: Solver) -> ContactSolution:
     check_contact(contact, grid)
     conditions = contact.conditions_on(grid)
     discharge = ring.discharge.model_copy(update={"length": contact.length})
+    from ehlectric.contact import solve_contact  # late: bearings of the atlas do not need it
+
     result = solve_contact(conditions, ring.oil, grid=grid, solver=solver, discharge=discharge)
     film, assessment = result.film, result.discharge
     assert assessment is not None

@@ -14,7 +14,6 @@ from typing import Any, Self, TypeVar
 
 import numpy as np
 from pydantic import model_validator
-from scipy.optimize import bisect
 
 from ehlectric.arrays import Array, Numbers, as_float
 from ehlectric.cases import library
@@ -482,6 +481,8 @@ class KnownOil:
         check = self.checks.get(key)
         if check is None or not _beyond(check, _HIGHEST):
             return math.inf
+        from scipy.optimize import bisect  # late: SciPy takes a third of a second to load
+
         return float(bisect(lambda pressure: _beyond(check, pressure) - 0.5, 0.0, _HIGHEST, xtol=_CLOSE))
 
 

@@ -8,12 +8,12 @@ from typing import Any, Literal, Self
 
 import numpy as np
 from pydantic import model_validator
-from scipy.constants import epsilon_0
 
 from ehlectric.arrays import Numbers, any_of, as_float
 from ehlectric.cases import library
 from ehlectric.cases.oil_inputs import library_name
 from ehlectric.cases.table import Table
+from ehlectric.constants import EPSILON_0
 from ehlectric.errors import InputError, shown
 
 
@@ -108,7 +108,7 @@ class Coating(Table, book="bearing.coating", named_by="base"):
         >>> round(1e9 * Coating.from_dict(table).capacitance(4.524e-3), 2)
         1.8
         """
-        return epsilon_0 * self.relative_permittivity * area / self.thickness
+        return EPSILON_0 * self.relative_permittivity * area / self.thickness
 
     def capacitance_on(self, diameters: Mapping[str, Numbers | None], width: Numbers | None) -> Numbers:
         """Capacitance of the coating [F], by ``area_on`` its ring.

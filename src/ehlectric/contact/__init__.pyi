@@ -24,13 +24,15 @@ from .film_domain import FARTHEST_POINT as FARTHEST_POINT
 from .film_domain import WIDEST_POINT as WIDEST_POINT
 from .film_domain import DomainRule as DomainRule
 from .film_domain import Ends as Ends
+from .film_warnings import FIELD_ERROR as FIELD_ERROR
+from .film_warnings import inaccurate_field as inaccurate_field
+from .film_warnings import unknown_error as unknown_error
 from .measured_film import FORMULA as FORMULA
 from .measured_film import contact_factors as contact_factors
 from .preparation import PreparedContact as PreparedContact
 from .preparation import case_with_laws as case_with_laws
 from .preparation import portable as portable
 from .preparation import prepare as prepare
-from .problems import Setup as Setup
 from .problems import domain_of as domain_of
 from .problems import field_problem as field_problem
 from .problems import film_problem as film_problem
@@ -42,6 +44,7 @@ from .result import Result as Result
 from .run import result_of as result_of
 from .run import save as save
 from .run import solve_to_folder as solve_to_folder
+from .setup import Setup as Setup
 from .solver import DEFAULT_SOLVERS as DEFAULT_SOLVERS
 from .solver import Solvers as Solvers
 from .solver import solve as solve
@@ -59,8 +62,5 @@ from .touching import changed_share as changed_share
 from .touching import load_share_of as load_share_of
 from .touching import share_text as share_text
 from .touching import unknown_share as unknown_share
-from .warnings import FIELD_ERROR as FIELD_ERROR
 from .warnings import PERMANENT as PERMANENT
 from .warnings import case_warnings as case_warnings
-from .warnings import inaccurate_field as inaccurate_field
-from .warnings import unknown_error as unknown_error

@@ -7,12 +7,12 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
-from scipy.constants import epsilon_0
 
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
 from ehlectric.cases.contact_inputs import Contact
 from ehlectric.cases.meter_inputs import Meter, body_radii
+from ehlectric.constants import EPSILON_0
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.discharge.film_capacitance import LEAST_RATIO, Layers, zone_capacitances
 from ehlectric.discharge.outer_gap import Bodies, Body, Outside, around_line, around_point
@@ -193,7 +193,7 @@ class Metered:
         """Distance from the contact [m] and capacitance [F] of the film's nodes, as of a thin gap."""
         film = self.film
         oil = self.case.oil.permittivity(film.pressure, film.density)
-        thin = self.layers.density(epsilon_0 * oil / np.maximum(film.thickness, ATOM), oil)
+        thin = self.layers.density(EPSILON_0 * oil / np.maximum(film.thickness, ATOM), oil)
         thin = thin * sum(self.zones(film).values())
         at = np.sqrt(sum(axis**2 for axis in np.meshgrid(*film.axes, indexing="ij")))
         # The solved field, and gas in the outlet, change the sum by little; the places keep their shares.
@@ -260,7 +260,7 @@ class Metered:
         film = self.film
         permittivity = self.case.oil.permittivity(film.pressure, film.density)
         thinnest = np.argmin(film.thickness)
-        return float(self.layers.film_share(epsilon_0 * permittivity.flat[thinnest] / film.minimum_thickness))
+        return float(self.layers.film_share(EPSILON_0 * permittivity.flat[thinnest] / film.minimum_thickness))
 
 
 def meter_reading(contact: Metered, film_breakdown: float | None) -> MeterReading:

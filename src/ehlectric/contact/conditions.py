@@ -14,9 +14,8 @@ from ehlectric.cases.case import Case
 from ehlectric.cases.contact_inputs import Contact
 from ehlectric.cases.dry_contacts import line_load, line_radius, modulus_of, point_load, point_radius
 from ehlectric.errors import InputError, within
-from ehlectric.film import velocity_parameter
 from ehlectric.formulas import hertz
-from ehlectric.formulas.film_line import LineContact
+from ehlectric.formulas.film_line import LineContact, velocity_parameter
 from ehlectric.formulas.film_point import PointContact
 from ehlectric.lubricant.oil import Oil
 from ehlectric.readable import readable

@@ -11,7 +11,7 @@ from ehlectric.cases.case import Case
 from ehlectric.cases.case_oil import Lubricant
 from ehlectric.cases.film_inputs import thermal_properties
 from ehlectric.contact.conditions import Conditions, PointConditions, surface_ratios
-from ehlectric.contact.problems import Setup
+from ehlectric.contact.setup import Setup
 from ehlectric.errors import InputError
 from ehlectric.film import UNBOUNDED, Body, Film, HeatedFilm, HotOil, Physics, PointFilm, Rheology, Thermal
 from ehlectric.lubricant.oil import Oil

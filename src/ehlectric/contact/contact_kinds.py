@@ -22,11 +22,8 @@ from ehlectric.contact.contact_solution import (
     line_roughness,
     point_roughness,
 )
-from ehlectric.contact.problems import Setup
-from ehlectric.contact.warnings import (
-    line_result_warnings,
-    point_result_warnings,
-)
+from ehlectric.contact.film_warnings import line_result_warnings, point_result_warnings
+from ehlectric.contact.setup import Setup
 from ehlectric.field import Field, FieldProblem, PointField, PointFieldProblem, solve_field, solve_point_field
 from ehlectric.film import Film, FilmProblem, PointFilm, solve_film, solve_point_film
 from ehlectric.formulas import film_line, film_point

@@ -16,7 +16,7 @@ FILM_BYTES = 1400
 FIELD_BYTES = 64
 
 # Peak memory of a point contact [bytes]: of the film per node that is solved for, plus the vectors of
-# flexible GMRES, two per iteration and at most ``newton.KRYLOV_LIMIT`` iterations; of the field per column
+# flexible GMRES, two per iteration and at most ``KRYLOV_LIMIT`` iterations; of the field per column
 # that is solved for and per (degree + 1). Measured on half and on whole contacts: 1700 bytes for the film
 # without those vectors on 513 x 513 nodes, as it keeps an older preconditioner; 580 to 660 bytes for the
 # field on 129 x 129 to 1025 x 1025 nodes, for a circle and an ellipse, at degrees 3 to 12. The constants

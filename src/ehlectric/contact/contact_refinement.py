@@ -11,7 +11,7 @@ import numpy as np
 
 from ehlectric.cases.grid_inputs import Grid
 from ehlectric.contact.contact_memory import check_grid
-from ehlectric.contact.problems import Setup
+from ehlectric.contact.setup import Setup
 from ehlectric.errors import InputError, within
 from ehlectric.film import (
     MINIMUM_ORDER,

@@ -13,7 +13,7 @@ from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
 from ehlectric.contact.capacitance_meter import Metered, MeterReading, meter_reading
 from ehlectric.contact.conditions import Conditions, PointConditions
-from ehlectric.contact.problems import Setup
+from ehlectric.contact.setup import Setup
 from ehlectric.contact.touching import (
     Asperities,
     Coarser,

@@ -22,7 +22,8 @@ from ehlectric.contact.contact_kinds import KINDS, AnyKind
 from ehlectric.contact.contact_memory import check_grid, check_memory
 from ehlectric.contact.contact_refinement import Reach, Refinement, reach_of
 from ehlectric.contact.film_domain import LARGER
-from ehlectric.contact.problems import Setup, check_tolerance, domain_of, heights_of, spacings_of
+from ehlectric.contact.problems import check_tolerance, domain_of, heights_of, spacings_of
+from ehlectric.contact.setup import Setup
 from ehlectric.contact.summary import breakdown_by_formula
 from ehlectric.contact.warnings import case_warnings
 from ehlectric.discharge.discharge_laws import MOST_MARGIN

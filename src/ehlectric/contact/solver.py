@@ -23,12 +23,14 @@ from ehlectric.contact.contact_kinds import KINDS
 from ehlectric.contact.contact_memory import check_grid
 from ehlectric.contact.contact_refinement import Refined, Refinement
 from ehlectric.contact.contact_solution import Smooth
+from ehlectric.contact.film_warnings import accuracy_warnings, film_warnings
 from ehlectric.contact.preparation import MOST_STEPS, PreparedContact, prepare, widened
-from ehlectric.contact.problems import Setup, domain_of, heights_of
+from ehlectric.contact.problems import domain_of, heights_of
 from ehlectric.contact.result import RESULTS, PointResult, Result
+from ehlectric.contact.setup import Setup
 from ehlectric.contact.starvation import starvation_warnings
 from ehlectric.contact.touching import Coarser, makes_oil, spot_warnings
-from ehlectric.contact.warnings import accuracy_warnings, case_warnings, film_warnings
+from ehlectric.contact.warnings import case_warnings
 from ehlectric.discharge.assessment import discharge_warnings, margin_warnings
 from ehlectric.discharge.film_breakdown import field_warning_conditions
 from ehlectric.errors import ConvergenceError, InputError

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ehlectric.cases.case import Case
 from ehlectric.cases.film_inputs import Inlet
-from ehlectric.contact.problems import Setup
+from ehlectric.contact.setup import Setup
 from ehlectric.film import Film, PointFilm, Starvation, lost_film
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable

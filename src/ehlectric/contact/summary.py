@@ -13,7 +13,7 @@ from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.contact_heat import heat_summary
 from ehlectric.contact.contact_kinds import KINDS
 from ehlectric.contact.contact_solution import Solution
-from ehlectric.contact.problems import Setup
+from ehlectric.contact.setup import Setup
 from ehlectric.discharge.discharge_laws import conductivity_of
 from ehlectric.discharge.film_breakdown import dielectric_strength
 from ehlectric.film import Starvation

@@ -15,15 +15,16 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import ndimage
-from scipy.constants import epsilon_0
 from scipy.special import ellipk
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.cases.case import Case
 from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.cases.grid_inputs import Electric
+from ehlectric.constants import EPSILON_0
 from ehlectric.contact.conditions import Conditions, PointConditions
-from ehlectric.contact.problems import SCHEMES, Setup, fluid_of
+from ehlectric.contact.problems import SCHEMES, fluid_of
+from ehlectric.contact.setup import Setup
 from ehlectric.discharge.breakdown_rule import POSSIBLE, TOUCHING_EXPECTED
 from ehlectric.discharge.discharge_laws import WeakestLink
 from ehlectric.discharge.film_breakdown import dielectric_strength
@@ -519,7 +520,7 @@ def electrical(
     resistance = None if metal is None or layer is None else metal + layer
     permittivity = oil.permittivity(film.pressure, film.density)
     outside = np.where(film.contact, 0.0, areas(film.axes))
-    capacitance = float(np.sum(outside * epsilon_0 * permittivity / film.thickness))
+    capacitance = float(np.sum(outside * EPSILON_0 * permittivity / film.thickness))
     ratio = corner = None
     if resistance is not None and length is not None:
         corner = 1.0 / (2.0 * np.pi * resistance * capacitance * length)

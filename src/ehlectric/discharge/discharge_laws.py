@@ -9,17 +9,19 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from operator import add, truediv
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
-from scipy.constants import epsilon_0
 
 from ehlectric.arrays import Array, Numbers
 from ehlectric.cases.discharge_inputs import Discharge, Pit
+from ehlectric.constants import EPSILON_0
 from ehlectric.field import areas
-from ehlectric.film import Film, PointFilm
 from ehlectric.lubricant.oil import Oil
 from ehlectric.quantities.quantity import data_file
+
+if TYPE_CHECKING:
+    from ehlectric.film import Film, PointFilm
 
 T = TypeVar("T")
 
@@ -166,7 +168,7 @@ def relaxation_time(relative_permittivity: Numbers, conductivity: Numbers) -> Nu
     >>> round(relaxation_time(2.4, 1e-12), 2)
     21.25
     """
-    return epsilon_0 * relative_permittivity / conductivity
+    return EPSILON_0 * relative_permittivity / conductivity
 
 
 def compared_with_limits(density: float) -> str:

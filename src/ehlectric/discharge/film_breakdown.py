@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,9 +19,12 @@ from ehlectric.discharge.discharge_laws import (
     breakdown_voltage,
 )
 from ehlectric.discharge.film_capacitance import at_columns
-from ehlectric.field import ATOM, Field, PointField, areas
-from ehlectric.film import Film, PointFilm
+from ehlectric.field import ATOM, areas
 from ehlectric.quantities.result_warnings import WarningCondition
+
+if TYPE_CHECKING:
+    from ehlectric.field import Field, PointField
+    from ehlectric.film import Film, PointFilm
 
 # Field strength that no film of a liquid between rough metals carries [V/m]. By Fowler and Nordheim's law of
 # field emission, in the form of Proc. R. Soc. A 124 (1929) 699, a metal with a work function of 4.5 eV emits

@@ -15,25 +15,29 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.constants import epsilon_0
-from scipy.interpolate import RegularGridInterpolator
-from scipy.special import dawsn
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.cases.discharge_inputs import Discharge
+from ehlectric.constants import EPSILON_0
 from ehlectric.discharge.discharge_laws import Size
 from ehlectric.errors import InputError, shown
-from ehlectric.field import ATOM, Field, PointField, areas_by_zone
-from ehlectric.film import Film, PointFilm
+from ehlectric.field import ATOM, areas_by_zone
+from ehlectric.formulas.gaussian import dawson
 from ehlectric.lubricant.oil import Oil
+
+if TYPE_CHECKING:
+    from ehlectric.field import Field, PointField
+    from ehlectric.film import Film, PointFilm
 
 
 def at_columns(film: Film | PointFilm, field: Field | PointField, values: Array) -> Array:
     """Interpolate values linearly from the nodes of a film to the columns of its field."""
+    from scipy.interpolate import RegularGridInterpolator  # late: bearings of the atlas do not need it
+
     # A column at the edge of the domain may be outside it because of rounding.
     columns = [np.clip(at, axis[0], axis[-1]) for at, axis in zip(field.axes, film.axes, strict=True)]
     interpolated = RegularGridInterpolator(film.axes, values)
@@ -86,7 +90,7 @@ class Layers:
     A film of 0.5 um with a relative permittivity of 2.5, and a coating of 1.6 um with one of 8, share the
     voltage equally:
 
-    >>> film = epsilon_0 * 2.5 / 0.5e-6
+    >>> film = EPSILON_0 * 2.5 / 0.5e-6
     >>> round(float(Layers(coating=1.6e-6 / 8.0).density(film, 2.5) / film), 12)
     0.5
     """
@@ -103,9 +107,9 @@ class Layers:
         alone = np.asarray(film, dtype=float)
         permittivity = np.asarray(relative_permittivity, dtype=float)
         if self.coating > 0.0:
-            alone = alone / (1.0 + alone * self.coating / epsilon_0)
+            alone = alone / (1.0 + alone * self.coating / EPSILON_0)
         if self.rq > 0.0:
-            alone = alone * roughness_factor(epsilon_0 * permittivity / alone / self.rq)
+            alone = alone * roughness_factor(EPSILON_0 * permittivity / alone / self.rq)
         return alone
 
     def film_share(self, film: ArrayLike) -> Array:
@@ -113,7 +117,7 @@ class Layers:
         capacitance per area of the film without coating [F/m^2], shape (...). Returns share from 0 to 1,
         dimensionless; the rest lies on the coating, shape (...).
         """
-        share: Array = 1.0 / (1.0 + np.asarray(film, dtype=float) * self.coating / epsilon_0)
+        share: Array = 1.0 / (1.0 + np.asarray(film, dtype=float) * self.coating / EPSILON_0)
         return share
 
 
@@ -166,7 +170,7 @@ def roughness_factor(film_ratio: ArrayLike, *, touching: float = TOUCHING) -> Ar
         raise InputError("touching", got=shown(touching), takes="a gap over Rq above 0 and below 1")
     # Dawson's integral at an infinite argument times that argument is not defined; its limit is reached here.
     far = np.clip(ratio, _FAR, 1e8) / np.sqrt(2.0)
-    factor: Array = np.asarray(2.0 * far * dawsn(far))
+    factor: Array = np.asarray(2.0 * far * dawson(far))
     near = ratio < _FAR
     factor[near] = _thin_film_factor(ratio[near], touching)
     return factor
@@ -218,7 +222,7 @@ def zone_capacitances(
     by_outlet = {}
     for outlet, filled in OUTLETS.items():
         permittivity = filled(oil, fraction)
-        thin = layers.density(epsilon_0 * permittivity / gap, permittivity)
+        thin = layers.density(EPSILON_0 * permittivity / gap, permittivity)
         # The thin gap at the columns is interpolated from the film's nodes, not computed from the gap of the
         # field. It then cancels the sum over the nodes inside the field range, also if the columns are finer.
         thin_gap = at_columns(film, field, thin)
@@ -242,6 +246,8 @@ def capacitance_beyond(film: Film | PointFilm, permittivity: float) -> float:
 
     Returns capacitance per length [F/m] of a line contact, or capacitance [F] of a point contact.
     """
+    from ehlectric.film import Film  # late: bearings of the atlas do not need it
+
     ends = film.thickness[[0, -1]]
     if isinstance(film, Film):
         around = float(np.sum(0.5 * np.abs(film.x[[0, -1]]) / ends))
@@ -250,7 +256,7 @@ def capacitance_beyond(film: Film | PointFilm, permittivity: float) -> float:
         across = np.abs(film.x[[0, -1]]) @ np.trapezoid(1.0 / ends, film.y, axis=1)
         along = np.abs(film.y[[0, -1]]) @ np.trapezoid(1.0 / sides, film.x, axis=0)
         around = float(np.log(2.0) * (across + along))
-    return float(epsilon_0 * permittivity * around)
+    return float(EPSILON_0 * permittivity * around)
 
 
 @dataclass(frozen=True)
@@ -300,7 +306,7 @@ def capacitances(
     of_outlet = {f"capacitance_outlet_{name}": parts["outlet"] for name, parts in by_outlet.items()}
     total = {name: sum(parts.values()) for name, parts in by_outlet.items()}
     hertz = Size.of(semi_axes, discharge).hertz
-    plate = epsilon_0 * oil.relative_permittivity * hertz / film.central_thickness
+    plate = EPSILON_0 * oil.relative_permittivity * hertz / film.central_thickness
     return Capacitances(
         capacitance=total[discharge.outlet],
         capacitance_beyond=capacitance_beyond(film, float(oil.relative_permittivity)),

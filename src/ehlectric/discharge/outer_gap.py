@@ -27,9 +27,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.constants import epsilon_0
 
 from ehlectric.arrays import Array
+from ehlectric.constants import EPSILON_0
 from ehlectric.formulas.capacitances import charge_density, matched_offset, stretched
 from ehlectric.formulas.hertz import DryContact, line_opening, point_deflection
 
@@ -171,7 +171,7 @@ class Outside:
         [m].
         """
         density = self.at.density(self.opening, relative_permittivity * coating)
-        capacitances: Array = epsilon_0 * relative_permittivity * density * self.area
+        capacitances: Array = EPSILON_0 * relative_permittivity * density * self.area
         return capacitances
 
 

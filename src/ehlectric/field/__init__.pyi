@@ -7,9 +7,9 @@ from .mesh import columns_within as columns_within
 from .mesh import thinned as thinned
 from .point_field import PointField as PointField
 from .point_field import solve_point_field as solve_point_field
-from .poisson import ATOM as ATOM
 from .poisson import FieldProblem as FieldProblem
 from .poisson_3d import PointFieldProblem as PointFieldProblem
+from .zones import ATOM as ATOM
 from .zones import HIGH_FIELD as HIGH_FIELD
 from .zones import Zone as Zone
 from .zones import areas as areas

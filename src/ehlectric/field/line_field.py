@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from scipy.constants import epsilon_0
 
 from ehlectric.arrays import Array, Mask
+from ehlectric.constants import EPSILON_0
 from ehlectric.field.field_accuracy import GapField, with_error
 from ehlectric.field.poisson import (
     Across,
@@ -133,11 +133,11 @@ def _field(problem: FieldProblem) -> Field:
         if problem.charge_density is not None:
             load = quadrature.charge(problem.charge_density)
             potential = _solve(solver, elements, lifted, load)
-    charges = epsilon_0 * elements.apply(without_charge)[:, -1]
+    charges = EPSILON_0 * elements.apply(without_charge)[:, -1]
     return field_from_potential(
         problem,
         potential,
-        capacitance=epsilon_0 * quadrature.energy(without_charge) / voltage**2,
+        capacitance=EPSILON_0 * quadrature.energy(without_charge) / voltage**2,
         capacitance_density=charges / voltage / part_widths(problem.x, -np.inf, np.inf),
     )
 
@@ -198,6 +198,6 @@ def field_from_potential(
         voltage=voltage,
         capacitance=capacitance,
         capacitance_by_charge=float(np.trapezoid(capacitance_density, x)),
-        thin_gap_capacitance=float(np.trapezoid(epsilon_0 * mean_permittivity(permittivity) / gap, x)),
+        thin_gap_capacitance=float(np.trapezoid(EPSILON_0 * mean_permittivity(permittivity) / gap, x)),
         capacitance_density=capacitance_density,
     )

@@ -6,9 +6,9 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
-from scipy.constants import epsilon_0
 
 from ehlectric.arrays import Array, Mask
+from ehlectric.constants import EPSILON_0
 from ehlectric.errors import InputError
 from ehlectric.field.field_accuracy import GapField, with_error
 from ehlectric.field.poisson import Across, mean_permittivity
@@ -183,8 +183,8 @@ def _solved(problem: PointFieldProblem) -> PointField:
         return _field(
             problem,
             potential,
-            capacitance=epsilon_0 * energy / voltage**2,
-            charges=epsilon_0 / voltage * charges,
+            capacitance=EPSILON_0 * energy / voltage**2,
+            charges=EPSILON_0 / voltage * charges,
             iterations=iterations,
         )
 
@@ -227,7 +227,7 @@ def _field(
         voltage=voltage,
         capacitance=capacitance,
         capacitance_by_charge=float(np.sum(charges)),
-        thin_gap_capacitance=float(np.vdot(epsilon_0 * mean_permittivity(permittivity) / gap, areas)),
+        thin_gap_capacitance=float(np.vdot(EPSILON_0 * mean_permittivity(permittivity) / gap, areas)),
         capacitance_density=charges / areas,
         iterations=iterations,
     )

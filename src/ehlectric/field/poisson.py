@@ -11,17 +11,14 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
-from scipy.constants import epsilon_0
 from scipy.linalg import cho_solve_banded, cholesky_banded
 
 from ehlectric.arrays import Array
+from ehlectric.constants import EPSILON_0
 from ehlectric.formulas.polynomials import derivative_matrix, interpolation, lobatto_nodes, lobatto_weights
 
 # Two Gauss points along an element: more points would not raise the order of linear elements.
 GAUSS = np.array([0.5 - 0.5 / np.sqrt(3.0), 0.5 + 0.5 / np.sqrt(3.0)])
-
-# Smallest gap in the field problem [m], the size of an atom; thinner gaps are replaced by it.
-ATOM = 1e-10
 
 
 @dataclass(frozen=True)
@@ -186,7 +183,7 @@ class Quadrature:
         load = np.zeros_like(density)
         pair = np.stack([density[:-1], density[1:]])
         at_points = np.einsum("aeq,ag->egq", pair, self.shapes) * self.gap[:, :, np.newaxis]
-        half = 0.5 * self.dx[:, np.newaxis] * self.across.weights / epsilon_0
+        half = 0.5 * self.dx[:, np.newaxis] * self.across.weights / EPSILON_0
         load[:-1] += half * np.einsum("egq,g->eq", at_points, self.shapes[0])
         load[1:] += half * np.einsum("egq,g->eq", at_points, self.shapes[1])
         return load

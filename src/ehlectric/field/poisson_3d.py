@@ -13,9 +13,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy import sparse
-from scipy.constants import epsilon_0
 
 from ehlectric.arrays import Array, Mask
+from ehlectric.constants import EPSILON_0
 from ehlectric.errors import ConvergenceError
 from ehlectric.field.field_multigrid import NEIGHBOURS, GapMultigrid, neighbour_offsets
 from ehlectric.field.poisson import GAUSS, Across
@@ -219,7 +219,7 @@ class Quadrature:
         """Integral of W rho_q/eps0 [V m], the right side for a charge density (nx, ny, ns) [C/m^3]."""
         load = np.zeros_like(density)
         nx, ny, _ = density.shape
-        quarter = 0.25 * self.dx * self.dy * self.across.weights / epsilon_0
+        quarter = 0.25 * self.dx * self.dy * self.across.weights / EPSILON_0
         for g, at_point in enumerate(_at_points(density)):
             cell = quarter * self.gap[g] * at_point
             for (i, j), shape in zip(_CORNERS, _shapes()[0][:, g], strict=True):

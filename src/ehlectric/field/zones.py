@@ -8,12 +8,14 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import label
 
 from ehlectric.arrays import Array, Mask
 
 # Nodes along x and, for a point contact, along y [m].
 Axes = tuple[Array, ...]
+
+# Smallest gap in the field problem [m], the size of an atom; thinner gaps are replaced by it.
+ATOM = 1e-10
 
 # In the high-field zone the field strength is at least this fraction of its maximum.
 HIGH_FIELD = 0.95
@@ -250,6 +252,8 @@ def lobe_above(x: Array, y: Array, values: Array, level: float) -> float:
     >>> round(lobe_above(wide, x, cones, 0.5) / np.pi, 4)
     0.25
     """
+    from scipy.ndimage import label  # late: bearings of the atlas do not need it
+
     parts, _ = label(values >= level, structure=np.ones((3, 3)))
     others = (parts > 0) & (parts != parts.flat[np.argmax(values)])
     return area_above(x, y, np.where(others, 2.0 * level - values, values), level)

@@ -30,6 +30,7 @@ from .film_solver import UNKNOWN as UNKNOWN
 from .film_solver import Starvation as Starvation
 from .film_solver import meniscus_of as meniscus_of
 from .gap import Gap as Gap
+from .gmres import KRYLOV_LIMIT as KRYLOV_LIMIT
 from .heated_solution import is_too_fine as is_too_fine
 from .hot_oil import Body as Body
 from .hot_oil import HeatedFilm as HeatedFilm
@@ -48,7 +49,6 @@ from .mesh import at_centre as at_centre
 from .mesh import trapezoidal_weights as trapezoidal_weights
 from .moving_patch import MovingFilm as MovingFilm
 from .nested import NESTED_TOLERANCE as NESTED_TOLERANCE
-from .newton import KRYLOV_LIMIT as KRYLOV_LIMIT
 from .newton import ROUNDING as ROUNDING
 from .newton import NewtonStep as NewtonStep
 from .newton import Progress as Progress
@@ -58,7 +58,6 @@ from .problem import FilmProblem as FilmProblem
 from .problem import OilSupply as OilSupply
 from .problem import OnGrid as OnGrid
 from .problem import Scales as Scales
-from .problem import velocity_parameter as velocity_parameter
 from .reynolds import residual as residual
 from .reynolds import wedge_stencil as wedge_stencil
 from .shear_laws import UNBOUNDED as UNBOUNDED

@@ -14,13 +14,15 @@ contact too thin.
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ehlectric.arrays import Array, Numbers, as_float
-from ehlectric.film.film_errors import reduced_pressure
-from ehlectric.film.mesh import Mesh
-from ehlectric.film.problem import FilmProblem
+
+if TYPE_CHECKING:
+    from ehlectric.film.mesh import Mesh
+    from ehlectric.film.problem import FilmProblem
 
 # Load that is missing in the whole contact divided by the part of it outside of the domain. Inside, the
 # pressure is lower by about the pressure of the edges. With 79 contacts, loads N from 2.5 to 200, L from 0.5
@@ -137,6 +139,8 @@ def side_deficit(problem: FilmProblem, mesh: Mesh, pressure: Array, thickness: A
     The largest pressure of the far field on the sides is compared with the largest reduced pressure, the
     integral of dP/eta, on the line Y = 0.
     """
+    from ehlectric.film.film_errors import reduced_pressure  # late: bearings of the atlas do not need it
+
     if not np.all(np.isfinite(pressure)):
         return 0.0
     inside = reduced_pressure(problem.fluid, pressure[:, int(np.argmin(np.abs(mesh.y)))])

@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ehlectric.arrays import Array, V
+from ehlectric.arrays import Array
 from ehlectric.film.deflection import LINE, Geometry
 from ehlectric.film.face_flow import Fluid
 from ehlectric.film.hot_oil import Physics
@@ -138,31 +138,3 @@ class FilmProblem:
         """Problem on the grid with half as many intervals along both axes."""
         width = None if self.width is None else self.width.coarser()
         return replace(self, nodes=self.nodes // 2 + 1, width=width)
-
-
-def velocity_parameter(
-    *,
-    viscosity: V,
-    entrainment_speed: V,
-    radius: V,
-    half_width: V,
-    max_pressure: V,
-) -> V:
-    """Dimensionless velocity parameter lambda = 6 eta0 u_s R^2/(b^3 p_h) of the Reynolds equation.
-
-    ``viscosity``, viscosity eta0 of the lubricant at zero pressure [Pa s]; ``entrainment_speed``, mean
-    surface speed (u1 + u2)/2 [m/s]; ``radius``, reduced radius R along entrainment [m]; ``half_width``,
-    half-width b of a line contact, or semi-axis b along entrainment of a point contact [m]; ``max_pressure``,
-    Hertz pressure p_h [Pa]. Returns velocity parameter lambda, dimensionless.
-
-    The definition of Morris et al. (2022), doi:10.3390/lubricants10050087, uses the sum of the surface
-    speeds, u_s = u1 + u2, which is twice the entrainment speed.
-
-    Examples
-    --------
-    >>> oil = {"viscosity": 0.01, "entrainment_speed": 1.0}
-    >>> round(velocity_parameter(**oil, radius=0.01, half_width=1e-4, max_pressure=1e9), 6)
-    0.012
-    """
-    sum_of_speeds = 2.0 * entrainment_speed
-    return 6.0 * viscosity * sum_of_speeds * radius**2 / (half_width**3 * max_pressure)

@@ -37,6 +37,7 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.film.cavitation import full_film_nodes, with_refilled_nodes
 from ehlectric.film.face_flow import Flow, Fluid, flow
 from ehlectric.film.gap import Gap
+from ehlectric.film.gmres import flexible_gmres
 from ehlectric.film.levels import DIPOLE, Level
 from ehlectric.film.multigrid import Linearised, cycled
 from ehlectric.film.newton import (
@@ -49,7 +50,6 @@ from ehlectric.film.newton import (
     Residual,
     State,
     Status,
-    flexible_gmres,
     linear_tolerance,
 )
 from ehlectric.film.oil_content import (

@@ -13,6 +13,7 @@ factor of two below lambda 1.5 and differ by orders of magnitude above 2.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, lru_cache
@@ -20,9 +21,9 @@ from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy import optimize, special
 
 from ehlectric.arrays import Array, Numbers
+from ehlectric.formulas.gaussian import erfc, normal_share
 
 # Step and ends of the trapezoidal rule in u, where the height above the separation is
 # t = scale exp(u - exp(-u)). The integrand falls off double exponentially at both ends.
@@ -75,7 +76,7 @@ def greenwood_integral(order: float, separation: ArrayLike, highest: ArrayLike =
     if not np.all(np.greater_equal(highest, LOWEST_SEPARATION)):
         raise ValueError(f"the highest summit is at least at {LOWEST_SEPARATION:g} standard deviations")
     if order == 0.0:
-        return np.where(at < highest, special.ndtr(-at), 0.0)
+        return np.where(at < highest, normal_share(-at), 0.0)
     if np.all(np.isfinite(highest)):
         return _worn(order, at, np.asarray(highest, dtype=float))
     flat = at.ravel()
@@ -100,7 +101,7 @@ def _worn(order: float, at: Array, highest: Array) -> Array:
     t = np.multiply.outer(width, 0.5 * (1.0 + nodes))
     density = np.exp(-0.5 * (t + at[..., np.newaxis]) ** 2) / np.sqrt(2.0 * np.pi)
     below = (0.5 * width) ** (order + 1.0) * (density @ weights)
-    worn = special.ndtr(-highest) * np.maximum(highest - at, 0.0) ** order
+    worn = normal_share(-highest) * np.maximum(highest - at, 0.0) ** order
     integrals: Array = below + worn
     return integrals
 
@@ -108,6 +109,8 @@ def _worn(order: float, at: Array, highest: Array) -> Array:
 @lru_cache(maxsize=16)
 def _jacobi(order: float) -> tuple[Array, Array]:
     """Nodes and weights for the weight (1 + x)^order on -1 to 1; they take longer than the integrals."""
+    from scipy import special  # late: SciPy takes a third of a second to load
+
     nodes, weights = special.roots_jacobi(_NODES, 0.0, order)
     return nodes, weights
 
@@ -139,7 +142,7 @@ def separation_of_gap(gap: ArrayLike, deviation: Numbers) -> Array:
     at = target
     for _ in range(100):
         excess = at + greenwood_integral(1.0, at) - target
-        step = excess / special.ndtr(at)
+        step = excess / normal_share(at)
         at = at - step
         if np.all(np.abs(step) <= 1e-14 * np.maximum(1.0, np.abs(at))):
             break
@@ -436,7 +439,7 @@ def contact_probability(film_parameter: ArrayLike) -> Array:
     >>> contact_probability([0.0, 1.0, 2.0]).round(4).tolist()
     [1.0, 0.1573, 0.0047]
     """
-    return np.asarray(special.erfc(_checked(film_parameter)))
+    return np.asarray(erfc(_checked(film_parameter)))
 
 
 def patir_cheng(film_parameter: ArrayLike) -> Array:
@@ -489,7 +492,13 @@ def johnson_fit(film_parameter: ArrayLike) -> Array:
 @cache
 def johnson_end() -> float:
     """Lambda at which the Johnson-type fit reaches zero and its range ends, dimensionless."""
-    return float(optimize.brentq(lambda at: float(1.0 - _johnson_fraction(at)), 1.0, 2.3))
+    # 1.21 x^0.64 - 1 - 0.37 x^1.26 is concave below its zero: Newton's method from the left rises to it.
+    at, step = 1.0, math.inf
+    while step > 1e-15 * at:
+        excess = 1.21 * at**0.64 - 1.0 - 0.37 * at**1.26
+        step = -excess / (1.21 * 0.64 * at**-0.36 - 0.37 * 1.26 * at**0.26)
+        at += max(step, 0.0)
+    return at
 
 
 def _johnson_fraction(film_parameter: Array | float) -> Array | float:

@@ -35,9 +35,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.constants import epsilon_0
 
 from ehlectric.arrays import Array, Numbers
+from ehlectric.constants import EPSILON_0
 from ehlectric.formulas.polynomials import gauss_legendre
 
 # Modes of the slot, and waves of the gap for each of them and for each ratio of slot pitch to opening. The
@@ -79,7 +79,7 @@ class MachineCapacitances:
 def machine_capacitances(machine: Machine) -> MachineCapacitances:
     """Capacitances of a machine without its end windings. Returns capacitances [F].
 
-    The cylinder of the gap has the capacitance ``2 pi epsilon_0 length / log(bore / (bore - 2 gap))``; its
+    The cylinder of the gap has the capacitance ``2 pi EPSILON_0 length / log(bore / (bore - 2 gap))``; its
     parts to winding and frame follow from the unrolled gap. The insulation of the slots is a plate, as in
     Muetze and Binder, IEEE Trans. Ind. Appl. 43 (2007) 665, doi:10.1109/TIA.2007.895734.
 
@@ -96,9 +96,9 @@ def machine_capacitances(machine: Machine) -> MachineCapacitances:
     )
     slots = machine.slots * machine.length * machine.liner_width / machine.liner
     return MachineCapacitances(
-        epsilon_0 * smooth * winding,
-        epsilon_0 * smooth * (rotor - winding),
-        epsilon_0 * machine.liner_permittivity * slots,
+        EPSILON_0 * smooth * winding,
+        EPSILON_0 * smooth * (rotor - winding),
+        EPSILON_0 * machine.liner_permittivity * slots,
     )
 
 

@@ -12,7 +12,7 @@ from typing import Generic, Protocol, TypeVar
 
 import numpy as np
 
-from ehlectric.arrays import Numbers, as_float
+from ehlectric.arrays import Numbers, V, as_float
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -366,3 +366,31 @@ FORMULAS = {
     "pan_hamrock": Formula("Pan-Hamrock", pan_hamrock, piezoviscous=True, outside=_of_hard_contacts),
     "moes": Formula("Moes", moes),
 }
+
+
+def velocity_parameter(
+    *,
+    viscosity: V,
+    entrainment_speed: V,
+    radius: V,
+    half_width: V,
+    max_pressure: V,
+) -> V:
+    """Dimensionless velocity parameter lambda = 6 eta0 u_s R^2/(b^3 p_h) of the Reynolds equation.
+
+    ``viscosity``, viscosity eta0 of the lubricant at zero pressure [Pa s]; ``entrainment_speed``, mean
+    surface speed (u1 + u2)/2 [m/s]; ``radius``, reduced radius R along entrainment [m]; ``half_width``,
+    half-width b of a line contact, or semi-axis b along entrainment of a point contact [m]; ``max_pressure``,
+    Hertz pressure p_h [Pa]. Returns velocity parameter lambda, dimensionless.
+
+    The definition of Morris et al. (2022), doi:10.3390/lubricants10050087, uses the sum of the surface
+    speeds, u_s = u1 + u2, which is twice the entrainment speed.
+
+    Examples
+    --------
+    >>> oil = {"viscosity": 0.01, "entrainment_speed": 1.0}
+    >>> round(velocity_parameter(**oil, radius=0.01, half_width=1e-4, max_pressure=1e9), 6)
+    0.012
+    """
+    sum_of_speeds = 2.0 * entrainment_speed
+    return 6.0 * viscosity * sum_of_speeds * radius**2 / (half_width**3 * max_pressure)

@@ -11,95 +11,19 @@ gap between the surfaces by (2/(pi E')) times the integral of p/r. This deflecti
 
 The three integrals in I are complete elliptic integrals in Carlson's symmetric form: 2 R_F(0, a^2, b^2), and
 (2/3) R_D(0, a^2, b^2) with a and b in both orders. This form needs no distinction of the longer axis, and
-loses no accuracy for a circle. Integrals of many arguments are computed at once, after B. C. Carlson, Numer.
-Algorithms 10 (1995) 13-26, doi:10.1007/BF02198293: duplication brings the arguments closer together by a
-factor of four, until a series in their differences is exact to the last digit.
+loses no accuracy for a circle.
 """
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.optimize import brentq
-from scipy.special import elliprd, elliprf
 
 from ehlectric.arrays import Array, N, Numbers, as_float
-
-# Largest relative difference of the arguments at which the series is used; its relative error is below 1e-14.
-_CLOSE = 0.06
-
-# Duplications before the differences are looked at, and at most.
-_FIRST, _MOST = 3, 60
-
-# Arguments that are computed together: few enough for the processor's cache. Fewer are computed one by one.
-_BLOCK, _FEW = 2048, 500
-
-
-def both_rd(x: Array, y: Array, z: Array) -> tuple[Array, Array]:
-    """Carlson's R_D(x, y, z) and R_D(x, z, y), which share their duplications. ``x``, ``y`` and ``z``,
-    arguments; ``x`` not negative, ``y`` and ``z`` positive. Returns R_D(x, y, z) and R_D(x, z, y), with a
-    relative error below 1e-14, shape (...).
-
-    Examples
-    --------
-    >>> first, second = both_rd(np.array([0.0, 2.0]), np.array([2.0, 2.0]), np.array([1.0, 2.0]))
-    >>> [round(float(value), 9) for value in (first[0], first[1], second[1])]
-    [1.797210352, 0.353553391, 0.353553391]
-    """
-    x, y, z = np.broadcast_arrays(x, y, z)
-    if x.size < _FEW:
-        return elliprd(x, y, z), elliprd(x, z, y)
-    shape, size = x.shape, x.size
-    given = [np.ascontiguousarray(values, dtype=float).ravel() for values in (x, y, z)]
-    first, second = np.empty(size), np.empty(size)
-    step = math.ceil(size / math.ceil(size / _BLOCK))
-    for start in range(0, size, step):
-        part = slice(start, start + step)
-        first[part], second[part] = _block(*(values[part] for values in given))
-    return first.reshape(shape), second.reshape(shape)
-
-
-def _block(x: Array, y: Array, z: Array) -> tuple[Array, Array]:
-    factor, first, second = 1.0, np.zeros_like(x), np.zeros_like(x)
-    for number in range(_MOST):
-        if number >= _FIRST and _are_close(x, y, z):
-            break
-        root_x, root_y, root_z = np.sqrt(x), np.sqrt(y), np.sqrt(z)
-        both = root_x * (root_y + root_z) + root_y * root_z
-        y_next, z_next = y + both, z + both
-        first += factor / (root_z * z_next)
-        second += factor / (root_y * y_next)
-        x, y, z = 0.25 * (x + both), 0.25 * y_next, 0.25 * z_next
-        factor *= 0.25
-    return 3.0 * first + factor * _series(x, y, z), 3.0 * second + factor * _series(x, z, y)
-
-
-def _are_close(x: Array, y: Array, z: Array) -> bool:
-    smallest = np.minimum(np.minimum(x, y), z)
-    return bool(np.all(np.maximum(np.maximum(x, y), z) <= (1.0 + _CLOSE) * smallest))
-
-
-def _series(x: Array, y: Array, z: Array) -> Array:
-    """R_D(x, y, z) of arguments that are close together."""
-    mean = 0.2 * (x + y + 3.0 * z)
-    over = 1.0 / mean
-    u, v = 1.0 - x * over, 1.0 - y * over
-    w = (u + v) / -3.0
-    uv, w2 = u * v, w * w
-    e2, e3 = uv - 6.0 * w2, (3.0 * uv - 8.0 * w2) * w
-    e4, e5 = 3.0 * (uv - w2) * w2, uv * w2 * w
-    total: Array = (
-        1.0
-        + e2 * (-3.0 / 14.0 + e2 * (9.0 / 88.0 - e2 / 16.0 + 45.0 / 272.0 * e3) - 9.0 / 52.0 * e3)
-        + e3 * (1.0 / 6.0 + 3.0 / 40.0 * e3)
-        + e4 * (-3.0 / 22.0 + 3.0 / 20.0 * e2 - 9.0 / 68.0 * e3)
-        + e5 * (3.0 / 26.0 - 9.0 / 68.0 * e2)
-    )
-    return over * np.sqrt(over) * total
+from ehlectric.formulas.carlson import both_rd, complete_rd, complete_rd_pair, complete_rf
 
 
 def reduced_radius(radius_1: N, radius_2: N) -> N:
@@ -297,17 +221,11 @@ def _log_ratios(target: Array) -> Array:
     log_ratio, step = _USUAL_SHARE * target, np.array(np.inf)
     while np.max(np.abs(step)) > _LAST_STEP:
         k2 = np.exp(2.0 * log_ratio)
-        p, q = elliprd(0.0, k2, 1.0), elliprd(0.0, 1.0, k2)
+        p, q = complete_rd_pair(k2, np.ones_like(k2))
         slope = 3.0 - (p - q) / (k2 - 1.0) * (k2 / p + 1.0 / q)
         step = (np.log(p / q) - target) / slope
         log_ratio = log_ratio - step
     return np.asarray(log_ratio)
-
-
-def _excess(log_ratio: float, target: float) -> float:
-    """Logarithm of Ry/Rx of a contact with the logarithm of k, less its target."""
-    k2 = np.exp(2.0 * log_ratio)
-    return float(np.log(elliprd(0.0, k2, 1.0) / elliprd(0.0, 1.0, k2)) - target)
 
 
 @lru_cache(maxsize=256)
@@ -316,8 +234,7 @@ def _axis_ratio(radius_x: float, radius_y: float) -> float:
     target = float(np.log(radius_y / radius_x))
     if abs(target) < _CIRCLE:
         return float(np.exp(2.0 / 3.0 * target))
-    root = brentq(_excess, 0.0, target, args=(target,), xtol=1e-15, rtol=1e-14)
-    return float(np.exp(root))
+    return float(np.exp(_log_ratios(np.array([target]))[0]))
 
 
 def dry_contact(load: Numbers, radius_x: Numbers, radius_y: Numbers, modulus: Numbers) -> DryContact:
@@ -341,7 +258,7 @@ def dry_contact(load: Numbers, radius_x: Numbers, radius_y: Numbers, modulus: Nu
     (109.9, 0.7906)
     """
     k = axis_ratio(radius_x, radius_y)
-    of_axes, of_approach = as_float(elliprd(0.0, k**2, 1.0)), as_float(elliprf(0.0, 1.0, k**2))
+    of_axes, of_approach = as_float(complete_rd(k**2, 1.0)), as_float(complete_rf(1.0, k**2))
     semi_axis = (2.0 * load * radius_x * of_axes / (np.pi * modulus)) ** (1.0 / 3.0)
     pressure = 1.5 * load / (np.pi * k * semi_axis**2)
     approach = 2.0 * pressure * k * semi_axis / modulus * of_approach
@@ -363,7 +280,7 @@ def point_load(max_pressure: float, radius_x: float, radius_y: float, modulus: f
     40.47
     """
     k = float(axis_ratio(radius_x, radius_y))
-    semi_axis = 4.0 * max_pressure * radius_x * k * float(elliprd(0.0, k**2, 1.0)) / (3.0 * modulus)
+    semi_axis = 4.0 * max_pressure * radius_x * k * float(complete_rd(k**2, 1.0)) / (3.0 * modulus)
     return 2.0 * np.pi / 3.0 * k * max_pressure * semi_axis**2
 
 

@@ -19,7 +19,7 @@ from functools import lru_cache
 import numpy as np
 
 from ehlectric.arrays import Array, IntArray, Numbers
-from ehlectric.formulas.hertz import both_rd
+from ehlectric.formulas.carlson import both_rd
 
 # Pieces and degree of the polynomials: deflections are within 1e-13 of the deflections by elliptic integrals
 # for ratios from 1/50 to 50.

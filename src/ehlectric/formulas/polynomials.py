@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from functools import cache
+from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy import sparse
-from scipy.special import eval_legendre, roots_jacobi
 
 from ehlectric.arrays import Array, IntArray
+
+if TYPE_CHECKING:
+    from scipy import sparse
 
 
 @cache
@@ -26,12 +28,16 @@ def lobatto_nodes(degree: int) -> Array:
     >>> [float(s) for s in lobatto_nodes(2)]
     [0.0, 0.5, 1.0]
     """
+    from scipy.special import roots_jacobi  # late: SciPy takes a third of a second to load
+
     interior = roots_jacobi(degree - 1, 1.0, 1.0)[0] if degree > 1 else np.empty(0)
     return 0.5 * (1.0 + np.concatenate([[-1.0], interior, [1.0]]))
 
 
 def lobatto_weights(nodes: Array) -> Array:
     """Weights of the quadrature on ``lobatto_nodes``, shape (n,)."""
+    from scipy.special import eval_legendre  # late: SciPy takes a third of a second to load
+
     degree = nodes.size - 1
     return 1.0 / (degree * (degree + 1) * eval_legendre(degree, 2.0 * nodes - 1.0) ** 2)
 
@@ -50,6 +56,8 @@ def linear_interpolation(left: IntArray, share: Array, size: int) -> sparse.csr_
 
     ``share`` (n,) is the weight of the next node.
     """
+    from scipy import sparse  # late: SciPy takes a third of a second to load
+
     rows = np.repeat(np.arange(left.size), 2)
     columns = np.stack([left, left + 1], axis=1).ravel()
     values = np.stack([1.0 - share, share], axis=1).ravel()

@@ -18,7 +18,6 @@ from functools import cache, cached_property
 from itertools import product
 
 import numpy as np
-from scipy.linalg import solve_triangular
 
 from ehlectric.arrays import Array, IntArray, Mask
 
@@ -33,8 +32,9 @@ _MOST_ALONG, _MOST, _FIRST = 60, 2500, 3
 # lowered down to its least part of the tolerance.
 _LARGE, _NEXT, _CHECKED, _LEAST = 0.5, 0.1, 24, 1e-6
 
-# Points that are computed together: few enough for the processor's cache.
-_BLOCK = 512
+# Points that are computed together: few enough for the processor's cache; rows of a triangular system that
+# are solved together.
+_BLOCK, _ROWS = 512, 64
 
 
 @cache
@@ -186,13 +186,23 @@ def _moved(number: tuple[int, ...], variable: int, step: int) -> tuple[int, ...]
     return (*number[:variable], number[variable] + step, *number[variable + 1 :])
 
 
+def _substituted(matrix: Array, right: Array) -> Array:
+    """Solution of a lower triangular system with a diagonal of ones, shape (n,), in blocks of rows."""
+    solution = np.empty_like(right)
+    for start in range(0, right.size, _ROWS):
+        rows = slice(start, start + _ROWS)
+        known = right[rows] - matrix[rows, :start] @ solution[:start]
+        solution[rows] = np.linalg.solve(np.tril(matrix[rows, rows]), known)
+    return solution
+
+
 class _Known:
     """Products of a table that grows, with the values of its function at their nodes."""
 
     def __init__(self, function: Function, low: Array, high: Array) -> None:
         self.function, self.low, self.high = function, low, high
         self.numbers: list[tuple[int, ...]] = []
-        self.values = np.empty(0)
+        self.coefficients = np.empty(0)
         each = product(*(range(3 if end > start else 1) for start, end in zip(low, high, strict=True)))
         self._add(numbers for numbers in each if sum(numbers) <= _FIRST)
 
@@ -202,20 +212,24 @@ class _Known:
         return self.function((self.low + half + half * scaled.T).T)
 
     def _add(self, new: Iterable[tuple[int, ...]]) -> None:
-        """Add products, each after the products of lower numbers."""
+        """Add products, each after the products of lower numbers, whose coefficients stay as they are."""
         added = sorted(new, key=sum)
+        rows = np.array(added)
+        values = self.at(leja_points()[rows].T)
+        self.complete = bool(np.all(np.isfinite(values)))
         self.numbers += added
-        self.values = np.concatenate([self.values, self.at(leja_points()[np.array(added)].T)])
-        self.complete = bool(np.all(np.isfinite(self.values)))
         if not self.complete:
             return
-        rows, matrix = np.array(self.numbers), np.ones((len(self.numbers),) * 2)
-        for number in rows.T:
-            nodes = leja_points()[: int(number.max()) + 1]
-            matrix *= _newton(nodes, nodes.size)[number][:, number]
-        coefficients = solve_triangular(matrix.T, self.values, lower=True, unit_diagonal=True)
+        # Products at the new nodes; a new product is zero at the nodes before its own, and one at its own.
+        products = np.ones((rows.shape[0], len(self.numbers)))
+        for at_nodes, number in zip(rows.T, np.array(self.numbers).T, strict=True):
+            newton = _newton(leja_points()[: int(at_nodes.max()) + 1], int(number.max()) + 1)
+            products *= newton[number][:, at_nodes].T
+        known = self.coefficients.size
+        missing = values - products[:, :known] @ self.coefficients
+        self.coefficients = np.append(self.coefficients, _substituted(products[:, known:], missing))
         ends = np.where(self.high > self.low, 1.0, 0.0)
-        self.table = SmoothTable(-ends, ends, rows, coefficients, np.nan)
+        self.table = SmoothTable(-ends, ends, np.array(self.numbers), self.coefficients, np.nan)
 
     def grow(self, large: float) -> bool:
         """Add products next to products with coefficients above ``large``; False where all have them."""

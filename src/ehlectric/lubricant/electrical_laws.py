@@ -6,9 +6,9 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.constants import R as GAS_CONSTANT
 
 from ehlectric.arrays import Array, Numbers
+from ehlectric.constants import GAS_CONSTANT
 from ehlectric.errors import InputError
 from ehlectric.lubricant.law import Law, parameter, parameters_of, required
 

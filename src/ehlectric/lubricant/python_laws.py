@@ -10,16 +10,18 @@ import pickle
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, Self, TypeAlias
+from typing import TYPE_CHECKING, Any, Self, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.interpolate import CubicSpline
 
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError, short
 from ehlectric.lubricant.oil import BoundLaw, Oil
 from ehlectric.quantities.result_warnings import ResultWarning
+
+if TYPE_CHECKING:
+    from scipy.interpolate import CubicSpline
 
 # Property as a function of pressure [Pa] and temperature [K].
 Function: TypeAlias = Callable[[Array, float], ArrayLike]
@@ -133,6 +135,8 @@ class Samples:
 
     @cached_property
     def _curve(self) -> CubicSpline:
+        from scipy.interpolate import CubicSpline  # late: SciPy takes a third of a second to load
+
         return CubicSpline(self.pressure, np.log(self.values))
 
     @cached_property

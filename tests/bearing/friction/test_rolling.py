@@ -18,7 +18,7 @@ from ehlectric.bearing.stored import dataset_of, solution_of
 from ehlectric.bearing.summary import summary_of
 from ehlectric.cases.grid_inputs import Grid, Solver, point_grid
 from ehlectric.contact.contact_kinds import KINDS
-from ehlectric.contact.problems import Setup
+from ehlectric.contact.setup import Setup
 from ehlectric.runtime.file_rules import UnfitError
 from ehlectric.tables.bearing_tables import total_rows
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case

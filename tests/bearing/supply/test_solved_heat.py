@@ -8,7 +8,7 @@ import pytest
 
 from ehlectric import load, run_sweep
 from ehlectric.app.compute.bearing_answers import quick_answer
-from ehlectric.bearing import film_factor
+from ehlectric.bearing import heated_contact
 from ehlectric.bearing.preparation import largest_load, prepare_bearing, resolve_bearing
 from ehlectric.bearing.quick_contacts import quick_case
 from ehlectric.bearing.result import check_bearing, solve_bearing
@@ -43,7 +43,7 @@ def test_solved_factor_of_balls_is_near_to_the_formula():
     """Solved films in pure rolling are 0.6 to 2 % above Wilson and Sheu, by docs/validation/bearings.md."""
     quick = prepare_bearing(case(factor="inlet-shear"), 1)
     inner, _ = quick.rings
-    solved, _ = film_factor.solved_contact(case(), inner, largest_load(quick, inner))
+    solved, _ = heated_contact.solved_contact(case(), inner, largest_load(quick, inner))
     assert 1.0 < solved / quick.conditions.inner.film_factor < 1.03
     assert solved < 1.0
 
@@ -114,17 +114,17 @@ def test_an_eyring_stress_thins_the_film_a_little_more():
 @pytest.mark.usefixtures("rollers")
 def test_a_contact_is_solved_once():
     """Strength, roughness and motor change no film."""
-    known = film_factor._solved.cache_info().misses
+    known = heated_contact._solved.cache_info().misses
     prepare_bearing(
         case(ROLLERS, bearing__composite_rq="0.1 um", discharge__dielectric_strength="20 V/um"), 4
     )
-    assert film_factor._solved.cache_info().misses == known
+    assert heated_contact._solved.cache_info().misses == known
 
 
 @pytest.mark.slow
 def test_stored_results_keep_the_factor(rollers, tmp_path, monkeypatch):
     save(rollers, tmp_path)
-    monkeypatch.setattr(film_factor, "_solved", None)
+    monkeypatch.setattr(heated_contact, "_solved", None)
     assert summary_of(load(tmp_path / NETCDF).solution) == summary_of(rollers.solution)
 
 
@@ -145,7 +145,7 @@ def test_an_unconverged_film_has_no_factor(monkeypatch):
     unconverged = dataclasses.replace(
         KINDS["line"], solve_film=lambda problem: dataclasses.replace(solve(problem), status="stalled")
     )
-    monkeypatch.setitem(film_factor.KINDS, "line", unconverged)
+    monkeypatch.setitem(heated_contact.KINDS, "line", unconverged)
     with pytest.raises(ConvergenceError, match=r"film_factor 'solved': inner contact at .* N: "):
         prepare_bearing(case(ROLLERS, bearing__inner_speed="777 rpm"), 1)
 
@@ -160,7 +160,7 @@ def test_an_isothermal_film_that_did_not_converge_gives_no_factor():
 
 def test_quick_analyses_take_the_formula(monkeypatch):
     """Checks and curves over the speed would otherwise solve dozens of films."""
-    monkeypatch.setattr(film_factor, "_solved", None)
+    monkeypatch.setattr(heated_contact, "_solved", None)
     check_bearing(case())
     changed, _ = quick_case(case())
     assert changed.bearing.film_factor == "inlet-shear"
@@ -188,7 +188,7 @@ def test_a_sweep_varies_the_word(tmp_path):
 
 
 def test_the_app_answers_at_once_by_the_formula(monkeypatch):
-    monkeypatch.setattr(film_factor, "_solved", None)
+    monkeypatch.setattr(heated_contact, "_solved", None)
     answer = quick_answer(tomllib.loads(case(ROLLERS).to_toml()))
     assert answer.numbers["heat_factor"] == resolve_bearing(case(ROLLERS, "inlet-shear")).inner.heat_factor
 

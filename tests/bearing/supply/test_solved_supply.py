@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 
 from ehlectric import load
-from ehlectric.bearing import film_factor
+from ehlectric.bearing import film_factor, heated_contact
 from ehlectric.bearing.bearing_touching import duty_of
-from ehlectric.bearing.film_factor import rolling_power_loss, solved_contact, solved_scales
+from ehlectric.bearing.film_factor import rolling_power_loss, solved_scales
+from ehlectric.bearing.heated_contact import solved_contact
 from ehlectric.bearing.preparation import largest_load, prepare_bearing
 from ehlectric.bearing.result import solve_bearing
 from ehlectric.bearing.run import NETCDF, save
@@ -61,7 +62,7 @@ def flooded():
 def test_a_ratio_of_one_is_the_flooded_film(contacts):
     assert contacts[1.0] == contacts["flooded"]
     hot, grid = _last_hot()
-    found, solved = film_factor._starved(hot, grid, 1.0), film_factor._solved(hot).friction
+    found, solved = heated_contact._starved(hot, grid, 1.0), heated_contact._solved(hot).friction
     for each in dataclasses.fields(found):
         own, other = getattr(found, each.name), getattr(solved, each.name)
         if each.name not in ("oil_layer", "temperature_rise_error"):
@@ -72,10 +73,10 @@ def test_a_ratio_of_one_is_the_flooded_film(contacts):
 def _last_hot():
     """Most loaded inner contact of the rollers as it is solved, with its grid."""
     own, prepared = case(), prepare_bearing(case(bearing__film_factor="none"), 1)
-    ring = film_factor._flooded(prepared.rings[0])
+    ring = heated_contact._flooded(prepared.rings[0])
     contact = film_factor.kind_of(ring).contact(ring, largest_load(prepared, ring))
-    hot = film_factor._hot(own, contact)
-    return hot, film_factor._solved(hot).grid
+    hot = heated_contact._hot(own, contact)
+    return hot, heated_contact._solved(hot).grid
 
 
 @pytest.mark.slow
@@ -103,7 +104,7 @@ def test_less_oil_leaves_less_film_and_less_resistance(contacts):
 def test_resistance_is_that_of_the_starved_film(contacts):
     """By an own integral of h/2 dp/dx over the film with heat and supply."""
     hot, grid = _last_hot()
-    film = hot.film(grid, film_factor.OilSupply(film_ratio=0.5))
+    film = hot.film(grid, heated_contact.OilSupply(film_ratio=0.5))
     own = float(np.sum(0.25 * (film.thickness[1:] + film.thickness[:-1]) * np.diff(film.pressure)))
     friction = contacts[0.5][1]
     assert friction.rolling_coefficient * hot.conditions.load_per_length == pytest.approx(own, rel=0.01)
@@ -137,9 +138,9 @@ def test_power_of_a_starved_bearing(starved, flooded, contacts):
 
 def test_a_rule_is_a_factor_on_film_and_resistance(flooded):
     """SKF publishes it for the rolling moment: no film is solved with it."""
-    known = film_factor._starved.cache_info().misses
+    known = heated_contact._starved.cache_info().misses
     greased = solve_bearing(case(supply="grease", **SIZE)).solution
-    assert film_factor._starved.cache_info().misses == known
+    assert heated_contact._starved.cache_info().misses == known
     own, other = greased.conditions.inner, flooded.solution.conditions.inner
     for name in ("rolling_coefficient", "power_loss", "solved_thickness"):
         assert getattr(own.friction, name) == pytest.approx(
@@ -188,7 +189,7 @@ def test_speed_of_the_capacitive_regime_follows_the_solved_film():
 @pytest.mark.gate
 def test_an_unconverged_starved_film_has_no_friction(monkeypatch, tmp_path):
     """Films have both factors all the same; a note says what is missing, also of a stored result."""
-    monkeypatch.setattr(film_factor, "_starved", lambda *_: None)
+    monkeypatch.setattr(heated_contact, "_starved", lambda *_: None)
     result = solve_bearing(case(supply=0.8))
     conditions = result.solution.conditions
     assert conditions.inner.film_factor == conditions.inner.heat_factor * 0.8

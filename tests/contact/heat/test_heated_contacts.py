@@ -9,9 +9,9 @@ from ehlectric import Case, InputError, load, solve
 from ehlectric.app.compute.contact_answers import answer_of
 from ehlectric.contact.conditions import resolve
 from ehlectric.contact.contact_heat import heat_warnings, hot_oil, oil_over_temperature, physics_of
+from ehlectric.contact.film_warnings import film_warnings
 from ehlectric.contact.preparation import prepare
 from ehlectric.contact.run import save
-from ehlectric.contact.warnings import film_warnings
 from ehlectric.discharge.film_breakdown import FieldUtilisation
 from ehlectric.errors import DamagedError
 from ehlectric.figures.contact_figure_files import figure

@@ -23,12 +23,14 @@ from ehlectric.film.atlas.atlas_films import (
     reference_groups,
     reference_laws,
 )
-from ehlectric.film.atlas.atlas_groups import Groups, film_problem
-from ehlectric.film.atlas.atlas_table import NAMES, Table, _file, tensor_spline
+from ehlectric.film.atlas.atlas_groups import Groups
+from ehlectric.film.atlas.atlas_problem import film_problem
+from ehlectric.film.atlas.atlas_table import NAMES, Table, _file
 from ehlectric.film.far_field import with_far_field
 from ehlectric.film.isothermal_film import solve_film, solve_point_film
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.patch import Patch
+from ehlectric.formulas.tensor_spline import TensorSpline
 from ehlectric.lubricant.density import incompressible
 from ehlectric.lubricant.viscosity import barus, roelands
 from ehlectric.runtime.threads import quiet_solution
@@ -248,7 +250,7 @@ def test_stated_error_of_interpolation_holds_between_nodes():
 def test_spline_reproduces_cubics():
     axes = [np.linspace(0.0, 1.0, 5), np.linspace(0.0, 1.0, 6)]
     x, y = np.meshgrid(*axes, indexing="ij")
-    spline = tensor_spline(axes, (x**3 * y**2)[..., np.newaxis])
+    spline = TensorSpline.through(axes, (x**3 * y**2)[..., np.newaxis])
     assert spline(np.array([[0.3, 0.7]]))[0, 0] == pytest.approx(0.3**3 * 0.7**2)
 
 

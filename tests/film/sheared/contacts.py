@@ -9,8 +9,9 @@ from ehlectric.film.deflection import point_geometry
 from ehlectric.film.face_flow import Fluid
 from ehlectric.film.mesh import Mesh, Width, on_mesh
 from ehlectric.film.nested import nested_iteration
-from ehlectric.film.problem import FilmProblem, Scales, velocity_parameter
+from ehlectric.film.problem import FilmProblem, Scales
 from ehlectric.film.shear_flow import ShearedFlow, filled_part, traction
+from ehlectric.formulas.film_line import velocity_parameter
 from ehlectric.lubricant.density import dowson_higginson
 from ehlectric.lubricant.viscosity import roelands
 

@@ -17,20 +17,14 @@ with H = h R/b^2 and H_Moes = (h/R) (eta0 u_s/(E' R))^(-1/2); R is the radius al
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
 import numpy as np
-from scipy.special import elliprd
 
-from ehlectric.arrays import Array, Numbers, as_float
-from ehlectric.film.deflection import point_geometry
-from ehlectric.film.face_flow import Fluid
-from ehlectric.film.far_field import with_far_field
-from ehlectric.film.mesh import Width
-from ehlectric.film.problem import FilmProblem
+from ehlectric.arrays import Numbers, as_float
+from ehlectric.formulas.carlson import complete_rd
 from ehlectric.formulas.film_line import LineContact, moes
 from ehlectric.formulas.film_point import PointContact, load_exponent, nijenbanning_venner_moes
 
@@ -39,13 +33,9 @@ _U = 1e-11
 
 # Domain: least inlet and sides in semi-axes, and factors of the length sqrt(2 h R) over which a thick film
 # builds up, at which the domain costs the film at most 0.15 %.
-_INLET, _OUTLET, _INLET_LENGTHS = 4.5, 1.5, 18.0
+_INLET, OUTLET, _INLET_LENGTHS = 4.5, 1.5, 18.0
 _SIDE, _SIDE_LENGTHS = 1.6, 7.0
 
-
-# Tolerance of the scaled residual, at which films change by less than 1e-5, and Newton steps on a grid.
-TOLERANCE = 1e-7
-_STEPS = 40
 
 # Exponent of the load group in the lubricant coordinate Y = L N^(1/6). In bearings L falls and N rises with
 # the viscosity and the speed, so that L and N are correlated, whereas the correlation of Y and N is weak.
@@ -63,9 +53,9 @@ class Ellipse:
     @classmethod
     def of(cls, ratio: Numbers, radius_ratio: Numbers | None = None) -> Ellipse:
         """Shape of contacts with a ratio of the semi-axes; ``radius_ratio``, Ry/Rx, where it is known."""
-        size = elliprd(0.0, ratio**2, 1.0)
+        size = complete_rd(ratio**2, 1.0)
         if radius_ratio is None:
-            radius_ratio = as_float(size / elliprd(0.0, 1.0, ratio**2))
+            radius_ratio = as_float(size / complete_rd(1.0, ratio**2))
         return cls(ratio, as_float(radius_ratio), as_float(2.0 / math.pi * size))
 
     def among(self, shape: tuple[int, ...], places: Any) -> Ellipse:
@@ -195,44 +185,3 @@ def lubricant_coordinate(groups: Groups) -> Numbers:
     20.0
     """
     return as_float(groups.moes_l * groups.load_group**SKEW)
-
-
-def film_problem(
-    groups: Groups, laws: tuple[Callable[..., Any], Callable[..., Any]], alpha: float, nodes: int
-) -> FilmProblem:
-    """Dimensionless film problem of a contact with Moes' groups and an oil. ``laws``, viscosity law
-    ln(eta/eta0) and density law rho/rho0 over pressure [Pa]; ``alpha``, coefficient [1/Pa] with which L is
-    made.
-    """
-    pressure = float(groups.hertz_number) / alpha
-    guess = float(groups.formula / groups.thickness_unit)
-    inlet, side = map(float, groups.domain)
-    fluid = Fluid(_over(laws[1], pressure), _over(laws[0], pressure), float(groups.velocity_parameter), 0.0)
-    problem = FilmProblem(
-        fluid,
-        nodes=nodes,
-        inlet=-inlet,
-        outlet=_OUTLET if groups.ratio is not None else 2.0,
-        thickness_guess=guess,
-        wedge_order=3,
-        tolerance=TOLERANCE,
-        max_iterations=_STEPS,
-    )
-    if groups.ratio is None:
-        return problem
-    k, moes_m, q = float(groups.ratio), float(groups.moes_m), float(groups._q)
-    load: float = (q * moes_m) ** (1.0 / 3.0)
-    compliance = 3.0 / math.pi**2 / k * moes_m ** (1.0 / 3.0) * q ** (-2.0 / 3.0) / load
-    radius_ratio = 1.0 / float(groups.radius_ratio)
-    geometry = point_geometry(radius_ratio=radius_ratio, ellipse_ratio=k, compliance=compliance)
-    return with_far_field(replace(problem, geometry=geometry, width=Width(nodes=nodes, side=side)))
-
-
-def _over(law: Callable[..., Any], pressure: float) -> Callable[[Array], tuple[Array, Array]]:
-    """Law over P = p/``pressure`` from a law over pressure [Pa]."""
-
-    def scaled(ratio: Array) -> tuple[Array, Array]:
-        value, slope = law(pressure * ratio)
-        return value, pressure * slope
-
-    return scaled

@@ -12,10 +12,10 @@ from operator import and_
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import NdBSpline, make_interp_spline
 
 from ehlectric.arrays import Array, IntArray, Mask, Numbers
 from ehlectric.errors import InputError
+from ehlectric.formulas.tensor_spline import TensorSpline
 
 # Numbers of each film, in this order.
 #   central: rho(0) h(0)/rho0 in Moes' unit.           minimum: h_min in Moes' unit.
@@ -74,22 +74,22 @@ class Table:
     growth: tuple[tuple[float, float], ...]
 
     @cached_property
-    def _spline(self) -> NdBSpline:
-        return tensor_spline([np.log(axis) for axis in self.axes], self.values)
+    def _spline(self) -> TensorSpline:
+        return TensorSpline.through([np.log(axis) for axis in self.axes], self.values)
 
     @cached_property
-    def _error(self) -> NdBSpline:
+    def _error(self) -> TensorSpline:
         """Error of discretisation and interpolation, linear between nodes."""
         total, (nearest, _) = self.errors + self.interpolation_errors, self._without_film
         total[~self.solved] = total[self.solved][nearest]
-        return tensor_spline([np.log(axis) for axis in self.axes], total, degree=1)
+        return TensorSpline.through([np.log(axis) for axis in self.axes], total, degree=1)
 
     @cached_property
-    def _growth(self) -> NdBSpline:
+    def _growth(self) -> TensorSpline:
         """Growth of the error towards nodes without a film, linear between nodes."""
         growth = np.zeros((*self.solved.shape, 1))
         growth[~self.solved, 0] = self._without_film[1]
-        return tensor_spline([np.log(axis) for axis in self.axes], growth, degree=1)
+        return TensorSpline.through([np.log(axis) for axis in self.axes], growth, degree=1)
 
     @cached_property
     def _without_film(self) -> tuple[IntArray, Array]:
@@ -109,7 +109,7 @@ class Table:
         # Both ends of an axis belong to every second node, so that nothing is extrapolated.
         every = [np.unique(np.append(np.arange(0, axis.size, 2), axis.size - 1)) for axis in logs]
         nodes = [axis[index] for axis, index in zip(logs, every, strict=True)]
-        coarse = tensor_spline(nodes, self.values[np.ix_(*every)])
+        coarse = TensorSpline.through(nodes, self.values[np.ix_(*every)])
         at = np.stack(np.meshgrid(*logs, indexing="ij"), axis=-1)
         missed = np.where(self.solved[..., np.newaxis], np.abs(coarse(at) - self.values), 0.0)
         return HALVED * _largest_near(missed)
@@ -205,18 +205,6 @@ class Table:
             raise InputError(
                 "atlas", got=where, takes="a contact near solved ones; the atlas has no film there: solve it"
             )
-
-
-def tensor_spline(logs: list[Array], values: Array, degree: int = 3) -> NdBSpline:
-    """Spline through values (..., n) on a tensor grid; lower degrees where an axis has few nodes."""
-    knots, degrees, coefficients = [], [], values
-    for number, axis in enumerate(logs):
-        k = min(degree, axis.size - 1)
-        spline = make_interp_spline(axis, np.moveaxis(coefficients, number, 0), k)
-        coefficients = np.moveaxis(spline.c, 0, number)
-        knots.append(spline.t)
-        degrees.append(k)
-    return NdBSpline(tuple(knots), np.ascontiguousarray(coefficients), tuple(degrees))
 
 
 def _largest_near(values: Array) -> Array:
