@@ -99,8 +99,8 @@ def complete_rd_pair(y: Numbers, z: Numbers) -> tuple[Array, Array]:
 
     Examples
     --------
-    >>> [round(float(value), 9) for value in complete_rd_pair(2.0, 1.0)]
-    [1.797210352, 1.067937989]
+    >>> [round(float(value), 8) for value in complete_rd_pair(2.0, 1.0)]
+    [1.79721035, 1.06793799]
     """
     y, z = np.asarray(y, dtype=float), np.asarray(z, dtype=float)
     smaller, larger = np.minimum(y, z), np.maximum(y, z)

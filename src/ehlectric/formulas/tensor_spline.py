@@ -87,8 +87,8 @@ def _knots(axis: Array, k: int) -> Array:
 
 
 def _basis(knots: Array, k: int, at: Array) -> tuple[IntArray, Array]:
-    """Number of the first B-spline that is not zero at points, shape (m,), and the values of it and of
-    the next k ones, shape (k + 1, m), by the recurrence of de Boor.
+    """Number of the first B-spline that is not zero at points, shape (m,), and the values there of k + 1
+    B-splines from this one on, shape (k + 1, m), by the recurrence of de Boor.
     """
     interval = np.clip(np.searchsorted(knots, at, side="right") - 1, k, knots.size - k - 2)
     basis = np.zeros((k + 1, at.size))
