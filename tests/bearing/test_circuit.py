@@ -120,6 +120,9 @@ def test_all_equal(number):
     assert found.capacitance == pytest.approx(number * 25e-12, rel=1e-12, abs=0.0)
     np.testing.assert_allclose(found.inner_share, 0.5)
     assert found.first_break == found.ring_to_ring_breakdown == pytest.approx(8.0, rel=1e-12, abs=0.0)
+    # Rounding does not decide which contact of two equal ones is named.
+    for rounding in (1.0 - 1e-12, 1.0, 1.0 + 1e-12):
+        assert circuit_of(*[(50e-12, 50e-12, 4.0 * rounding, 4.0)] * number).inner_first.all()
 
 
 def test_contacts_without_a_strength_never_break():

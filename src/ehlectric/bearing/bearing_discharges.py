@@ -13,6 +13,7 @@ import numpy as np
 
 from ehlectric.arrays import Array, IntArray, Numbers, labels, where
 from ehlectric.bearing.circuit import (
+    EQUAL,
     Circuit,
     leakage_conductance,
     shaft_first_break,
@@ -154,15 +155,10 @@ def breakdown_of(solution: BearingSolution) -> Breakdown | None:
     )
 
 
-# Relative difference of voltages that are equal within rounding, such as of elements that share the load
-# evenly. Without it the processor would choose the element that is named.
-_EQUAL = 1e-6
-
-
 def _first_of_least(values: Array, axis: int) -> IntArray:
     """Place of the first value along an axis that is the least one within rounding."""
     least = np.min(values, axis=axis, keepdims=True)
-    first: IntArray = np.argmax(values <= least * (1.0 + _EQUAL), axis=axis)
+    first: IntArray = np.argmax(values <= least * (1.0 + EQUAL), axis=axis)
     return first
 
 

@@ -11,6 +11,10 @@ from ehlectric.arrays import Array, Mask, Numbers
 from ehlectric.quantities.field_metadata import stored
 from ehlectric.runtime.display import read_only_property
 
+# Relative difference of voltages that are equal within rounding, such as of elements that share the load
+# evenly. Without it the processor would choose the contact that is named.
+EQUAL = 1e-6
+
 
 def series(first: Array, second: Array) -> Array:
     """Capacitance of two capacitors in series, C1 C2/(C1 + C2) [F], or admittance of two of them [S].
@@ -88,7 +92,8 @@ class Circuit:
     @read_only_property
     def inner_first(self) -> Mask:
         """Whether the inner contact breaks down before or with the outer one, shape (..., n)."""
-        return self.inner_breaks <= self.outer_breaks
+        # Equal within rounding, as in thrust bearings whose contacts are alike, they break down together.
+        return self.inner_breaks <= self.outer_breaks * (1.0 + EQUAL)
 
     @read_only_property
     def first_breaks(self) -> Array:

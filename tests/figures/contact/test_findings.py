@@ -308,7 +308,7 @@ def test_sections_have_one_scale_and_state_their_enlargement():
     along.figure.canvas.draw()
     for ax in (along, across):
         texts = [found for found in ax.get_children() if isinstance(found, Text)]
-        (text,) = (found for found in texts if "enlarged" in found.get_text())
+        (text,) = (found for found in texts if found.get_text().startswith("heights "))
         box, (left, right), (low, high) = ax.get_window_extent(), ax.get_xlim(), ax.get_ylim()
         metres_right = (right - left) * result.conditions.semi_axis_x / box.width
         metres_up = 1e-9 * (high - low) / box.height
