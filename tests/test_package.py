@@ -27,6 +27,21 @@ def test_the_command_starts_without_what_it_may_not_need():
     assert not loaded & heavy
 
 
+# What an answer without figures, files of results and solved films does not need.
+HEAVY = {"scipy", "matplotlib", "xarray", "pint", "h5py", "numba"}
+SOLVERS = {"ehlectric.film.newton", "ehlectric.field.poisson", "ehlectric.drive.discharges.event_loop"}
+
+
+def test_checking_a_bearing_loads_no_scipy_and_no_solver():
+    loaded = modules_after(
+        "from ehlectric.runs.preview import preview_of; from ehlectric import BearingCase;"
+        "preview_of(BearingCase.from_toml('examples/bearing_6208.toml'))"
+    )
+    assert "ehlectric.bearing.uncertainty" in loaded
+    assert not loaded & (HEAVY | SOLVERS)
+    assert len(loaded) <= 700
+
+
 @pytest.mark.slow
 def test_solving_needs_no_figures_or_files():
     loaded = modules_after("import ehlectric; ehlectric.solve; ehlectric.Case")
