@@ -1,6 +1,6 @@
 """Processor time of the first answers of commands and of Python, in this tree and in another one.
 
-``python -m benchmarks.first_answers`` runs each command ``RUNS`` times; with the folder of another tree as
+``python -m benchmarks.first_answers`` gives each answer ``RUNS`` times; with the folder of another tree as
 argument, whose environment is in its ``.venv``, alternately in both. It prints medians of the processor time
 and of the wall time [s], the number of modules, and the time of their imports by package. Run it on idle
 cores, without ``PYTHONDONTWRITEBYTECODE``.
@@ -19,50 +19,50 @@ from collections import Counter
 from pathlib import Path
 from statistics import median
 
-HERE = Path(__file__).parents[1]
+from benchmarks.measure import ROOT
 
-# Runs of each command in each tree; the first one, which writes compiled modules, is not counted.
+# Runs of each answer in each tree; a first one, which writes compiled modules, is not counted.
 RUNS = 5
 
-# Arguments of the commands by their name; {out} is a new folder.
-COMMANDS = {
-    "check, bearing": "-m ehlectric check examples/bearing_6208.toml",
-    "check, drive": "-m ehlectric check examples/drive.toml",
-    "check, line contact": "-m ehlectric check examples/line_contact.toml",
-    "bearing, atlas": "-m ehlectric bearing examples/bearing_6208.toml --contacts atlas --no-plots -o {out}",
-    "run, line contact": "-m ehlectric run examples/line_contact.toml --no-plots -o {out}",
-    "oil": "-m ehlectric oil iso-vg-32",
-    "init": "-m ehlectric init {out}/bearing.toml",
-    "import and solve": "-c import/ehlectric;ehlectric.solve('examples/line_contact.toml')",
+# Arguments of Python by the name of the answer; {out} is a new folder.
+ANSWERS = {
+    "check, bearing": ["-m", "ehlectric", "check", "examples/bearing_6208.toml"],
+    "check, drive": ["-m", "ehlectric", "check", "examples/drive.toml"],
+    "check, line contact": ["-m", "ehlectric", "check", "examples/line_contact.toml"],
+    "bearing, atlas": [
+        *["-m", "ehlectric", "bearing", "examples/bearing_6208.toml", "--contacts", "atlas"],
+        *["--no-plots", "--output", "{out}"],
+    ],
+    "run, line contact": [
+        *["-m", "ehlectric", "run", "examples/line_contact.toml", "--no-plots", "--output", "{out}"]
+    ],
+    "oil": ["-m", "ehlectric", "oil", "iso-vg-32"],
+    "init": ["-m", "ehlectric", "init", "{out}/bearing.toml"],
+    "import and solve": ["-c", "import ehlectric; ehlectric.solve('examples/line_contact.toml')"],
 }
 
 _IMPORT = re.compile(r"import time:\s+(\d+) \|\s+\d+ \|\s+(\w+)")
 
 
-def arguments_of(command: str, out: str) -> list[str]:
-    """Arguments of Python for a command; a slash stands for a blank within Python code."""
-    arguments = command.format(out=out).split()
-    return [arguments[0], arguments[1].replace("/", " ", 1), *arguments[2:]]
-
-
-def seconds_of(tree: Path, command: str) -> tuple[float, float]:
-    """Processor time and wall time of a command in a tree [s]."""
+def answered(tree: Path, name: str, *options: str) -> subprocess.CompletedProcess[str]:
+    """Process of Python in a tree, with further options, that has given an answer."""
     with tempfile.TemporaryDirectory() as out:
-        before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
-        program = [str(tree / ".venv" / "bin" / "python"), *arguments_of(command, out)]
-        done = subprocess.run(program, cwd=tree, capture_output=True, text=True)
-        wall, after = time.perf_counter() - start, resource.getrusage(resource.RUSAGE_CHILDREN)
-    if done.returncode:
-        sys.exit(f"{command}: {done.stderr.strip()[-400:]}")
+        arguments = [argument.format(out=out) for argument in ANSWERS[name]]
+        program = [str(tree / ".venv" / "bin" / "python"), *options, *arguments]
+        return subprocess.run(program, cwd=tree, capture_output=True, text=True, check=True)
+
+
+def seconds_of(tree: Path, name: str) -> tuple[float, float]:
+    """Processor time and wall time of an answer in a tree [s]."""
+    before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
+    answered(tree, name)
+    wall, after = time.perf_counter() - start, resource.getrusage(resource.RUSAGE_CHILDREN)
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, wall
 
 
-def imports_of(tree: Path, command: str) -> tuple[int, list[tuple[str, int]]]:
-    """Number of modules that a command loads, and packages with the longest imports and their times [ms]."""
-    with tempfile.TemporaryDirectory() as out:
-        program = [str(tree / ".venv" / "bin" / "python"), "-X", "importtime", *arguments_of(command, out)]
-        said = subprocess.run(program, cwd=tree, capture_output=True, text=True).stderr
-    rows = _IMPORT.findall(said)
+def imports_of(tree: Path, name: str) -> tuple[int, list[tuple[str, int]]]:
+    """Number of modules of an answer, and the packages with the longest imports and their times [ms]."""
+    rows = _IMPORT.findall(answered(tree, name, "-X", "importtime").stderr)
     times: Counter[str] = Counter()
     for microseconds, package in rows:
         times[package] += int(microseconds)
@@ -70,15 +70,15 @@ def imports_of(tree: Path, command: str) -> tuple[int, list[tuple[str, int]]]:
 
 
 def main() -> None:
-    """Print a table of all commands."""
+    """Print a table of all answers."""
     if os.environ.get("PYTHONDONTWRITEBYTECODE"):
         sys.exit("unset PYTHONDONTWRITEBYTECODE: without it each run would compile the modules again")
-    trees = [HERE, *map(Path, sys.argv[1:])]
-    for name, command in COMMANDS.items():
-        rows = [[seconds_of(tree, command) for tree in trees] for _ in range(RUNS + 1)][1:]
+    trees = [ROOT, *map(Path, sys.argv[1:])]
+    for name in ANSWERS:
+        rows = [[seconds_of(tree, name) for tree in trees] for _ in range(RUNS + 1)][1:]
         for number, tree in enumerate(trees):
             processor, wall = (median(row[number][k] for row in rows) for k in range(2))
-            modules, packages = imports_of(tree, command)
+            modules, packages = imports_of(tree, name)
             said = ", ".join(f"{package} {total} ms" for package, total in packages)
             print(f"{name:20} {tree.name:10} {processor:5.2f} s  {wall:5.2f} s  {modules:5} modules: {said}")
 

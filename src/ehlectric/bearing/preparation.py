@@ -373,9 +373,8 @@ def prepare_bearing(case: BearingCase, positions: int) -> PreparedBearing:
     inner, outer = (_contacts_with(conditions, equilibria[0], inner=inner) for inner in (True, False))
     prepared = PreparedBearing(conditions, equilibria, (inner, outer))
     if case.bearing.film_factor == "solved":
-        from ehlectric.bearing.heated_contact import (
-            solved_contact,  # late: bearings of the atlas do not need it
-        )
+        # Late: bearings of the atlas do not need it.
+        from ehlectric.bearing.heated_contact import solved_contact
 
         factors = [solved_contact(case, ring, float(largest_load(prepared, ring))) for ring in prepared.rings]
         # The friction of a bearing is the friction of both rings, or it is not known.

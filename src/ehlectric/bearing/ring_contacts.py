@@ -603,12 +603,12 @@ class ContactSolution(Values):
 
 def solve(contact: Contact, solver: Solver) -> ContactSolution:
     """Solve the film and the field of a contact; raises the errors of ``check_contact``."""
+    from ehlectric.contact import solve_contact  # late: bearings of the atlas do not need it
+
     grid, ring = contact.grid, contact.ring
     check_contact(contact, grid)
     conditions = contact.conditions_on(grid)
     discharge = ring.discharge.model_copy(update={"length": contact.length})
-    from ehlectric.contact import solve_contact  # late: bearings of the atlas do not need it
-
     result = solve_contact(conditions, ring.oil, grid=grid, solver=solver, discharge=discharge)
     film, assessment = result.film, result.discharge
     assert assessment is not None

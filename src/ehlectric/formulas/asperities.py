@@ -439,7 +439,7 @@ def contact_probability(film_parameter: ArrayLike) -> Array:
     >>> contact_probability([0.0, 1.0, 2.0]).round(4).tolist()
     [1.0, 0.1573, 0.0047]
     """
-    return np.asarray(erfc(_checked(film_parameter)))
+    return erfc(_checked(film_parameter))
 
 
 def patir_cheng(film_parameter: ArrayLike) -> Array:

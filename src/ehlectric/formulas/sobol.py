@@ -56,8 +56,8 @@ def sobol_points(width: int, number: int, seed: int | np.random.SeedSequence) ->
     random = np.random.default_rng(seed)
     powers = np.uint32(1) << np.arange(_BITS, dtype=np.uint32)
     shift = random.integers(2, size=(width, _BITS), dtype=np.uint32) @ powers
-    matrices = np.tril(random.integers(2, size=(width, _BITS, _BITS), dtype=np.uint32))
-    scrambled = _scrambled(directions, matrices)
+    below = np.tril(random.integers(2, size=(width, _BITS, _BITS), dtype=np.uint32), -1)
+    scrambled = _scrambled(directions, below | np.eye(_BITS, dtype=np.uint32))
     # The point n is the sum modulo 2 of the directions of the bits of its Gray code n ^ (n >> 1).
     index = np.arange(number, dtype=np.uint32)
     gray = index ^ (index >> np.uint32(1))
@@ -68,12 +68,8 @@ def sobol_points(width: int, number: int, seed: int | np.random.SeedSequence) ->
 
 
 def _scrambled(directions: _Bits, matrices: _Bits) -> _Bits:
-    """Directions multiplied by lower triangular matrices modulo 2, with a diagonal of ones, shape (width,
-    bits). The first row of a matrix is the highest bit.
-    """
+    """Directions multiplied by matrices modulo 2, shape (width, bits), the highest bit first in a matrix."""
     highest_first = np.arange(_BITS - 1, -1, -1, dtype=np.uint32)
-    matrices = matrices.copy()
-    matrices[:, range(_BITS), range(_BITS)] = 1
     bits = (directions[:, np.newaxis, :] >> highest_first[:, np.newaxis]) & np.uint32(1)
     products = np.einsum("wij,wjk->wik", matrices, bits) & np.uint32(1)
     summed: _Bits = np.sum(products << highest_first[:, np.newaxis], axis=1, dtype=np.uint32)
