@@ -60,6 +60,22 @@ def seconds_of(tree: Path, name: str) -> tuple[float, float]:
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, wall
 
 
+def seconds_to_verdict(tree: Path) -> float:
+    """Wall time from a bearing's command that draws all figures to the last line of its verdict [s]."""
+    with tempfile.TemporaryDirectory() as out:
+        arguments = [word for word in ANSWERS["bearing, atlas"] if word != "--no-plots"]
+        program = [str(tree / ".venv" / "bin" / "python"), *(word.format(out=out) for word in arguments)]
+        start = time.perf_counter()
+        with subprocess.Popen(
+            program, cwd=tree, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+        ) as process:
+            assert process.stdout is not None
+            for line in process.stdout:
+                if line.startswith("  model  "):
+                    wall = time.perf_counter() - start
+    return wall
+
+
 def imports_of(tree: Path, name: str) -> tuple[int, list[tuple[str, int]]]:
     """Number of modules of an answer, and the packages with the longest imports and their times [ms]."""
     rows = _IMPORT.findall(answered(tree, name, "-X", "importtime").stderr)
@@ -81,6 +97,10 @@ def main() -> None:
             modules, packages = imports_of(tree, name)
             said = ", ".join(f"{package} {total} ms" for package, total in packages)
             print(f"{name:20} {tree.name:10} {processor:5.2f} s  {wall:5.2f} s  {modules:5} modules: {said}")
+    walls = [[seconds_to_verdict(tree) for tree in trees] for _ in range(RUNS)]
+    for number, tree in enumerate(trees):
+        wall = median(row[number] for row in walls)
+        print(f"{'bearing with figures':20} {tree.name:10} {wall:5.2f} s of wall time to its verdict")
 
 
 if __name__ == "__main__":

@@ -116,6 +116,22 @@ def test_a_figure_of_an_oil_that_fails_takes_nothing_else(typed, tmp_path, monke
 
 
 @pytest.mark.slow
+@pytest.mark.gate
+def test_an_answer_is_read_before_its_figures_are_drawn(tmp_path):
+    """The verdict comes through the pipe while no figure exists; a reader that leaves then loses none."""
+    (tmp_path / "bearing.toml").write_text(POINT)
+    words = ("bearing", "bearing.toml", "--contacts", "formula", "-o", "out")
+    process = subprocess.Popen([COMMAND, *words], cwd=tmp_path, stdout=subprocess.PIPE, text=True)
+    with process:
+        while not process.stdout.readline().startswith("  model  "):
+            assert process.poll() is None
+        assert not list((tmp_path / "out").glob("*.png"))
+        process.stdout.close()
+    assert process.returncode == 128 + 13  # the list of figures finds no reader
+    assert (tmp_path / "out" / "breakdown_over_speed.png").is_file()
+
+
+@pytest.mark.slow
 def test_a_figure_of_a_result_that_fails_takes_nothing_else(typed, tmp_path, monkeypatch):
     """The table, the verdict, the other figures and the report of a bearing are there."""
     (tmp_path / "bearing.toml").write_text(POINT)
@@ -124,7 +140,11 @@ def test_a_figure_of_a_result_that_fails_takes_nothing_else(typed, tmp_path, mon
         done = typed("bearing", "bearing.toml", "--contacts", "formula", "-o", "out")
         assert done.returncode == 4
         assert "capacitance" in done.stdout
-        assert "  model  " in done.stdout.splitlines()[-1]
+        lines = done.stdout.splitlines()
+        verdict = next(number for number, line in enumerate(lines) if line.startswith("  model  "))
+        # Files of figures are listed after the answer.
+        assert lines[verdict + 1] == "written to out:"
+        assert "bearing_loads.png" in lines[verdict + 2]
         missing = [
             line.split(":")[1].strip() for line in done.stderr.splitlines() if line.startswith("error")
         ]

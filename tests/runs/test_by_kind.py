@@ -11,7 +11,7 @@ import ehlectric
 from ehlectric import InputError, read_sweep
 from ehlectric.commands.draw_commands import load_and_draw
 from ehlectric.commands.solve_commands import check as typed_check
-from ehlectric.runs.by_kind import RUNS, run, run_contact, with_figures
+from ehlectric.runs.by_kind import RUNS, draw_outcome, run, run_contact
 from ehlectric.runs.file_kinds import read_input
 from ehlectric.runs.solve import load
 from ehlectric.runtime.progress import RunOutcome
@@ -226,7 +226,7 @@ def test_a_folder_holds_one_result(files, tmp_path):
 
 
 @pytest.mark.slow
-def test_figures_are_among_the_files_of_a_run_that_draws(files, tmp_path):
+def test_figures_of_a_run_are_drawn_after_its_results(files, tmp_path):
     case = RUNS["contact"].read(read_input(files["contact"]))
     told = []
 
@@ -234,10 +234,10 @@ def test_figures_are_among_the_files_of_a_run_that_draws(files, tmp_path):
         told.append(text)
 
     plain = run_contact(case, tmp_path, progress)
-    outcome = with_figures(plain, tmp_path, progress)
-    assert [file.name for file in outcome.files][:4] == [*WRITTEN["contact"], "film.png"]
+    drawn = draw_outcome(plain, tmp_path, progress)
+    assert [file.name for file in plain.files] == WRITTEN["contact"]
+    assert drawn.files[0].name == "film.png"
     assert told[-2:] == ["writing results", "drawing figures"]
-    assert plain.files == outcome.files[:3]
 
 
 @pytest.mark.slow

@@ -5,31 +5,34 @@ library.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import typer
 
 from ehlectric.commands.options import (
+    Look,
     command,
     figure_options,
 )
 from ehlectric.commands.terminal import (
     echo_files,
+    print_answer,
     print_rows,
     print_table,
     print_verdict,
     progress_bar,
     progress_line,
+    refuse_failure,
     refuse_undrawn,
-    report,
     say,
     user_errors,
     warn,
 )
 from ehlectric.runtime.progress import Progress
+from ehlectric.runtime.undrawn import Drawn
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -118,32 +121,61 @@ def run(
     Exit status 0: solved. 2: the input is wrong. 3: not converged, all files are still written; or memory
     ran out.
     """
-    with user_errors():
-        look = figure_options(formats, style)
+    with ExitStack() as locked:
+        with user_errors():
+            look = figure_options(formats, style)
 
-        from ehlectric.runs import by_kind
-        from ehlectric.runs.file_kinds import expect
-        from ehlectric.runs.measured_film_factors import MeasuredFile
-        from ehlectric.runtime.folders import RESULT_LOCK, alone_in
+            from ehlectric.runs import by_kind
+            from ehlectric.runs.file_kinds import expect
+            from ehlectric.runs.measured_film_factors import MeasuredFile
+            from ehlectric.runtime.folders import RESULT_LOCK, alone_in
 
-        file = expect(case_file, "contact", "motion")
-        kind, case = file.kind, by_kind.RUNS[file.kind].read(file)
-        data = MeasuredFile.of(measured, None, uncertainty)
-        if kind == "contact":
-            from ehlectric.contact import prepare
+            file = expect(case_file, "contact", "motion")
+            kind, case = file.kind, by_kind.RUNS[file.kind].read(file)
+            data = MeasuredFile.of(measured, None, uncertainty)
+            if kind == "contact":
+                from ehlectric.contact import prepare
 
-            case = prepare(case)
-            if not quiet:
-                warn(case.reach_warnings())
-            shown = progress_line(shown=not quiet)
-        else:
-            shown = _saved_steps(output, shown=not quiet)
-        with shown as progress, alone_in(output, locks=[RESULT_LOCK]) as folder:
-            outcome = by_kind.RUNS[kind].run(case, folder, progress, solver=solver, measured=data)
-            if plots:
-                outcome = by_kind.with_figures(outcome, folder, progress, **look)
-    tables = _tables if kind == "contact" else _transient_tables
-    report(outcome, tables, quiet=quiet, as_json=as_json)
+                case = prepare(case)
+                if not quiet:
+                    warn(case.reach_warnings())
+                shown = progress_line(shown=not quiet)
+            else:
+                shown = _saved_steps(output, shown=not quiet)
+            folder = locked.enter_context(alone_in(output, locks=[RESULT_LOCK]))
+            with shown as progress:
+                outcome = by_kind.RUNS[kind].run(case, folder, progress, solver=solver, measured=data)
+        tables = _tables if kind == "contact" else _transient_tables
+        _print_and_draw(outcome, tables, folder, look if plots else None, quiet=quiet, as_json=as_json)
+
+
+def _print_and_draw(
+    outcome: RunOutcome[Any],
+    tables: Callable[[RunOutcome[Any]], Iterable[Table]],
+    folder: Path,
+    look: Look | None,
+    *,
+    quiet: bool,
+    as_json: bool,
+) -> None:
+    """Print the answer of a run, and then draw its figures with their formats and style, or none.
+
+    They are also drawn where the reader of the answer leaves, as in ``ehlectric run FILE | head``.
+    """
+    drawn = Drawn(())
+    try:
+        print_answer(outcome, tables, quiet=quiet, as_json=as_json)
+    finally:
+        if look is not None:
+            from ehlectric.runs.by_kind import draw_outcome
+
+            with user_errors(), progress_line(shown=not quiet) as progress:
+                drawn = draw_outcome(outcome, folder, progress, **look)
+    if not quiet:
+        if drawn.files and not as_json:
+            echo_files(drawn.files)
+        warn(drawn.warnings)
+    refuse_failure(outcome, drawn.undrawn)
 
 
 def _tables(outcome: RunOutcome[Result | PointResult]) -> Iterator[Table]:
@@ -259,21 +291,23 @@ def bearing(
     Exit status 0: solved. 2: the input is wrong. 3: a contact is not converged, all files are still
     written; or memory ran out, or the process of a contact was killed four times.
     """
-    with user_errors():
-        look = figure_options(formats, style)
+    with ExitStack() as locked:
+        with user_errors():
+            look = figure_options(formats, style)
 
-        from ehlectric.runs import by_kind
-        from ehlectric.runs.file_kinds import expect
-        from ehlectric.runs.measured_film_factors import MeasuredFile
-        from ehlectric.runtime.folders import RESULT_LOCK, alone_in
+            from ehlectric.runs import by_kind
+            from ehlectric.runs.file_kinds import expect
+            from ehlectric.runs.measured_film_factors import MeasuredFile
+            from ehlectric.runtime.folders import RESULT_LOCK, alone_in
 
-        case = by_kind.read_bearing(expect(bearing_file, "bearing"))
-        data = MeasuredFile.of(measured, background, uncertainty)
-        with progress_bar(shown=not quiet) as progress, alone_in(output, locks=[RESULT_LOCK]) as folder:
-            outcome = by_kind.run_bearing(case, folder, progress, contacts=contacts, measured=data)
-            if plots:
-                outcome = by_kind.with_figures(outcome, folder, progress, **look)
-    report(outcome, _bearing_tables, quiet=quiet, as_json=as_json)
+            case = by_kind.read_bearing(expect(bearing_file, "bearing"))
+            data = MeasuredFile.of(measured, background, uncertainty)
+            folder = locked.enter_context(alone_in(output, locks=[RESULT_LOCK]))
+            with progress_bar(shown=not quiet) as progress:
+                outcome = by_kind.run_bearing(case, folder, progress, contacts=contacts, measured=data)
+        _print_and_draw(
+            outcome, _bearing_tables, folder, look if plots else None, quiet=quiet, as_json=as_json
+        )
 
 
 def _bearing_tables(outcome: RunOutcome[object]) -> Iterator[Table]:
@@ -313,19 +347,19 @@ def drive(
     Exit status 0: solved. 2: the input is wrong. 3: a contact is not converged, all files are still
     written; or memory ran out, or the process of a contact was killed four times.
     """
-    with user_errors():
-        look = figure_options(formats, style)
+    with ExitStack() as locked:
+        with user_errors():
+            look = figure_options(formats, style)
 
-        from ehlectric.runs import by_kind
-        from ehlectric.runs.file_kinds import expect
-        from ehlectric.runtime.folders import RESULT_LOCK, alone_in
+            from ehlectric.runs import by_kind
+            from ehlectric.runs.file_kinds import expect
+            from ehlectric.runtime.folders import RESULT_LOCK, alone_in
 
-        case = by_kind.read_drive(expect(drive_file, "drive"))
-        with progress_bar(shown=not quiet) as progress, alone_in(output, locks=[RESULT_LOCK]) as folder:
-            outcome = by_kind.run_drive(case, folder, progress, contacts=contacts)
-            if plots:
-                outcome = by_kind.with_figures(outcome, folder, progress, **look)
-    report(outcome, _drive_tables, quiet=quiet, as_json=as_json)
+            case = by_kind.read_drive(expect(drive_file, "drive"))
+            folder = locked.enter_context(alone_in(output, locks=[RESULT_LOCK]))
+            with progress_bar(shown=not quiet) as progress:
+                outcome = by_kind.run_drive(case, folder, progress, contacts=contacts)
+        _print_and_draw(outcome, _drive_tables, folder, look if plots else None, quiet=quiet, as_json=as_json)
 
 
 def _drive_tables(outcome: RunOutcome[object]) -> Iterator[Table]:

@@ -7,7 +7,6 @@ import time
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, nullcontext
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -39,6 +38,7 @@ from ehlectric.runtime.progress import Progress, silent
 from ehlectric.runtime.undrawn import Drawn, Undrawn, kept_going
 
 if TYPE_CHECKING:
+    from ehlectric.runtime.progress import RunOutcome
     from ehlectric.sweep import Sweep, SweepResults
 
 
@@ -81,19 +81,29 @@ def sweep(
             _tell_what_lacks(requested)
         with _tell_where_it_stops(output) as begun, _shown(begun, quiet=quiet) as progress:
             outcome = by_kind.RUNS["sweep"].run(requested, output, progress, **options)
-        draws = (plots or bool(formats)) and outcome.converged
-        drawn, why = _drawn(outcome.result, output, look) if draws else (Drawn(()), "")
     if not quiet:
-        from ehlectric.sweep import sweep_verdict
-        from ehlectric.tables.sweep_summary import sweep_rows
-
-        print_rows(sweep_rows(outcome.result))
-        echo_files((*outcome.files, *drawn.files))
-        warn((*outcome.warnings, *drawn.warnings, *filter(None, [why])))
-        print_verdict(sweep_verdict(outcome.result))
+        _print_answer(outcome)
     elif outcome.converged:
         warn(_in_short(outcome.result))
-    refuse_failure(replace(outcome, undrawn=drawn.undrawn))
+    draws = (plots or bool(formats)) and outcome.converged
+    with user_errors():
+        drawn, why = _drawn(outcome.result, output, look) if draws else (Drawn(()), "")
+    if not quiet:
+        if drawn.files:
+            echo_files(drawn.files)
+        warn((*drawn.warnings, *filter(None, [why])))
+    refuse_failure(outcome, drawn.undrawn)
+
+
+def _print_answer(outcome: RunOutcome[SweepResults]) -> None:
+    """Print the rows, files, warnings and verdict of a sweep."""
+    from ehlectric.sweep import sweep_verdict
+    from ehlectric.tables.sweep_summary import sweep_rows
+
+    print_rows(sweep_rows(outcome.result))
+    echo_files(outcome.files)
+    warn(outcome.warnings)
+    print_verdict(sweep_verdict(outcome.result))
 
 
 def _tell_what_lacks(sweep: Sweep) -> None:

@@ -178,16 +178,14 @@ def progress_line(*, shown: bool) -> Iterator[Progress]:
         yield lambda _done, _of, text: status.update(text)
 
 
-def report(
+def print_answer(
     outcome: RunOutcome[Any],
     tables: Callable[[RunOutcome[Any]], Iterable[Table]],
     *,
     quiet: bool,
     as_json: bool,
 ) -> None:
-    """Print the tables and files of a run, its warnings, its verdict, and why it failed. Raises Exit as
-    ``refuse_failure`` raises it.
-    """
+    """Print the tables and files of a run, its warnings and its verdict."""
     if as_json:
         typer.echo(json.dumps(outcome.summary, indent=2))
     elif not quiet:
@@ -198,15 +196,14 @@ def report(
         warn(outcome.warnings)
         if not as_json:
             print_verdict(getattr(outcome.result, "verdict", None))
-    refuse_failure(outcome)
 
 
-def refuse_failure(outcome: RunOutcome[Any]) -> None:
+def refuse_failure(outcome: RunOutcome[Any], undrawn: Sequence[Undrawn]) -> None:
     """Print why a run failed, and which figures are missing; nothing where it succeeded. Raises Exit: with
     status 3 where the run failed, else with the status of ``refuse_undrawn``.
     """
     try:
-        refuse_undrawn(outcome.undrawn)
+        refuse_undrawn(undrawn)
     finally:
         if outcome.failure is not None:
             say(f"error: {outcome.failure}", err=True)

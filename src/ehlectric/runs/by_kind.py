@@ -58,30 +58,28 @@ def run(path: str | Path, folder: str | Path, progress: Progress = silent, **opt
     return kind.run(kind.read(file), folder, progress, **options)
 
 
-def with_figures(
-    outcome: RunOutcome[R],
+def draw_outcome(
+    outcome: RunOutcome[Any],
     folder: str | Path,
     progress: Progress = silent,
     *,
     formats: Sequence[str] = ("png",),
     style: str = "screen",
-) -> RunOutcome[R]:
-    """Draw the figures of a run into its folder, and return its outcome with the figures among the files, and
-    their warnings among the warnings.
+) -> Drawn:
+    """Draw the figures of a run into its folder.
 
-    A figure that fails does not end the run: it is among ``undrawn`` of the outcome.
+    A figure that fails does not end the run: it is among ``undrawn``.
     """
     progress(0, 0, "drawing figures")
-    results: tuple[Any, ...] = (outcome.result, *outcome.further_results)
     drawn: list[Drawn] = []
     with kept_going() as undrawn, alone_in(folder, locks=[FIGURE_LOCK], patience=LONG):
         from ehlectric.figures.result_figures import draw_figures
 
-        for result in results:
+        for result in (outcome.result, *outcome.further_results):
             drawn.append(draw_figures(result, folder, formats=formats, style=style))
-    files = (*outcome.files, *(file for drawing in drawn for file in drawing.files))
-    warnings = (*outcome.warnings, *(warning for drawing in drawn for warning in drawing.warnings))
-    return replace(outcome, files=files, warnings=warnings, undrawn=tuple(undrawn))
+    files = tuple(file for drawing in drawn for file in drawing.files)
+    warnings = tuple(warning for drawing in drawn for warning in drawing.warnings)
+    return Drawn(files, warnings, tuple(undrawn))
 
 
 def read_case(file: InputFile) -> Case:

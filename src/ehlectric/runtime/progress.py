@@ -16,7 +16,6 @@ from typing import Any, Generic, TypeAlias, TypeVar
 
 from ehlectric.errors import InputError, printable, shown
 from ehlectric.quantities.result_warnings import ResultWarning
-from ehlectric.runtime.undrawn import Undrawn
 
 # Called with the number of parts done, the number of all parts, and a text that says what is being done.
 # The number of all parts is 0 where it is not known, as for the iterations of a film.
@@ -119,7 +118,6 @@ class RunOutcome(Generic[R]):
     failure: str | None = None  # one line that says what was not solved; None where the run succeeded
     # Further results with figures of their own, such as the film factors of a measurement.
     further_results: tuple[object, ...] = ()
-    undrawn: tuple[Undrawn, ...] = ()  # figures that could not be drawn
 
     @property
     def converged(self) -> bool:
