@@ -24,8 +24,8 @@ from ehlectric.cases.amounts import Amount
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.input_keys import describe, input_field
 from ehlectric.cases.table import number_of
+from ehlectric.drive.preparation import prepare
 from ehlectric.drive.quick_estimate import quick_drive
-from ehlectric.drive.solver import prepare
 from ehlectric.drive.summary import checked_summary
 from ehlectric.errors import InputError
 from ehlectric.quantities import units

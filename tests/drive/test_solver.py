@@ -9,8 +9,9 @@ from ehlectric.cases.drive_case import DriveCase
 from ehlectric.drive.drive_bearings import bearing_element
 from ehlectric.drive.drive_record import FILM, OFF, ON
 from ehlectric.drive.netlist import equivalent_of
+from ehlectric.drive.preparation import prepare
 from ehlectric.drive.result import solve_drive
-from ehlectric.drive.solver import prepare, solve
+from ehlectric.drive.solver import solve
 from ehlectric.drive.warnings import bearing_warnings
 from ehlectric.quantities.inputs import ENDS
 from tests.cases.test_drive import TABLE

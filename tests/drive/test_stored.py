@@ -7,8 +7,8 @@ import pytest
 
 from ehlectric import InputError, load, save, solve, solve_drive
 from ehlectric.drive import run as of_drives
+from ehlectric.drive.preparation import prepare
 from ehlectric.drive.result import DriveResult
-from ehlectric.drive.solver import prepare
 from ehlectric.drive.stored import check, parts_of
 from ehlectric.drive.summary import checked_summary
 from ehlectric.quantities.inputs import ENDS

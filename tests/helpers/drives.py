@@ -7,8 +7,8 @@ import numpy as np
 from ehlectric.bearing.circuit import Path
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.drive_inputs import Breakdown, Circuit
-from ehlectric.drive.discharges.event_loop import Segments
-from ehlectric.drive.discharges.simulation import Measuring, films_of, simulate
+from ehlectric.drive.discharges.films_and_source import Segments, films_of
+from ehlectric.drive.discharges.simulation import Measuring, simulate
 from ehlectric.drive.drive_bearings import BearingElement
 from ehlectric.drive.motor_circuit import modes_of, states_of, voltage_nodes
 from tests.helpers.places import EXAMPLES

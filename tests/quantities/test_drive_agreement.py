@@ -7,7 +7,7 @@ import pytest
 
 from ehlectric import load, solve_drive
 from ehlectric.app.compute.drive_answers import drive_numbers, ends_table
-from ehlectric.drive.solver import prepare
+from ehlectric.drive.preparation import prepare
 from ehlectric.drive.summary import checked_summary
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.results import DRIVE_BOOK, DRIVE_KEYS, NAMES_OF_ENDS

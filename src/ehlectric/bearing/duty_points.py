@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
+import scipy
 
 from ehlectric.arrays import Array, IntArray, Mask, Numbers
 from ehlectric.bearing.bearing_discharges import shaft_voltage
@@ -178,8 +179,6 @@ def between_places(nodes: Array, values: Array, at: Array) -> Array:
     Linear radial basis functions, within the values of the nodes; NaN where the nearest node has no value.
     """
     # They take a while to load.
-    from scipy.interpolate import RBFInterpolator
-    from scipy.spatial.distance import cdist
 
     places, place_of = np.unique(nodes, axis=0, return_inverse=True)
     sums = np.zeros((len(places), values.shape[1]))
@@ -187,11 +186,15 @@ def between_places(nodes: Array, values: Array, at: Array) -> Array:
     means = sums / np.bincount(place_of.reshape(-1))[:, np.newaxis]
     known = np.isfinite(means[:, 0])
     if np.count_nonzero(known) > 1:
-        interpolated = RBFInterpolator(places[known], means[known], kernel="linear", degree=0)(at)
+        interpolated = scipy.interpolate.RBFInterpolator(
+            places[known], means[known], kernel="linear", degree=0
+        )(at)
         interpolated = np.clip(interpolated, np.min(means[known], axis=0), np.max(means[known], axis=0))
     else:
         interpolated = np.broadcast_to(means[known] if np.any(known) else np.nan, (len(at), values.shape[1]))
-    return np.where(known[np.argmin(cdist(at, places), axis=1), np.newaxis], interpolated, np.nan)
+    return np.where(
+        known[np.argmin(scipy.spatial.distance.cdist(at, places), axis=1), np.newaxis], interpolated, np.nan
+    )
 
 
 def spread_places(at: Array, number: int) -> IntArray:

@@ -10,8 +10,7 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
-from scipy.optimize import brentq
+import scipy
 
 from ehlectric.arrays import Array
 from ehlectric.bearing.impedance import meter_capacitance
@@ -99,7 +98,7 @@ def film_factor_of(capacitance: Callable[[float], float], target: float, guess: 
             continue
         if (other < 0.0) != (y < 0.0) or other == 0.0:
             low, high = sorted((x, further))
-            return math.exp(float(brentq(excess, low, high, xtol=_TOLERANCE, rtol=1e-12)))
+            return math.exp(float(scipy.optimize.brentq(excess, low, high, xtol=_TOLERANCE, rtol=1e-12)))
         x, y, step = further, other, 2.0 * step
     return math.exp(x)
 
@@ -245,7 +244,11 @@ class Correction:
             return state
         at = float(np.clip(math.log(state.capacitance), self.logs[0], self.logs[-1]))
         single = self.logs.size == 1
-        logs = self.ratios[0] if single else PchipInterpolator(self.logs, self.ratios, axis=0)(at)
+        logs = (
+            self.ratios[0]
+            if single
+            else scipy.interpolate.PchipInterpolator(self.logs, self.ratios, axis=0)(at)
+        )
         capacity, ratio = np.exp(logs)
         return FilmState(state.capacitance * float(capacity), state.lambda_ratio * float(ratio))
 

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any, Self, TypeVar
 
 import numpy as np
+import scipy
 from pydantic import model_validator
 
 from ehlectric.arrays import Array, Numbers, as_float
@@ -481,9 +482,9 @@ class KnownOil:
         check = self.checks.get(key)
         if check is None or not _beyond(check, _HIGHEST):
             return math.inf
-        from scipy.optimize import bisect  # late: SciPy takes a third of a second to load
-
-        return float(bisect(lambda pressure: _beyond(check, pressure) - 0.5, 0.0, _HIGHEST, xtol=_CLOSE))
+        return float(
+            scipy.optimize.bisect(lambda pressure: _beyond(check, pressure) - 0.5, 0.0, _HIGHEST, xtol=_CLOSE)
+        )
 
 
 def _beyond(check: RangeCheck, pressure: float) -> bool:

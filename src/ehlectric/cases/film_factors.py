@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
+import scipy
 
 from ehlectric.arrays import Array
 from ehlectric.cases.case_oil import viscosity_over_temperature
@@ -103,12 +104,10 @@ def _interval(
     mean: float, statistical: float | None, systematic: float, degrees: float
 ) -> tuple[float | None, float | None]:
     """Ends of the interval of a mean in its logarithm; the systematic part is taken as normal."""
-    from scipy.special import stdtrit  # late: SciPy takes a third of a second to load
-
     if statistical is None:
         return None, None
     at = 0.5 * (1.0 + CONFIDENCE)
-    wide, normal = (float(stdtrit(degree, at)) for degree in (degrees, _KNOWN))
+    wide, normal = (float(scipy.special.stdtrit(degree, at)) for degree in (degrees, _KNOWN))
     half = math.hypot(wide * statistical, normal * systematic)
     return math.exp(mean - half), math.exp(mean + half)
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any, TypeVar
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
+import scipy
 
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
@@ -188,7 +188,9 @@ def _solved(case: Case, rows: Sequence[Mapping[str, Any]], formula: Array, progr
     progress(len(places), len(places), "films at the measured speeds")
     log_ratio: Array = np.full(formula.shape, ratios[0])
     if len(logs) > 1:
-        log_ratio = PchipInterpolator(logs, ratios)(np.clip(np.log(formula), logs[0], logs[-1]))
+        log_ratio = scipy.interpolate.PchipInterpolator(logs, ratios)(
+            np.clip(np.log(formula), logs[0], logs[-1])
+        )
     thickness = formula * np.exp(log_ratio)
     return _Films(thickness, solves=len(places), warnings=tuple(warnings.values()))
 

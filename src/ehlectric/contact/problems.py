@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
+import scipy
 
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
@@ -199,7 +199,7 @@ def _on_columns(
     def resampled(values: Array) -> Array:
         # Monotone cubic interpolation is exact at the nodes, and makes the film nowhere thinner.
         for k, (nodes, columns) in enumerate(zip(film.axes, axes, strict=True)):
-            values = PchipInterpolator(nodes, values, axis=k)(columns)
+            values = scipy.interpolate.PchipInterpolator(nodes, values, axis=k)(columns)
         return values
 
     # Middle and gap are interpolated, because separately interpolated walls could cross between nodes.

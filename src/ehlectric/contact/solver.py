@@ -9,7 +9,7 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import RegularGridInterpolator
+import scipy
 
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
@@ -337,5 +337,5 @@ def _on(axes: tuple[Array, ...], values: Array, nodes: tuple[Array, ...]) -> Arr
     if all(np.array_equal(axis, other) for axis, other in zip(axes, nodes, strict=True)):
         return values
     at = np.stack(np.meshgrid(*nodes, indexing="ij"), axis=-1)
-    interpolated: Array = RegularGridInterpolator(axes, values)(at)
+    interpolated: Array = scipy.interpolate.RegularGridInterpolator(axes, values)(at)
     return interpolated

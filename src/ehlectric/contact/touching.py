@@ -13,9 +13,8 @@ from dataclasses import asdict, dataclass, field, fields, replace
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy import ndimage
-from scipy.special import ellipk
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.cases.case import Case
@@ -74,7 +73,7 @@ class Spots:
         ([3, 1], [1.25, 0.5], 2.5)
         """
         weights = areas(axes)
-        labels, count = ndimage.label(contact)
+        labels, count = scipy.ndimage.label(contact)
         each = np.arange(1, count + 1)
         area = _sum(weights, labels, each)
         places = np.meshgrid(*axes, indexing="ij")
@@ -110,7 +109,7 @@ class Spots:
 
 
 def _sum(values: Array, labels: NDArray[Any], each: NDArray[Any]) -> Array:
-    return np.asarray(ndimage.sum_labels(values, labels, each), dtype=float).reshape(each.size)
+    return np.asarray(scipy.ndimage.sum_labels(values, labels, each), dtype=float).reshape(each.size)
 
 
 def _edge(axes: tuple[Array, ...], contact: Mask) -> float:
@@ -475,7 +474,7 @@ def strip_resistance(*, width: float, length: float, resistivity: float) -> floa
     0.11
     """
     minor, major = sorted((0.5 * width, 0.5 * length))
-    return float(resistivity * ellipk(1.0 - (minor / major) ** 2) / (np.pi * major))
+    return float(resistivity * scipy.special.ellipk(1.0 - (minor / major) ** 2) / (np.pi * major))
 
 
 def constriction(spots: Spots, electric: Electric, length: float | None) -> float | None:

@@ -18,6 +18,7 @@ from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array, Mask
@@ -36,11 +37,9 @@ if TYPE_CHECKING:
 
 def at_columns(film: Film | PointFilm, field: Field | PointField, values: Array) -> Array:
     """Interpolate values linearly from the nodes of a film to the columns of its field."""
-    from scipy.interpolate import RegularGridInterpolator  # late: bearings of the atlas do not need it
-
     # A column at the edge of the domain may be outside it because of rounding.
     columns = [np.clip(at, axis[0], axis[-1]) for at, axis in zip(field.axes, film.axes, strict=True)]
-    interpolated = RegularGridInterpolator(film.axes, values)
+    interpolated = scipy.interpolate.RegularGridInterpolator(film.axes, values)
     values_at_columns: Array = interpolated(tuple(np.meshgrid(*columns, indexing="ij")))
     return values_at_columns
 

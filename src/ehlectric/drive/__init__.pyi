@@ -26,6 +26,7 @@ from .netlist_files import arc_of as arc_of
 from .netlist_files import check_targets as check_targets
 from .netlist_files import write_files as write_files
 from .netlist_files import write_netlist as write_netlist
+from .preparation import prepare as prepare
 from .quick_estimate import expected as expected
 from .quick_estimate import quick_drive as quick_drive
 from .result import DriveResult as DriveResult
@@ -34,7 +35,6 @@ from .run import result_of as result_of
 from .run import save as save
 from .run import solve_to_folder as solve_to_folder
 from .solver import SIMULATING as SIMULATING
-from .solver import prepare as prepare
 from .stored import SCHEMA as SCHEMA
 from .summary import both_summary as both_summary
 from .summary import checked_summary as checked_summary

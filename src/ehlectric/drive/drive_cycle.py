@@ -14,7 +14,7 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from scipy.special import stdtrit
+import scipy
 
 from ehlectric.arrays import Array, IntArray, Mask
 from ehlectric.bearing import (
@@ -446,7 +446,7 @@ def _sums(means: Array, off: Array, time: float, simulation: _Simulation) -> lis
     mean = means + np.mean(off, axis=0)
     half = np.full(4, np.inf)
     if count > 1:
-        student = float(stdtrit(count - 1, 0.5 * (1.0 + CONFIDENCE)))
+        student = float(scipy.special.stdtrit(count - 1, 0.5 * (1.0 + CONFIDENCE)))
         half = student * np.std(off, axis=0, ddof=1) / math.sqrt(count)
     most = mean + half
     seen = np.tile(simulation.counts > 0.0, 2)

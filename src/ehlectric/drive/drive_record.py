@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from scipy.special import gammaincinv, stdtrit
+import scipy
 
 from ehlectric.arrays import Array
 from ehlectric.bearing import BearingResult
@@ -117,10 +117,10 @@ def event_rate(counts: Array, duration: float) -> Rate:
     (0.0, 0.0, 1.84)
     """
     total, blocks, outside = float(np.sum(counts)), counts.size, 0.5 * (1.0 - CONFIDENCE)
-    low = float(gammaincinv(total, outside)) if total else 0.0
-    high = float(gammaincinv(total + 1.0, 1.0 - outside))
+    low = float(scipy.special.gammaincinv(total, outside)) if total else 0.0
+    high = float(scipy.special.gammaincinv(total + 1.0, 1.0 - outside))
     error = float(np.std(counts, ddof=1)) / math.sqrt(blocks) if blocks > 1 else 0.0
-    student = float(stdtrit(max(blocks - 1, 1), 1.0 - outside)) * error * blocks
+    student = float(scipy.special.stdtrit(max(blocks - 1, 1), 1.0 - outside)) * error * blocks
     return Rate(
         mean=total / duration,
         low=max(min(low, total - student), 0.0) / duration,

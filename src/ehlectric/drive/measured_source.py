@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import cache
 
 import numpy as np
+import scipy
 
 from ehlectric.arrays import Array, IntArray
 from ehlectric.cases.drive_inputs import Source
@@ -105,12 +106,10 @@ def _filter(distances: Array) -> Array:
 def _table() -> Array:
     """Weights at 0, 1/2048, ... of a new step up to the end of the filter, and a zero behind it."""
     # Both take a while to import.
-    from scipy.signal import kaiser_beta
-    from scipy.special import i0
 
     distances = np.arange(HALF * _TABLE + 1) / _TABLE
-    beta = kaiser_beta(_ATTENUATION)
-    window = i0(beta * np.sqrt(1.0 - (distances / HALF) ** 2)) / i0(beta)
+    beta = scipy.signal.kaiser_beta(_ATTENUATION)
+    window = scipy.special.i0(beta * np.sqrt(1.0 - (distances / HALF) ** 2)) / scipy.special.i0(beta)
     cutoff = _PASS + _STOP
     return np.append(cutoff * np.sinc(cutoff * distances) * window, [0.0, 0.0])
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.cases.drive_inputs import Source
-from ehlectric.drive.discharges.event_loop import Segments
+from ehlectric.drive.discharges.films_and_source import Segments
 from ehlectric.drive.inverter import Steps
 from ehlectric.drive.waveform_file import Waveform
 

@@ -35,7 +35,7 @@ from ehlectric.runtime.files import plain
 
 if TYPE_CHECKING:
     from ehlectric.drive.drive_cycle import DriveDuty
-    from ehlectric.drive.solver import PreparedDrive
+    from ehlectric.drive.preparation import PreparedDrive
 
 SCHEMA = "ehlectric.drive/1"
 

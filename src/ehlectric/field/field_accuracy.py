@@ -17,8 +17,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar
 
 import numpy as np
-from scipy.interpolate import Akima1DInterpolator
-from scipy.ndimage import maximum_filter
+import scipy
 
 from ehlectric.arrays import Array
 from ehlectric.errors import ConvergenceError
@@ -147,7 +146,9 @@ def places(problem: GapProblem, strength: Array) -> list[Place]:
 
 def _columns(problem: GapProblem, strength: Array, first_order: Array) -> Iterator[tuple[int, ...]]:
     bound = strength + HIGHER_ORDER * np.maximum(first_order - strength, 0.0)
-    summits = (bound == maximum_filter(bound, size=3)) & (bound > _LOW * float(np.max(strength)))
+    summits = (bound == scipy.ndimage.maximum_filter(bound, size=3)) & (
+        bound > _LOW * float(np.max(strength))
+    )
     left = np.where(summits, bound, 0.0)
     column = tuple(int(k) for k in np.unravel_index(np.argmax(strength), strength.shape))
     for _ in range(_MOST_PLACES):
@@ -409,7 +410,10 @@ class _Window(Generic[ProblemT]):
         for k, (name, axis) in enumerate(self.problem.positions.items()):
             fine = np.empty(2 * axis.size - 1)
             fine[::2], fine[1::2] = axis, 0.5 * (axis[:-1] + axis[1:])
-            values = [Akima1DInterpolator(axis, value, axis=k, method="makima")(fine) for value in values]
+            values = [
+                scipy.interpolate.Akima1DInterpolator(axis, value, axis=k, method="makima")(fine)
+                for value in values
+            ]
             changed[name] = fine
         middle, gap, permittivity = values[0], np.exp(values[1]), values[2]
         changed |= {"lower": middle - 0.5 * gap, "upper": middle + 0.5 * gap, "permittivity": permittivity}

@@ -13,8 +13,7 @@ from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
-from scipy import sparse
-from scipy.linalg import eigh, lapack
+import scipy
 
 from ehlectric.arrays import Array, IntArray, Mask
 from ehlectric.field.poisson import Across
@@ -54,7 +53,7 @@ def gap_modes(across: Across) -> tuple[Array, Array]:
     """
     stiffness = across.derivative.T @ (across.weights[:, np.newaxis] * across.derivative)
     inner = slice(1, -1)
-    eigenvalues, inside = eigh(stiffness[inner, inner], np.diag(across.weights[inner]))
+    eigenvalues, inside = scipy.linalg.eigh(stiffness[inner, inner], np.diag(across.weights[inner]))
     modes = np.zeros((across.nodes.size, eigenvalues.size))
     modes[inner] = inside
     return eigenvalues, modes
@@ -65,10 +64,10 @@ class _Lines:
 
     def __init__(self, diagonal: Array, off_diagonal: Array) -> None:
         # The couplings from the end of one line to the start of the next are zero.
-        self.factors = lapack.dpttrf(diagonal, off_diagonal[:-1])[:2]
+        self.factors = scipy.linalg.lapack.dpttrf(diagonal, off_diagonal[:-1])[:2]
 
     def __call__(self, right: Array) -> Array:
-        solution: Array = lapack.dpttrs(*self.factors, right)[0]
+        solution: Array = scipy.linalg.lapack.dpttrs(*self.factors, right)[0]
         solution *= DAMPING
         return solution
 
@@ -79,7 +78,7 @@ class _Level:
     ``shape`` is (modes, nx, ny); ``to_finer`` interpolates from the next coarser grid to this one.
     """
 
-    def __init__(self, shape: tuple[int, int, int], matrix: sparse.dia_array) -> None:
+    def __init__(self, shape: tuple[int, int, int], matrix: scipy.sparse.dia_array) -> None:
         self.shape = shape
         self.matrix = matrix
         ny = shape[2]
@@ -88,7 +87,7 @@ class _Level:
         )
         self.lines_y = _Lines(main.ravel(), along_y.ravel())
         self.lines_x = _Lines(*(np.swapaxes(d, 1, 2).ravel() for d in (main, along_x)))
-        self.to_finer: sparse.csr_array | None = None
+        self.to_finer: scipy.sparse.csr_array | None = None
 
     def relax_y(self, right: Array) -> Array:
         return self.lines_y(right)
@@ -108,8 +107,8 @@ class _Grid:
 
     x: Array
     y: Array
-    across: sparse.csr_array
-    along: sparse.csr_array
+    across: scipy.sparse.csr_array
+    along: scipy.sparse.csr_array
     free: Mask  # (nx * ny,)
 
     @classmethod
@@ -118,12 +117,14 @@ class _Grid:
 
         Couplings to columns with a prescribed potential are neglected.
         """
-        keep = sparse.diags_array(free.astype(float))
+        keep = scipy.sparse.diags_array(free.astype(float))
         offsets, shape = neighbour_offsets(y.size), (free.size, free.size)
         matrices = []
         for data in (across, along):
-            couplings: sparse.dia_array[np.float64] = sparse.dia_array((data, offsets), shape=shape)
-            matrices.append(sparse.csr_array(keep @ couplings @ keep))
+            couplings: scipy.sparse.dia_array[np.float64] = scipy.sparse.dia_array(
+                (data, offsets), shape=shape
+            )
+            matrices.append(scipy.sparse.csr_array(keep @ couplings @ keep))
         return cls(x, y, _with_identity(matrices[0], free), matrices[1], free)
 
     def is_thin(self, eigenvalue: float) -> bool:
@@ -139,9 +140,9 @@ class _Grid:
         across, along = (_diagonals(m, offsets) for m in (self.across, self.along))
         data = along[:, np.newaxis] + eigenvalues[:, np.newaxis] * across[:, np.newaxis]
         n = int(np.prod(shape))
-        return _Level(shape, sparse.dia_array((data.reshape(9, n), offsets), shape=(n, n)))
+        return _Level(shape, scipy.sparse.dia_array((data.reshape(9, n), offsets), shape=(n, n)))
 
-    def coarser(self) -> tuple[_Grid, sparse.csr_array]:
+    def coarser(self) -> tuple[_Grid, scipy.sparse.csr_array]:
         """Next coarser grid, with every other column along both axes, and the prolongation from it.
 
         The couplings of the coarser grid are the Galerkin products.
@@ -149,29 +150,29 @@ class _Grid:
         (x, by_x), (y, by_y) = _every_other(self.x), _every_other(self.y)
         kept = self.free.reshape(self.x.size, self.y.size)
         free = kept[np.ix_(*(np.searchsorted(a, b) for a, b in ((self.x, x), (self.y, y))))].ravel()
-        fine, coarse = (sparse.diags_array(mask.astype(float)) for mask in (self.free, free))
-        prolong = sparse.csr_array(fine @ sparse.kron(by_x, by_y, format="csr") @ coarse)
+        fine, coarse = (scipy.sparse.diags_array(mask.astype(float)) for mask in (self.free, free))
+        prolong = scipy.sparse.csr_array(fine @ scipy.sparse.kron(by_x, by_y, format="csr") @ coarse)
         across, along = (
-            sparse.csr_array(prolong.T @ (matrix @ prolong)) for matrix in (self.across, self.along)
+            scipy.sparse.csr_array(prolong.T @ (matrix @ prolong)) for matrix in (self.across, self.along)
         )
         return _Grid(x, y, _with_identity(across, free), along, free), prolong
 
 
-def _every_other(x: Array) -> tuple[Array, sparse.csr_array]:
+def _every_other(x: Array) -> tuple[Array, scipy.sparse.csr_array]:
     """Every other position, including both ends, and the matrix of the linear interpolation from them."""
     if x.size <= COARSEST:
-        return x, sparse.csr_array(sparse.eye_array(x.size))
+        return x, scipy.sparse.csr_array(scipy.sparse.eye_array(x.size))
     coarse = x[np.unique(np.append(np.arange(0, x.size, 2), x.size - 1))]
     left = np.clip(np.searchsorted(coarse, x, side="right") - 1, 0, coarse.size - 2)
     share = (x - coarse[left]) / (coarse[left + 1] - coarse[left])
     return coarse, linear_interpolation(left, share, coarse.size)
 
 
-def _with_identity(matrix: sparse.csr_array, free: Mask) -> sparse.csr_array:
-    return sparse.csr_array(matrix + sparse.diags_array((~free).astype(float)))
+def _with_identity(matrix: scipy.sparse.csr_array, free: Mask) -> scipy.sparse.csr_array:
+    return scipy.sparse.csr_array(matrix + scipy.sparse.diags_array((~free).astype(float)))
 
 
-def _diagonals(matrix: sparse.csr_array, offsets: IntArray) -> Array:
+def _diagonals(matrix: scipy.sparse.csr_array, offsets: IntArray) -> Array:
     """Diagonals of a square matrix as SciPy stores them: an entry is at its column of the matrix."""
     data = np.zeros((offsets.size, matrix.shape[0]))
     for row, offset in zip(data, offsets.tolist(), strict=True):
@@ -198,8 +199,8 @@ class GapMultigrid:
         self.levels = [grid.level(eigenvalues)]
         while max(grid.x.size, grid.y.size) > COARSEST and not grid.is_thin(eigenvalues[0]):
             grid, prolong = grid.coarser()
-            self.levels[-1].to_finer = sparse.csr_array(
-                sparse.kron(sparse.eye_array(eigenvalues.size), prolong, format="csr")
+            self.levels[-1].to_finer = scipy.sparse.csr_array(
+                scipy.sparse.kron(scipy.sparse.eye_array(eigenvalues.size), prolong, format="csr")
             )
             self.levels.append(grid.level(eigenvalues))
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
-from scipy.linalg import cho_solve_banded, cholesky_banded
+import scipy
 
 from ehlectric.arrays import Array
 from ehlectric.constants import EPSILON_0
@@ -238,7 +238,7 @@ class BandedSolver:
                 if row >= k:
                     band[row - k, :, k] = diagonal[:, row, k]
                 band[ns + row - k, :-1, k] = below[:, row, k]
-        self.factor = cholesky_banded(
+        self.factor = scipy.linalg.cholesky_banded(
             band.reshape(2 * ns, columns * ns), lower=True, overwrite_ab=True, check_finite=False
         )
 
@@ -250,5 +250,5 @@ class BandedSolver:
         r = right.copy()
         if self.fixed_ends:
             r[[0, -1]] = 0.0
-        solution = cho_solve_banded((self.factor, True), r.reshape(-1), check_finite=False)
+        solution = scipy.linalg.cho_solve_banded((self.factor, True), r.reshape(-1), check_finite=False)
         return solution.reshape(self.columns, self.ns)

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import sparse
+import scipy
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.constants import EPSILON_0
@@ -118,12 +118,12 @@ class Operator:
     """
 
     derivative: Array  # D, the derivative d/ds at the nodes of one column, shape (ns, ns)
-    across: sparse.dia_array  # A, the product of the derivatives of W and V across the gap
+    across: scipy.sparse.dia_array  # A, the product of the derivatives of W and V across the gap
     # mixed and transposed: M, the product of the derivative of W across the gap and the derivative of V along
     # it; and M^T.
-    mixed: sparse.dia_array
-    transposed: sparse.dia_array
-    along: sparse.dia_array  # C, the product of the derivatives of W and V along the gap
+    mixed: scipy.sparse.dia_array
+    transposed: scipy.sparse.dia_array
+    along: scipy.sparse.dia_array  # C, the product of the derivatives of W and V along the gap
 
     def __call__(self, v: Array) -> Array:
         """Product of the matrix and nodal values, shape (nx, ny, ns)."""
@@ -196,7 +196,7 @@ class Quadrature:
         m, transposed = self._couplings(mixed, pairs), self._couplings(mixed, np.swapaxes(pairs, 0, 1))
         return Operator(self.across.derivative, a, m, transposed, c)
 
-    def _couplings(self, points: list[Array], pairs: Array) -> sparse.dia_array:
+    def _couplings(self, points: list[Array], pairs: Array) -> scipy.sparse.dia_array:
         """Matrix over the nodes, summed over the quadrature points.
 
         ``points`` holds the factor at each point, ``pairs`` the products of two shape functions, of shape
@@ -213,7 +213,7 @@ class Quadrature:
                 diagonal = data[NEIGHBOURS.index((k - i, m - j))]
                 diagonal[k : k + nx - 1, m : m + ny - 1] += block
         offsets = ns * neighbour_offsets(ny)
-        return sparse.dia_array((data.reshape(9, -1), offsets), shape=(nx * ny * ns, nx * ny * ns))
+        return scipy.sparse.dia_array((data.reshape(9, -1), offsets), shape=(nx * ny * ns, nx * ny * ns))
 
     def charge(self, density: Array) -> Array:
         """Integral of W rho_q/eps0 [V m], the right side for a charge density (nx, ny, ns) [C/m^3]."""
@@ -267,7 +267,7 @@ class PotentialSolver:
             of_gap=self.quadrature.across,
         )
 
-    def _summed(self, couplings: sparse.dia_array) -> Array:
+    def _summed(self, couplings: scipy.sparse.dia_array) -> Array:
         """Couplings of each column with its neighbours, summed over the gap, shape (9, nx * ny)."""
         ns = self.quadrature.across.nodes.size
         summed: Array = couplings.data.reshape(9, -1, ns).sum(axis=2)

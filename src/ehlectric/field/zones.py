@@ -7,6 +7,7 @@ from functools import reduce
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
 
 from ehlectric.arrays import Array, Mask
@@ -252,9 +253,7 @@ def lobe_above(x: Array, y: Array, values: Array, level: float) -> float:
     >>> round(lobe_above(wide, x, cones, 0.5) / np.pi, 4)
     0.25
     """
-    from scipy.ndimage import label  # late: bearings of the atlas do not need it
-
-    parts, _ = label(values >= level, structure=np.ones((3, 3)))
+    parts, _ = scipy.ndimage.label(values >= level, structure=np.ones((3, 3)))
     others = (parts > 0) & (parts != parts.flat[np.argmax(values)])
     return area_above(x, y, np.where(others, 2.0 * level - values, values), level)
 

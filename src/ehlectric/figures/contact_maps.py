@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any, Protocol, cast
 
 import numpy as np
+import scipy
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import QuadMesh
@@ -16,8 +17,6 @@ from matplotlib.patches import Ellipse, Patch
 from matplotlib.patheffects import AbstractPathEffect
 from matplotlib.ticker import MaxNLocator
 from matplotlib.transforms import Transform, offset_copy
-from scipy.interpolate import RectBivariateSpline
-from scipy.ndimage import gaussian_filter
 
 from ehlectric.arrays import Array
 from ehlectric.contact import PointConditions, PointResult, Result
@@ -60,7 +59,9 @@ def refined(
     """
     columns, rows = (_around(axis, ends) for axis, ends in zip(position, window, strict=True))
     x, y = position[0][columns], position[1][rows]
-    spline = RectBivariateSpline(x, y, values[columns, rows], kx=min(3, x.size - 1), ky=min(3, y.size - 1))
+    spline = scipy.interpolate.RectBivariateSpline(
+        x, y, values[columns, rows], kx=min(3, x.size - 1), ky=min(3, y.size - 1)
+    )
     finer = _finer(x), _finer(y)
     fine: Array = spline(finer[0], finer[1])
     return finer, fine
@@ -88,8 +89,8 @@ def smoothed(values: Array) -> Array:
     Of a mask as zeros and ones, the line of one half is the edge of the mask without the steps of the grid,
     less than a node away from it.
     """
-    smooth: Array = gaussian_filter(values, 1.0, mode="nearest")
-    rest: Array = gaussian_filter(values - smooth, 1.0, mode="nearest")
+    smooth: Array = scipy.ndimage.gaussian_filter(values, 1.0, mode="nearest")
+    rest: Array = scipy.ndimage.gaussian_filter(values - smooth, 1.0, mode="nearest")
     return smooth + rest
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from scipy.special import ndtr, ndtri
+import scipy
 
 from ehlectric.arrays import Array, IntArray, Mask
 from ehlectric.bearing import CAPACITIVE, RESISTIVE
@@ -59,13 +59,13 @@ def quantile_of(share: Array) -> Array:
     >>> quantile_of(np.array([0.5, 0.99, np.nan])).round(2).tolist()
     [0.0, 2.33, nan]
     """
-    quantiles: Array = ndtri(np.clip(share, _LEAST, _MOST))
+    quantiles: Array = scipy.special.ndtri(np.clip(share, _LEAST, _MOST))
     return quantiles
 
 
 def share_of(quantile: Array) -> Array:
     """Share of time at a quantile of the normal distribution; the inverse of ``quantile_of``."""
-    share: Array = ndtr(quantile)
+    share: Array = scipy.special.ndtr(quantile)
     return share
 
 

@@ -8,6 +8,7 @@ from typing import Any
 
 import matplotlib as mpl
 import numpy as np
+import scipy
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.colors import to_rgba
@@ -15,8 +16,6 @@ from matplotlib.contour import ContourSet
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.tri import Triangulation
-from scipy.spatial import KDTree
-from scipy.special import ndtri
 
 from ehlectric.arrays import Array
 from ehlectric.cases.defaults import HOW
@@ -65,7 +64,7 @@ def label_lines(ax: Axes, lines: ContourSet, taken: Array, texts: Sequence[str],
         places = _between(_on_page(ax, places))
         free = np.ones(len(places))
         if len(taken):
-            around = KDTree(_on_page(ax, taken) * (wider, 1.0))
+            around = scipy.spatial.KDTree(_on_page(ax, taken) * (wider, 1.0))
             free = np.minimum(around.query(places * (wider, 1.0))[0], 1.0)
         edge = np.min(np.hstack([places, 1.0 - places]) * (wider, 1.0, wider, 1.0), axis=1)
         free = np.minimum(free, edge)
@@ -127,7 +126,7 @@ def triangulated(mesh: Mesh) -> Triangulation:
 
 def _fill_regimes(mesh: Triangulation, quantiles: Array, taken: Array, ax: Axes) -> None:
     """Areas and lines of quantiles at the nodes; labels keep away from the places that are ``taken``."""
-    levels = ndtri(SHARE_LEVELS)
+    levels = scipy.special.ndtri(SHARE_LEVELS)
     shown = quantiles[mesh.get_masked_triangles()]
     ends = min(float(np.min(shown)), levels[0]) - 1.0, max(float(np.max(shown)), levels[-1]) + 1.0
     ax.tricontourf(

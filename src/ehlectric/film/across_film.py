@@ -7,7 +7,7 @@ from functools import cache
 from typing import Protocol
 
 import numpy as np
-from scipy.special import roots_legendre
+import scipy
 
 from ehlectric.arrays import Array
 from ehlectric.film.mesh import Mesh
@@ -52,7 +52,7 @@ class Across:
 
 def integrals(nodes: Array, ends: Array) -> Array:
     """Integrals from 0 to each of ``ends`` (n,) of the Lagrange polynomials of ``nodes`` (m,), (n, m)."""
-    points, weights = roots_legendre(nodes.size // 2 + 1)
+    points, weights = scipy.special.roots_legendre(nodes.size // 2 + 1)
     return np.stack([0.5 * end * weights @ interpolation(nodes, 0.5 * end * (1.0 + points)) for end in ends])
 
 
@@ -68,7 +68,7 @@ class Quadrature:
     @cache
     def gauss(cls, number: int = _POINTS) -> Quadrature:
         """Gauss-Legendre points of the flow across the film."""
-        points, weights = roots_legendre(number)
+        points, weights = scipy.special.roots_legendre(number)
         return cls(0.5 * points, 0.5 * weights)
 
 

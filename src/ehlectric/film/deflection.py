@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy import fft
+import scipy
 
 from ehlectric.arrays import Array, ComplexArray
 from ehlectric.film.mesh import Mesh
@@ -143,9 +143,9 @@ class Deflection:
         """
         nx, lines = influence.shape
         # The largest distances nx - 1 and 1 - nx may fall on one another, as the coefficients are even.
-        mx = fft.next_fast_len(2 * nx - 2, real=True)
+        mx = scipy.fft.next_fast_len(2 * nx - 2, real=True)
         # A cosine transform needs only one half of the period of an even sequence.
-        my = fft.next_fast_len(lines - 1) if symmetric else fft.next_fast_len(2 * lines - 2)
+        my = scipy.fft.next_fast_len(lines - 1) if symmetric else scipy.fft.next_fast_len(2 * lines - 2)
         my = 1 if lines == 1 else my
         wrapped = np.zeros((mx, my + 1 if symmetric else my))
         wrapped[:nx, :lines] = influence
@@ -199,10 +199,10 @@ class Deflection:
         product = _transform(pressure, self.padded, symmetric=self.symmetric)
         product *= self._single if pressure.dtype == np.float32 else self.spectrum
         if my > 1 and not self.symmetric:
-            product = fft.ifft(product, my, axis=1, overwrite_x=True)
-        opened: Array = fft.irfft(product, mx, axis=0)[:nx]
+            product = scipy.fft.ifft(product, my, axis=1, overwrite_x=True)
+        opened: Array = scipy.fft.irfft(product, mx, axis=0)[:nx]
         if self.symmetric:
-            opened = fft.idct(opened, 1, my, axis=1)
+            opened = scipy.fft.idct(opened, 1, my, axis=1)
         return opened[:, :ny]
 
 
@@ -214,8 +214,8 @@ def _transform(values: Array, padded: tuple[int, int], *, symmetric: bool) -> Co
     """
     mx, my = padded
     if symmetric:
-        values = fft.dct(values, 1, my, axis=1)
-    transform: ComplexArray = fft.rfft(values, mx, axis=0)
+        values = scipy.fft.dct(values, 1, my, axis=1)
+    transform: ComplexArray = scipy.fft.rfft(values, mx, axis=0)
     if my > 1 and not symmetric:
-        transform = fft.fft(transform, my, axis=1, overwrite_x=True)
+        transform = scipy.fft.fft(transform, my, axis=1, overwrite_x=True)
     return transform

@@ -26,8 +26,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.linalg import lapack, matmul_toeplitz
-from scipy.special import k0e, k1e
+import scipy
 
 from ehlectric.arrays import Array, IntArray
 from ehlectric.film.across_film import Across, Properties
@@ -93,13 +92,13 @@ class Surface:
         """Part of the temperature rise (n, ny) [K] at the first n nodes by the flux further upstream."""
         nodes = len(flux)
         column = np.concatenate([[0.0], self.downstream[1:nodes]])
-        return np.asarray(matmul_toeplitz((column, np.zeros(nodes)), flux))
+        return np.asarray(scipy.linalg.matmul_toeplitz((column, np.zeros(nodes)), flux))
 
     def rise_ahead(self, flux: Array) -> Array:
         """Part of the temperature rise (nx, ny) [K] by the flux further downstream."""
         if not self.upstream.any():
             return np.zeros_like(flux)
-        return np.asarray(matmul_toeplitz((np.zeros(self.upstream.size), self.upstream), flux))
+        return np.asarray(scipy.linalg.matmul_toeplitz((np.zeros(self.upstream.size), self.upstream), flux))
 
 
 def moving_surface(body: Body, speed: float, *, nodes: int, spacing: float, half_width: float) -> Surface:
@@ -141,7 +140,7 @@ def _line_source(xi: Array) -> Array:
     """Integral of exp(t) K0(abs(t)) from 0 to xi, of any sign."""
     size = np.abs(xi)
     near = np.where(size > 0.0, size, 1.0)
-    k0, k1 = k0e(near), k1e(near)
+    k0, k1 = scipy.special.k0e(near), scipy.special.k1e(near)
     behind = near * (k0 + k1) - 1.0
     ahead = -(near * np.exp(-2.0 * near) * (k0 - k1) + 1.0)
     return np.where(size > 0.0, np.where(xi > 0.0, behind, ahead), 0.0)
@@ -635,7 +634,7 @@ class _Entry:
         band[:, :-2, node, centre + 2 * nz] = -second[:, 2:]
         band[:, 1:, node, centre - nz] = -after[:, :-1]
         flat = band.reshape(-1, band.shape[-1]).T
-        factors, pivots, _ = lapack.dgbtrf(flat, lower, upper, overwrite_ab=1)
+        factors, pivots, _ = scipy.linalg.lapack.dgbtrf(flat, lower, upper, overwrite_ab=1)
         return cls(columns, count, factors, pivots)
 
     def __call__(self, right: Array, inlet_temperature: float) -> Array:
@@ -645,7 +644,7 @@ class _Entry:
         right[1] += self.columns.second[1] * inlet_temperature
         lines = right.swapaxes(0, 1)
         nz = right.shape[-1]
-        temperature, _ = lapack.dgbtrs(self.factors, 2 * nz, nz, lines.reshape(-1), self.pivots)
+        temperature, _ = scipy.linalg.lapack.dgbtrs(self.factors, 2 * nz, nz, lines.reshape(-1), self.pivots)
         return np.asarray(temperature.reshape(lines.shape).swapaxes(0, 1))
 
 

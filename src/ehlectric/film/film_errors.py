@@ -7,8 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from scipy.interpolate import make_interp_spline
-from scipy.ndimage import maximum_filter
+import scipy
 
 from ehlectric.arrays import Array
 from ehlectric.film.deflection import Geometry
@@ -226,9 +225,9 @@ Values = tuple[Mesh, Array]
 
 def interpolated(mesh: Mesh, values: Array, x: Array, y: Array) -> Array:
     """Nodal values (nx, ny) at the positions x and y, by linear interpolation along both axes."""
-    result: Array = make_interp_spline(mesh.x, values, k=1, axis=0)(x)
+    result: Array = scipy.interpolate.make_interp_spline(mesh.x, values, k=1, axis=0)(x)
     if mesh.y.size > 1:
-        result = make_interp_spline(mesh.y, result, k=1, axis=1)(y)
+        result = scipy.interpolate.make_interp_spline(mesh.y, result, k=1, axis=1)(y)
     return result
 
 
@@ -393,7 +392,7 @@ def between_nodes(mesh: Mesh, pressure: Array) -> float:
         if len(values) > 4:
             parabola[1:-1] += np.abs(np.diff(values, 2, axis=0)) / 8.0
             fourth[2:-2] = np.maximum(fourth[2:-2], np.abs(np.diff(values, 4, axis=0)))
-    near = maximum_filter(difference, size=(3, 1 if whole.shape[1] == 1 else 3))
+    near = scipy.ndimage.maximum_filter(difference, size=(3, 1 if whole.shape[1] == 1 else 3))
     return max(0.0, float(np.max(whole + of_parabola + _PART * near)) - float(np.max(whole)))
 
 

@@ -14,8 +14,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.linalg import toeplitz
 
 from ehlectric.arrays import Array
 from ehlectric.film.levels import Level
@@ -52,7 +52,7 @@ class Gap:
 
         ``columns`` selects the nodes of P within ``rows``.
         """
-        kernel = toeplitz(self.level.deflection.influence[: rows.stop - rows.start, 0])
+        kernel = scipy.linalg.toeplitz(self.level.deflection.influence[: rows.stop - rows.start, 0])
         return kernel[:, columns]
 
     def elastic_weight(self, density: Array) -> Array:

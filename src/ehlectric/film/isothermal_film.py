@@ -8,8 +8,8 @@ from functools import partial
 from typing import Any, TypeVar
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.interpolate import RegularGridInterpolator
 
 from ehlectric.arrays import Array
 from ehlectric.film.far_field import lost_by_load, side_deficit
@@ -201,7 +201,7 @@ class PointFilm(FilmSolution):
 
     def _at(self, x: Array, y: Array) -> Array:
         """Film thickness at positions x and y of one shape [m], by linear interpolation."""
-        return RegularGridInterpolator((self.x, self.y), self.thickness)((x, y))
+        return scipy.interpolate.RegularGridInterpolator((self.x, self.y), self.thickness)((x, y))
 
     @property
     def central_thickness(self) -> float:

@@ -8,7 +8,7 @@ from functools import cache
 from typing import TypeAlias
 
 import numpy as np
-from scipy import sparse
+import scipy
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.film.deflection import Deflection, Geometry
@@ -29,7 +29,7 @@ _LARGE, _COARSEST_OF_LARGE = 10_000, 101
 NEARER = 1.5
 
 
-def interpolation(coarse: int, fine: int) -> sparse.csr_array:
+def interpolation(coarse: int, fine: int) -> scipy.sparse.csr_array:
     """Linear interpolation between two uniform grids over one interval. Returns matrix of the interpolation;
     its rows sum to one, shape (fine, coarse).
     """
@@ -43,8 +43,8 @@ def interpolation(coarse: int, fine: int) -> sparse.csr_array:
 class Transfer:
     """Linear transfer of nodal values from one grid to another."""
 
-    along: sparse.csr_array
-    across: sparse.csr_array | None  # matrix of the transfer along y; None for a line contact
+    along: scipy.sparse.csr_array
+    across: scipy.sparse.csr_array | None  # matrix of the transfer along y; None for a line contact
 
     @classmethod
     def between(cls, coarse: Mesh, fine: Mesh) -> Transfer:
@@ -68,8 +68,8 @@ class Transfer:
         return moved if self.across is None else (self.across @ moved.T).T
 
 
-def _adjoint(matrix: sparse.csr_array, coarse: Array, fine: Array) -> sparse.csr_array:
-    return sparse.csr_array(matrix.T.multiply(fine).multiply(1.0 / coarse[:, np.newaxis]))
+def _adjoint(matrix: scipy.sparse.csr_array, coarse: Array, fine: Array) -> scipy.sparse.csr_array:
+    return scipy.sparse.csr_array(matrix.T.multiply(fine).multiply(1.0 / coarse[:, np.newaxis]))
 
 
 # Distribution of one unknown of the line relaxation over the pressures of its line: (offset of a node, part).

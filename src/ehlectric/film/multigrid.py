@@ -17,8 +17,8 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.lib.stride_tricks import sliding_window_view
-from scipy.linalg import lapack
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.film.face_flow import Flow, Fluid, flow
@@ -64,7 +64,9 @@ class LineRelaxation:
         for lines in (slice(0, None, 2), slice(1, None, 2))[: full_film.shape[1]]:
             # The rows of the matrix are the columns of its transpose, which LAPACK factorises.
             part = rows[lines].reshape(-1, 3 * band + 1).T
-            factorised = lapack.sgbtrf if rows.dtype == np.float32 else lapack.dgbtrf
+            factorised = (
+                scipy.linalg.lapack.sgbtrf if rows.dtype == np.float32 else scipy.linalg.lapack.dgbtrf
+            )
             lu, pivots, _ = factorised(part, band, band, overwrite_ab=1)
             factors.append((lines, lu, pivots))
         return cls(stencils[0], full_film, distributed, _neighbours(gap.level), band, tuple(factors))
@@ -79,7 +81,7 @@ class LineRelaxation:
             if lines.start:
                 r = r - self.by_p.add_across(dp, np.zeros_like(r))
             right = r[:, lines].T.reshape(-1).astype(lu.dtype)
-            solved = lapack.sgbtrs if lu.dtype == np.float32 else lapack.dgbtrs
+            solved = scipy.linalg.lapack.sgbtrs if lu.dtype == np.float32 else scipy.linalg.lapack.dgbtrs
             solution, _ = solved(lu, self.half_band, self.half_band, right, pivots, trans=1)
             unknown = solution.reshape(-1, r.shape[0]).T
             dp[:, lines] = unknown
@@ -309,13 +311,13 @@ class DenseSolver:
         cavitated = np.flatnonzero(~full_film.ravel()[part])
         matrix[cavitated, cavitated] = 1.0
         # LAPACK takes columns, which are the rows of the transposed matrix here: nothing is copied.
-        factors, pivots, _ = lapack.dgetrf(matrix.T, overwrite_a=1)
+        factors, pivots, _ = scipy.linalg.lapack.dgetrf(matrix.T, overwrite_a=1)
         return cls(full_film, part, factors, pivots)
 
     def __call__(self, r: Array, load: float) -> tuple[Array, float]:
         """Solution dP (nx, ny) and dH00 for the right side r (nx, ny) and ``load``."""
         right = np.append(np.where(self.full_film, r, 0.0).ravel()[self.part], load)
-        solution, _ = lapack.dgetrs(self.factors, self.pivots, right, trans=1, overwrite_b=1)
+        solution, _ = scipy.linalg.lapack.dgetrs(self.factors, self.pivots, right, trans=1, overwrite_b=1)
         dp = np.zeros(r.size)
         dp[self.part] = solution[:-1]
         return np.where(self.full_film, dp.reshape(r.shape), 0.0), float(solution[-1])

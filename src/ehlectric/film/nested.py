@@ -12,7 +12,7 @@ from dataclasses import replace
 from functools import lru_cache, partial
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
+import scipy
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.film.deflection import Geometry
@@ -355,9 +355,9 @@ def _finer(level: Level, of: Mesh, values: Array) -> Array:
     if level.nodes == 2 * of.x.size - 1:
         finer = halved(values)
     else:
-        finer = PchipInterpolator(of.x, values, axis=0)(level.mesh.x)
+        finer = scipy.interpolate.PchipInterpolator(of.x, values, axis=0)(level.mesh.x)
     if of.y.size > 1:
-        finer = PchipInterpolator(of.whole_y, of.mirrored(finer), axis=1)(level.mesh.y)
+        finer = scipy.interpolate.PchipInterpolator(of.whole_y, of.mirrored(finer), axis=1)(level.mesh.y)
     return finer
 
 

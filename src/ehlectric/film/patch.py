@@ -14,8 +14,8 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.interpolate import PchipInterpolator, RectBivariateSpline, RegularGridInterpolator
 
 from ehlectric.arrays import Array
 from ehlectric.film.mesh import Mesh, at_centre
@@ -126,7 +126,7 @@ class Patch:
 
     def _spline(self, values: Array) -> OnGrid:
         mesh = self.coarse.level.mesh
-        spline = RectBivariateSpline(mesh.x, mesh.whole_y, mesh.mirrored(values))
+        spline = scipy.interpolate.RectBivariateSpline(mesh.x, mesh.whole_y, mesh.mirrored(values))
         return lambda x, y: spline(x, y)
 
     def join(self, fine: Mesh) -> Joined:
@@ -163,11 +163,13 @@ class Joined:
         mesh, values = self.coarse, self.coarse.mirrored(coarse)
         if values.dtype == bool:
             at = np.stack(np.meshgrid(self.x, self.y, indexing="ij"), axis=-1)
-            nearest = RegularGridInterpolator((mesh.x, mesh.whole_y), values.astype(float), method="nearest")
+            nearest = scipy.interpolate.RegularGridInterpolator(
+                (mesh.x, mesh.whole_y), values.astype(float), method="nearest"
+            )
             whole: NDArray[Any] = nearest(at) > 0.5
         else:
-            whole = PchipInterpolator(mesh.x, values, axis=0)(self.x)
-            whole = PchipInterpolator(mesh.whole_y, whole, axis=1)(self.y)
+            whole = scipy.interpolate.PchipInterpolator(mesh.x, values, axis=0)(self.x)
+            whole = scipy.interpolate.PchipInterpolator(mesh.whole_y, whole, axis=1)(self.y)
             # The interpolation is monotone: only its rounding leaves the range of the values.
             whole = np.clip(whole, np.min(values), np.max(values))
         inside = self.fine.mirrored(fine)[1:-1, 1:-1]

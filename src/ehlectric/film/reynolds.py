@@ -15,7 +15,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import sparse
+import scipy
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.film.face_flow import Flow
@@ -95,7 +95,7 @@ def without_columns(stencil: Stencil, columns: Mask) -> Stencil:
     return Stencil(kept)
 
 
-def stencil_matrix(stencil: Stencil, nodes: Mask) -> sparse.csc_array:
+def stencil_matrix(stencil: Stencil, nodes: Mask) -> scipy.sparse.csc_array:
     """Sparse matrix of a stencil over the nodes of a mask (nx, ny)."""
     number = np.full(nodes.shape, -1)
     number[nodes] = np.arange(int(nodes.sum()))
@@ -108,7 +108,7 @@ def stencil_matrix(stencil: Stencil, nodes: Mask) -> sparse.csc_array:
         values.append(row[here][both])
     n = int(nodes.sum())
     entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
-    return sparse.csc_array(entries, shape=(n, n))
+    return scipy.sparse.csc_array(entries, shape=(n, n))
 
 
 # Mass rho H at the face i+1/2 from the nodes i-1, i and i+1, by the order of the wedge term: the mass of the

@@ -14,7 +14,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import lapack
+import scipy
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.film.face_flow import Flow, Fluid, flow
@@ -121,7 +121,7 @@ def relax_spike(
             relaxed[window.strip, window.column] = p[:, 0]
             return relaxed
         dp = np.zeros((window.inner.stop - window.inner.start, 1))
-        *_, step, singular = lapack.dgesv(rows[:, np.newaxis] * jacobian, -rows * r)
+        *_, step, singular = scipy.linalg.lapack.dgesv(rows[:, np.newaxis] * jacobian, -rows * r)
         if singular:
             return None
         dp[unknown, 0] = step

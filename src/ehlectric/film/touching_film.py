@@ -31,7 +31,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 
 import numpy as np
-from scipy.sparse.linalg import SuperLU, splu
+import scipy
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.film.cavitation import full_film_nodes, with_refilled_nodes
@@ -205,10 +205,10 @@ class TouchingJacobian:
     # mass of the second.
     by_rest: Stencil
     # Factorisation of ``by_rest`` between the nodes of ``rest``; None where there are none.
-    factors: SuperLU | None
+    factors: scipy.sparse.linalg.SuperLU | None
     open_nodes: Mask  # nodes apart from contact where the Poiseuille term dominates, shape (nx, ny)
     # Factorisation of the derivative of the Reynolds residual of ``open_nodes`` by their P at fixed gap.
-    open_factors: SuperLU | None
+    open_factors: scipy.sparse.linalg.SuperLU | None
 
     @classmethod
     def of(
@@ -381,10 +381,10 @@ def _with_contact_rows(level: Level, by_h: Stencil, contact: Mask) -> Stencil:
     return Stencil(rows)
 
 
-def _factored(stencil: Stencil, nodes: Mask) -> SuperLU:
+def _factored(stencil: Stencil, nodes: Mask) -> scipy.sparse.linalg.SuperLU:
     """Factorisation of a stencil between nodes; an error where its matrix is singular."""
     try:
-        return splu(stencil_matrix(stencil, nodes))
+        return scipy.sparse.linalg.splu(stencil_matrix(stencil, nodes))
     except RuntimeError as error:
         raise np.linalg.LinAlgError("the flow of the oil has a singular matrix") from error
 

@@ -20,6 +20,7 @@ from functools import cache, lru_cache
 from typing import Self
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array, Numbers
@@ -109,9 +110,7 @@ def _worn(order: float, at: Array, highest: Array) -> Array:
 @lru_cache(maxsize=16)
 def _jacobi(order: float) -> tuple[Array, Array]:
     """Nodes and weights for the weight (1 + x)^order on -1 to 1; they take longer than the integrals."""
-    from scipy import special  # late: SciPy takes a third of a second to load
-
-    nodes, weights = special.roots_jacobi(_NODES, 0.0, order)
+    nodes, weights = scipy.special.roots_jacobi(_NODES, 0.0, order)
     return nodes, weights
 
 

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING
 
 import numpy as np
+import scipy
 
 from ehlectric.arrays import Array, IntArray
-
-if TYPE_CHECKING:
-    from scipy import sparse
 
 
 @cache
@@ -28,18 +25,14 @@ def lobatto_nodes(degree: int) -> Array:
     >>> [float(s) for s in lobatto_nodes(2)]
     [0.0, 0.5, 1.0]
     """
-    from scipy.special import roots_jacobi  # late: SciPy takes a third of a second to load
-
-    interior = roots_jacobi(degree - 1, 1.0, 1.0)[0] if degree > 1 else np.empty(0)
+    interior = scipy.special.roots_jacobi(degree - 1, 1.0, 1.0)[0] if degree > 1 else np.empty(0)
     return 0.5 * (1.0 + np.concatenate([[-1.0], interior, [1.0]]))
 
 
 def lobatto_weights(nodes: Array) -> Array:
     """Weights of the quadrature on ``lobatto_nodes``, shape (n,)."""
-    from scipy.special import eval_legendre  # late: SciPy takes a third of a second to load
-
     degree = nodes.size - 1
-    return 1.0 / (degree * (degree + 1) * eval_legendre(degree, 2.0 * nodes - 1.0) ** 2)
+    return 1.0 / (degree * (degree + 1) * scipy.special.eval_legendre(degree, 2.0 * nodes - 1.0) ** 2)
 
 
 def interpolation(nodes: Array, at: Array) -> Array:
@@ -51,17 +44,15 @@ def interpolation(nodes: Array, at: Array) -> Array:
     return np.stack(columns, axis=1)
 
 
-def linear_interpolation(left: IntArray, share: Array, size: int) -> sparse.csr_array:
+def linear_interpolation(left: IntArray, share: Array, size: int) -> scipy.sparse.csr_array:
     """Sparse matrix (n, size) of linear interpolation between the nodes ``left`` (n,) and the next ones.
 
     ``share`` (n,) is the weight of the next node.
     """
-    from scipy import sparse  # late: SciPy takes a third of a second to load
-
     rows = np.repeat(np.arange(left.size), 2)
     columns = np.stack([left, left + 1], axis=1).ravel()
     values = np.stack([1.0 - share, share], axis=1).ravel()
-    matrix = sparse.csr_array((values, (rows, columns)), shape=(left.size, size))
+    matrix = scipy.sparse.csr_array((values, (rows, columns)), shape=(left.size, size))
     matrix.eliminate_zeros()
     return matrix
 

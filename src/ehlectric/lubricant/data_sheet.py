@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
+import scipy
 
 from ehlectric.arrays import Array, N, Numbers, as_float
 from ehlectric.errors import InputError, shown
@@ -119,9 +120,9 @@ def viscosity_at_100(at_40: Numbers, index: Numbers) -> Numbers:
             f"an oil with {target:g} mm^2/s at 40 degC and viscosity index {index:g} has less than "
             f"{LEAST_AT_100:g} mm^2/s at 100 degC, the minimum of ASTM D2270"
         )
-    from scipy.optimize import brentq  # late: SciPy takes a third of a second to load
-
-    return 1e-6 * float(brentq(lambda at_100: _at_40(at_100, of_oil) - target, bottom, top, xtol=_CLOSE))
+    return 1e-6 * float(
+        scipy.optimize.brentq(lambda at_100: _at_40(at_100, of_oil) - target, bottom, top, xtol=_CLOSE)
+    )
 
 
 def _at_40(at_100: float, index: float) -> float:
@@ -147,10 +148,11 @@ def _many_at_100(target: Array, index: Array) -> Array:
     known = (difference(ends[0], target, index) <= 0.0) & (difference(ends[1], target, index) >= 0.0)
     viscosity = np.full(target.shape, np.nan)
     if np.any(known):
-        from scipy.optimize.elementwise import find_root  # late: SciPy takes a third of a second to load
-
         of = target[known], index[known]
         bracket = ends[0][known], ends[1][known]
+        # An attribute of scipy.optimize only after its import.
+        from scipy.optimize.elementwise import find_root
+
         viscosity[known] = find_root(difference, bracket, args=of, tolerances={"xatol": _CLOSE}).x
     return 1e-6 * viscosity
 

@@ -10,18 +10,16 @@ import pickle
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Self, TypeAlias
+from typing import Any, Self, TypeAlias
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError, short
 from ehlectric.lubricant.oil import BoundLaw, Oil
 from ehlectric.quantities.result_warnings import ResultWarning
-
-if TYPE_CHECKING:
-    from scipy.interpolate import CubicSpline
 
 # Property as a function of pressure [Pa] and temperature [K].
 Function: TypeAlias = Callable[[Array, float], ArrayLike]
@@ -134,13 +132,12 @@ class Samples:
     values: Array
 
     @cached_property
-    def _curve(self) -> CubicSpline:
-        from scipy.interpolate import CubicSpline  # late: SciPy takes a third of a second to load
+    def _curve(self) -> scipy.interpolate.CubicSpline:
 
-        return CubicSpline(self.pressure, np.log(self.values))
+        return scipy.interpolate.CubicSpline(self.pressure, np.log(self.values))
 
     @cached_property
-    def _slope(self) -> CubicSpline:
+    def _slope(self) -> scipy.interpolate.CubicSpline:
         return self._curve.derivative()
 
     def log(self, pressure: ArrayLike) -> tuple[Array, Array]:

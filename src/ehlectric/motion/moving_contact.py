@@ -19,8 +19,8 @@ from itertools import zip_longest
 from typing import Any, Literal
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.interpolate import RegularGridInterpolator
 
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
@@ -275,7 +275,9 @@ def _line_column_strength(film: Film, field: Field) -> Array:
 
 
 def _point_column_strength(film: PointFilm, field: PointField) -> Array:
-    between = RegularGridInterpolator((field.x, field.y), field.column_strength, bounds_error=False)
+    between = scipy.interpolate.RegularGridInterpolator(
+        (field.x, field.y), field.column_strength, bounds_error=False
+    )
     strength: Array = between(np.stack(np.meshgrid(film.x, film.y, indexing="ij"), axis=-1))
     return strength
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy.ndimage import maximum_filter
+import scipy
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.contact import FIELD_ERROR, inaccurate_field, oil_supply, unknown_error
@@ -321,7 +321,7 @@ def local_maxima(run: MotionRun, within: Mask) -> Array:
     size = (1, *(3 for _ in run.kind.axes))
     neighbours = np.ones(size, dtype=bool)
     neighbours[tuple(n // 2 for n in size)] = False
-    around = maximum_filter(strength, footprint=neighbours, mode="constant", cval=-np.inf)
+    around = scipy.ndimage.maximum_filter(strength, footprint=neighbours, mode="constant", cval=-np.inf)
     peaks: Array = strength[(strength > around) & inside]
     return peaks.astype(float)
 

@@ -16,7 +16,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.constants import epsilon_0
+import scipy
 
 from ehlectric.arrays import Array, IntArray
 from ehlectric.errors import ConvergenceError
@@ -116,7 +116,9 @@ def stencil(grid: CartesianGrid, cells: Array, charge_density: Array | None = No
     a = permittivity * grid.dy**2 * 2.0 / (arm * (arm + opposite))
     a0 = a.sum(axis=0)
     charge = 0.0 if charge_density is None else charge_density
-    return Stencil(grid, neighbour, a / a0, charge * grid.dy**2 / (epsilon_0 * a0), arm, permittivity)
+    return Stencil(
+        grid, neighbour, a / a0, charge * grid.dy**2 / (scipy.constants.epsilon_0 * a0), arm, permittivity
+    )
 
 
 def _arms(grid: CartesianGrid) -> tuple[IntArray, Array]:

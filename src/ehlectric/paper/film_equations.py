@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.linalg import matmul_toeplitz, toeplitz
+import scipy
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.film import Fluid
@@ -83,11 +83,13 @@ class FilmEquations:
     @cached_property
     def kernel_matrix(self) -> Array:
         """Dense matrix of the deflection, shape (n, n), used on a coarsest grid."""
-        return toeplitz(self.kernel)
+        return scipy.linalg.toeplitz(self.kernel)
 
     def deflection(self, pressure: Array) -> Array:
         """Elastic deflection by a pressure P, shape (n,); positive where the gap widens."""
-        return np.asarray(matmul_toeplitz(self.kernel, pressure, check_finite=False), dtype=float)
+        return np.asarray(
+            scipy.linalg.matmul_toeplitz(self.kernel, pressure, check_finite=False), dtype=float
+        )
 
     def carried(self, pressure: Array) -> float:
         """Load that a pressure P carries, the left side of eq. (11)."""

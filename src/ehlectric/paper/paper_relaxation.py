@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from scipy.linalg import solve_banded
+import scipy
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.paper.film_equations import NEIGHBOURS, Coefficients, FilmEquations, Iterate
@@ -84,7 +84,7 @@ def _solve_band(band: Array, right: Array) -> Array:
     if not np.all(np.isfinite(band)):
         return np.full_like(right, np.nan)
     try:
-        solution: Array = solve_banded((HALF_BAND, HALF_BAND), band, right, check_finite=False)
+        solution: Array = scipy.linalg.solve_banded((HALF_BAND, HALF_BAND), band, right, check_finite=False)
     except np.linalg.LinAlgError:
         return np.full_like(right, np.nan)
     return solution

@@ -9,8 +9,7 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.constants import epsilon_0
-from scipy.interpolate import CubicSpline
+import scipy
 
 from ehlectric.arrays import Array
 from ehlectric.errors import ConvergenceError
@@ -147,8 +146,8 @@ def field_from(problem: FieldProblem, equations: Stencil, potential: Array) -> F
     field = field_from_potential(
         problem,
         v[:, :-1] - problem.potential_1,
-        capacitance=epsilon_0 * _energy(equations, potential) / voltage**2,
-        capacitance_density=epsilon_0 * charge / abs(voltage),
+        capacitance=scipy.constants.epsilon_0 * _energy(equations, potential) / voltage**2,
+        capacitance_density=scipy.constants.epsilon_0 * charge / abs(voltage),
     )
     return replace(
         field,
@@ -167,7 +166,9 @@ def _along_columns(grid: CartesianGrid, potential: Array, y: Array) -> tuple[Arr
     for column, (low, high) in enumerate(zip(grid.lower, grid.upper, strict=True)):
         unknowns = order[starts[column] : starts[column + 1]]
         nodes = np.concatenate([[low], grid.y[grid.row[unknowns]], [high]])
-        spline = CubicSpline(nodes, np.concatenate([potential[-2:-1], potential[unknowns], potential[-1:]]))
+        spline = scipy.interpolate.CubicSpline(
+            nodes, np.concatenate([potential[-2:-1], potential[unknowns], potential[-1:]])
+        )
         values[column], slopes[column] = spline(y[column]), spline(y[column], 1)
     return values, slopes
 

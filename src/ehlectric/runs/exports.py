@@ -10,6 +10,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, cast
 
 import numpy as np
+import scipy
 
 from ehlectric.arrays import Array, IntArray
 from ehlectric.contact import PointResult, Result
@@ -216,8 +217,6 @@ def mat_file(result: Tabled) -> bytes:
 
     Raises InputError if an array is larger than 2 GB.
     """
-    from scipy.io import savemat
-
     dataset = result.to_xarray()
     names = matlab_names([str(key) for key in dataset.variables], taken=_RESERVED)
     about: dict[str, dict[str, str]] = {key: {} for key in ("units", "long_names", "dims", "keys")}
@@ -236,7 +235,9 @@ def mat_file(result: Tabled) -> bytes:
         **about,
     }
     file = BytesIO()
-    savemat(cast("Any", file), arrays | structs, long_field_names=True, do_compression=True, oned_as="column")
+    scipy.io.savemat(
+        cast("Any", file), arrays | structs, long_field_names=True, do_compression=True, oned_as="column"
+    )
     return file.getvalue()
 
 

@@ -11,8 +11,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
-from scipy import fft
 
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError
@@ -185,10 +185,10 @@ def self_affine(
     _check_points((2 * far, 2 * far), (spacing, spacing), "shortest_wavelength")
     # The kernel is the inverse transform of the square root of the spectrum. It is computed over twice the
     # size that is kept, as the transform is periodic.
-    n = fft.next_fast_len(4 * far, real=True)
-    q = np.hypot(fft.fftfreq(n, spacing)[:, np.newaxis], fft.rfftfreq(n, spacing))
+    n = scipy.fft.next_fast_len(4 * far, real=True)
+    q = np.hypot(scipy.fft.fftfreq(n, spacing)[:, np.newaxis], scipy.fft.rfftfreq(n, spacing))
     root = np.maximum(q, 1.0 / rolloff_wavelength) ** (-1.0 - hurst) * (q <= 1.0 / shortest)
-    quarter = fft.irfft2(root, (n, n))[: far + 1, : far + 1]
+    quarter = scipy.fft.irfft2(root, (n, n))[: far + 1, : far + 1]
     # The outer half of the kernel is faded out, so that it has no step at its edge, which is a circle.
     distance = np.hypot(*np.ogrid[: far + 1, : far + 1]) / far
     quarter *= 0.5 - 0.5 * np.cos(np.pi * np.clip(2.0 - 2.0 * distance, 0.0, 1.0))

@@ -6,8 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
-from scipy import fft
 
 from ehlectric.arrays import Array
 from ehlectric.cases.roughness_inputs import Roughness
@@ -171,12 +171,12 @@ def self_affine(
     _check_points(2 * reach, spacing, 2.0 * reach * spacing, "shortest_wavelength")
     # The kernel is the inverse cosine transform of the square root of the spectrum. It is computed over four
     # times the length that is kept, as the transform is periodic.
-    n = fft.next_fast_len(8 * reach, real=True)
-    q = fft.rfftfreq(n, spacing)
+    n = scipy.fft.next_fast_len(8 * reach, real=True)
+    q = scipy.fft.rfftfreq(n, spacing)
     root = np.maximum(q, 1.0 / rolloff_wavelength) ** (-0.5 - hurst) * (q <= 1.0 / shortest)
     # The outer half of the kernel is faded out, so that it has no step at its ends.
     fade = np.clip(2.0 - 2.0 * np.arange(reach + 1) / reach, 0.0, 1.0)
-    half = fft.irfft(root, n)[: reach + 1] * (0.5 - 0.5 * np.cos(np.pi * fade))
+    half = scipy.fft.irfft(root, n)[: reach + 1] * (0.5 - 0.5 * np.cos(np.pi * fade))
     return _folded(np.concatenate([half[:0:-1], half]), spacing, length, rq, seed, "shortest_wavelength")
 
 

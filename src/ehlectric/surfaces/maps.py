@@ -8,9 +8,10 @@ equally spaced along x and along y, and the middle of a map lies at (0, 0). Prof
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Self
+from typing import Self
 
 import numpy as np
+import scipy
 
 from ehlectric.arrays import Array, IntArray, Mask
 from ehlectric.errors import InputError
@@ -24,10 +25,6 @@ from ehlectric.surfaces.profiles import (
     gaussian_weights,
     in_order,
 )
-
-if TYPE_CHECKING:
-    from scipy import sparse
-
 
 # Residual at which the solution for the filling stops, relative to the residual of the initial guess.
 _TOLERANCE = 1e-8
@@ -78,28 +75,23 @@ def filled(heights: Array, spacing_x: float, spacing_y: float) -> Array:
     void = np.isnan(heights)
     if not void.any():
         return heights
-    from scipy import ndimage
-    from scipy.sparse.linalg import cg
-
     # The initial guess is the height of the nearest point with data: the zero of an instrument may be far
     # away.
-    nearest = ndimage.distance_transform_edt(
+    nearest = scipy.ndimage.distance_transform_edt(
         void, sampling=(spacing_x, spacing_y), return_distances=False, return_indices=True
     )
     whole: Array = heights[tuple(nearest)]
     laplacian, force = _laplacian(whole, void, spacing_x, spacing_y)
-    change, _ = cg(laplacian, force, rtol=_TOLERANCE, maxiter=_MOST_STEPS)
+    change, _ = scipy.sparse.linalg.cg(laplacian, force, rtol=_TOLERANCE, maxiter=_MOST_STEPS)
     whole[void] += change
     return whole
 
 
-def _laplacian(whole: Array, void: Mask, dx: float, dy: float) -> tuple[sparse.csr_array, Array]:
+def _laplacian(whole: Array, void: Mask, dx: float, dy: float) -> tuple[scipy.sparse.csr_array, Array]:
     """Negative Laplacian over the n void points as a matrix, and Laplacian of the initial guess there (n,).
 
     ``whole`` (nx, ny) has the initial guess at the ``void`` points and the measured heights elsewhere.
     """
-    from scipy import sparse
-
     n = int(void.sum())
     number = np.full(void.shape, -1)
     number[void] = np.arange(n)
@@ -119,7 +111,7 @@ def _laplacian(whole: Array, void: Mask, dx: float, dy: float) -> tuple[sparse.c
             pairs.append((np.full(int(both.sum()), -weight), node[both], neighbour[both]))
     pairs.append((diagonal, np.arange(n), np.arange(n)))
     values, rows, columns = (np.concatenate(part) for part in zip(*pairs, strict=True))
-    return sparse.csr_array((values, (rows, columns)), shape=(n, n)), force
+    return scipy.sparse.csr_array((values, (rows, columns)), shape=(n, n)), force
 
 
 # Directions in which the decay of the autocorrelation is examined: one every two degrees.
@@ -229,26 +221,22 @@ def _correlation_lengths(centred: Map, *, flat: bool) -> tuple[float, float, flo
 
 def _lags(z: Array) -> Array:
     """Autocovariance along the first axis for the lags 0 to n - 1, shape (n,)."""
-    from scipy import fft  # imported here, as smooth contacts do not need it
-
     n = z.shape[0]
-    size = fft.next_fast_len(2 * n - 1, real=True)
+    size = scipy.fft.next_fast_len(2 * n - 1, real=True)
     power = np.zeros(size // 2 + 1)
     # The map is transformed in strips: at once, a large map would need several times its memory.
     for start in range(0, z.shape[1], 256):
-        power += np.sum(np.abs(fft.rfft(z[:, start : start + 256], size, axis=0)) ** 2, axis=1)
-    covariance: Array = fft.irfft(power, size)[:n] / np.arange(n, 0, -1)
+        power += np.sum(np.abs(scipy.fft.rfft(z[:, start : start + 256], size, axis=0)) ** 2, axis=1)
+    covariance: Array = scipy.fft.irfft(power, size)[:n] / np.arange(n, 0, -1)
     return covariance
 
 
 def _fastest(z: Array, dx: float, dy: float, reach: float) -> float:
     """Shortest distance in any direction at which the autocovariance falls to 1/e, up to ``reach`` [m]."""
-    from scipy import fft, ndimage
-
     # One lag beyond the reach on each side, so that the spline has neighbours there.
     lags = [min(int(np.ceil(reach / d)) + 1, n - 1) for d, n in zip((dx, dy), z.shape, strict=True)]
-    size = [fft.next_fast_len(n + lag, real=True) for n, lag in zip(z.shape, lags, strict=True)]
-    covariance = fft.irfft2(np.abs(fft.rfft2(z, size)) ** 2, size)
+    size = [scipy.fft.next_fast_len(n + lag, real=True) for n, lag in zip(z.shape, lags, strict=True)]
+    covariance = scipy.fft.irfft2(np.abs(scipy.fft.rfft2(z, size)) ** 2, size)
     i, j = (np.arange(-lag, lag + 1) for lag in lags)
     counts = np.outer(z.shape[0] - np.abs(i), z.shape[1] - np.abs(j))
     window = covariance[np.ix_(i, j)] / counts
@@ -256,7 +244,7 @@ def _fastest(z: Array, dx: float, dy: float, reach: float) -> float:
     distance = np.arange(0.0, reach + step, step)
     angle = np.pi * np.arange(_DIRECTIONS)[:, np.newaxis] / _DIRECTIONS
     at = [lags[0] + distance * np.cos(angle) / dx, lags[1] + distance * np.sin(angle) / dy]
-    rays = ndimage.map_coordinates(window, at, order=3, mode="nearest")
+    rays = scipy.ndimage.map_coordinates(window, at, order=3, mode="nearest")
     return min(first_below(ray, step) for ray in rays)
 
 
@@ -318,13 +306,11 @@ def waviness(surface: Map, cutoff: float) -> Map:
 
 
 def _smoothed(heights: Array, weights: Array, axis: int) -> Array:
-    from scipy.signal import oaconvolve  # takes half a second to import, and smooth contacts do not need it
-
     reach, n = weights.size // 2, heights.shape[axis]
     kept = slice(reach, reach + n)
     column = weights[:, np.newaxis] if axis == 0 else weights[np.newaxis]
-    total = oaconvolve(heights, column, axes=axis)
-    share = oaconvolve(np.ones(n), weights)[kept]
+    total = scipy.signal.oaconvolve(heights, column, axes=axis)
+    share = scipy.signal.oaconvolve(np.ones(n), weights)[kept]
     smooth: Array = total[kept] / share[:, np.newaxis] if axis == 0 else total[:, kept] / share
     return smooth
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from typing import Generic, Literal, Protocol, Self, TypeAlias, TypeVar
 
 import numpy as np
+import scipy
 
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError
@@ -38,9 +39,7 @@ LEAST_POINTS = 16
 
 def convolved(values: Array, kernel: Array) -> Array:
     """Full convolution of two arrays by FFT: n and m points along an axis give n + m - 1 points."""
-    from scipy.signal import fftconvolve  # takes half a second to import, and smooth contacts do not need it
-
-    convolution: Array = fftconvolve(values, kernel)
+    convolution: Array = scipy.signal.fftconvolve(values, kernel)
     return convolution
 
 

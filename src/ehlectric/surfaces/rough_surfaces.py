@@ -15,7 +15,7 @@ from itertools import chain
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
-from scipy.interpolate import CubicSpline
+import scipy
 
 from ehlectric.arrays import Array
 from ehlectric.cases.roughness_inputs import GENERATORS, SHAPES, Roughness
@@ -45,8 +45,6 @@ def continued_map(surface: Map, extend: str) -> MapHeight:
     >>> np.round(continued_map(ramp, "mirror")(np.array([10.0, 15.0, 30.0]), np.zeros(3)), 2)
     array([ 1. ,  0.5, -1. ])
     """
-    from scipy import ndimage  # imported here, as smooth contacts do not need it
-
     z = surface.heights
     mode: Literal["mirror", "grid-wrap"] = "mirror"
     fades = [_fade(n) for n in z.shape]
@@ -54,13 +52,13 @@ def continued_map(surface: Map, extend: str) -> MapHeight:
         z = z * np.outer(*fades)
     elif extend == "repeat":
         z, mode = _joined(_joined(z, fades[0]).T, fades[1]).T[:-1, :-1], "grid-wrap"
-    coefficients = ndimage.spline_filter(z, order=3, mode=mode)
+    coefficients = scipy.ndimage.spline_filter(z, order=3, mode=mode)
     middle = [0.5 * (n - 1) for n in surface.heights.shape]
 
     def height(x: Array, y: Array) -> Array:
         places = x / surface.spacing_x + middle[0], y / surface.spacing_y + middle[1]
         at = np.array(np.broadcast_arrays(*places))
-        heights: Array = ndimage.map_coordinates(coefficients, at, order=3, mode=mode, prefilter=False)
+        heights: Array = scipy.ndimage.map_coordinates(coefficients, at, order=3, mode=mode, prefilter=False)
         if extend == "flat":
             heights[(np.abs(x) > 0.5 * surface.length_x) | (np.abs(y) > 0.5 * surface.length_y)] = 0.0
         return heights
@@ -95,16 +93,16 @@ def continued(profile: Profile, extend: str) -> Height:
     x, z = profile.x, profile.heights
     half, length = 0.5 * profile.length, profile.length
     if extend == "mirror":
-        spline = CubicSpline(x, z)
+        spline = scipy.interpolate.CubicSpline(x, z)
         return lambda at: spline(np.abs((at + half + length) % (2.0 * length) - length) - half)
     ends = np.clip((half - np.abs(x)) / (TAPER * length), 0.0, 1.0)
     fade = 0.5 - 0.5 * np.cos(np.pi * ends)
     if extend == "flat":
-        spline = CubicSpline(x, z * fade)
+        spline = scipy.interpolate.CubicSpline(x, z * fade)
         return lambda at: np.where(np.abs(at) < half, spline(np.clip(at, -half, half)), 0.0)
     # Both ends are blended into the mean of the two, so that the joint has neither step nor kink.
     joint = 0.5 * (z[0] + z[-1])
-    spline = CubicSpline(x, joint + (z - joint) * fade)
+    spline = scipy.interpolate.CubicSpline(x, joint + (z - joint) * fade)
     return lambda at: spline((at + half) % length - half)
 
 

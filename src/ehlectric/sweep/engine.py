@@ -182,7 +182,7 @@ def lacking_point(sweep: Sweep, planned: Sequence[Planned]) -> Lacking | None:
     valid = [point for point in planned if point.key is not None]
     if not isinstance(sweep.case, DriveCase) or not valid:
         return None
-    # Loads the compiler of the simulation, which other sweeps do not need.
+    # Other sweeps do not need a drive.
     from ehlectric.drive import prepare
 
     point = min(valid, key=_films)

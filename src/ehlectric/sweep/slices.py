@@ -12,8 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.sparse import csr_array
-from scipy.spatial import Delaunay, QhullError
+import scipy
 
 from ehlectric.arrays import Array, IntArray, Mask
 from ehlectric.cases.amounts import Amount, Count
@@ -54,7 +53,7 @@ class Surface:
     triangles: IntArray  # numbers of the nodes of each triangle, shape (triangles, 3)
     # Weight of each point of the slice at each node; the weights of a node add up to one,
     # shape (nodes, points).
-    weights: csr_array
+    weights: scipy.sparse.csr_array
     # Numbers of the points at the corners of the cell that a triangle is part of, shape (triangles, 3 or 4).
     corners: IntArray
 
@@ -118,14 +117,14 @@ def surface_of(selection: Slice, *, log_x: bool, log_y: bool) -> Surface | None:
     )
 
 
-def _weights(shares: Array, corners: IntArray, points: int) -> csr_array:
+def _weights(shares: Array, corners: IntArray, points: int) -> scipy.sparse.csr_array:
     """Weights of the points at the nodes, shape (nodes, points).
 
     ``shares`` are the weights of the corners of each node's cell, ``corners`` the numbers of their points;
     both have shape (nodes, corners).
     """
     rows = np.repeat(np.arange(len(corners)), corners.shape[1])
-    weights = csr_array((shares.ravel(), (rows, corners.ravel())), shape=(len(corners), points))
+    weights = scipy.sparse.csr_array((shares.ravel(), (rows, corners.ravel())), shape=(len(corners), points))
     weights.eliminate_zeros()
     return weights
 
@@ -191,8 +190,8 @@ def _between_points(selection: Slice, *, log_x: bool, log_y: bool) -> Surface | 
     if np.any(extent == 0.0):
         return None
     try:
-        corners = Delaunay(places / extent).simplices
-    except (QhullError, ValueError):  # points on a line, or fewer than three
+        corners = scipy.spatial.Delaunay(places / extent).simplices
+    except (scipy.spatial.QhullError, ValueError):  # points on a line, or fewer than three
         return None
     steps = [(a, b) for a in range(_PARTS + 1) for b in range(_PARTS + 1 - a)]
     number = {step: k for k, step in enumerate(steps)}

@@ -15,7 +15,7 @@ from ehlectric.bearing.speed_curves import Curves, curves_of, opening_speed_of, 
 from ehlectric.bearing.uncertain_inputs import changes_of
 from ehlectric.bearing.uncertainty import FILMS, Design, quick_chance, uncertainty_of
 from ehlectric.drive.drive_bearings import bearing_element
-from ehlectric.drive.solver import prepare
+from ehlectric.drive.preparation import prepare
 from tests.helpers.bearings import BALLS, bearing_case, with_values
 from tests.helpers.drives import small_drive
 

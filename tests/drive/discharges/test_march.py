@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from ehlectric.drive.discharges.event_loop import Segments
+from ehlectric.drive.discharges.films_and_source import Segments
 from ehlectric.drive.drive_record import CHARGE, ENERGY, FILM, OFF, ON, PEAK, VOLTAGE
 from tests.helpers.drives import arc, element, march, motor, square
 

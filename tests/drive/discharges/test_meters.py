@@ -5,7 +5,7 @@ import pytest
 from scipy.linalg import expm
 
 from ehlectric.bearing.circuit import Path
-from ehlectric.drive.discharges.event_loop import Segments
+from ehlectric.drive.discharges.films_and_source import Segments
 from ehlectric.drive.drive_record import FILM, ON, VOLTAGE
 from ehlectric.drive.motor_circuit import capacitive_divider, states_of
 from tests.helpers.drives import arc, element, march, motor, square

@@ -5,7 +5,7 @@ import pytest
 
 from ehlectric import DriveCase, InputError, write_drive_netlist
 from ehlectric.bearing.result import solve_bearing
-from ehlectric.drive.discharges.event_loop import Segments
+from ehlectric.drive.discharges.films_and_source import Segments
 from ehlectric.drive.drive_bearings import bearing_element
 from ehlectric.drive.drive_netlist_files import drive_netlist
 from ehlectric.drive.inverter import steps_of

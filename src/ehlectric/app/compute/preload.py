@@ -21,5 +21,9 @@ for name in (
 ):
     import_module(f"ehlectric.app.compute.{name}")
 
+# Parts of SciPy, which loads each of them at its first use.
+for name in ("fft", "interpolate", "linalg", "ndimage", "sparse.linalg", "special"):
+    import_module(f"scipy.{name}")
+
 # Units, files of the library and modules that are imported where they are used are read once, here.
 quick_answer(tomllib.loads(example_text("bearing_6208")))

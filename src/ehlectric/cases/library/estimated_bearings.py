@@ -14,6 +14,8 @@ from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from typing import Any
 
+import scipy
+
 from ehlectric.cases import library
 from ehlectric.errors import InputError
 from ehlectric.formulas.load_ratings import (
@@ -373,9 +375,7 @@ def _roller_of_ratio(
     low, high = 0.1 * space, 0.95 * space
     if excess(low) * excess(high) > 0.0:
         raise _no_elements(bearing)
-    from scipy.optimize import brentq  # late: SciPy takes a third of a second to load
-
-    return float(brentq(excess, low, high, xtol=1e-9))
+    return float(scipy.optimize.brentq(excess, low, high, xtol=1e-9))
 
 
 def _thrust_needles(bearing: SeriesBearing, target: Target, _rules: Rules) -> EstimatedGeometry:

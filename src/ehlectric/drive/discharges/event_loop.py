@@ -12,10 +12,10 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
 from ehlectric.drive.discharges.compiled import compiled, inner
+from ehlectric.drive.discharges.films_and_source import Films, Integers, Segments
 from ehlectric.drive.discharges.voltages_in_time import (
     FALLS,
     FURTHER,
@@ -106,8 +106,6 @@ def spectrum_of(means: Array) -> Array:
     return amplitudes
 
 
-Integers = NDArray[np.int64]
-
 # Phases of a film.
 INSULATING, ARC, RECOVERING, TOUCHING = range(4)
 
@@ -117,23 +115,6 @@ POSITION, RENEWAL, RECOVERY, TOUCH = range(4)
 # Streams of random numbers of a film; the march stops where one has fewer than the reserve left.
 _THRESHOLDS, _TIMES = range(2)
 RESERVE = 16
-
-
-class Films(NamedTuple):
-    """Films of both bearings."""
-
-    # Breakdown voltage at which a draw is 1 [V]; infinite for films that do not break down,
-    # shape (2, positions).
-    scale: Array
-    positions: Integers  # number of positions of the elements, shape (2,)
-    step: Array  # time from one position to the next [s], shape (2,)
-    shape: Array  # shape of Weibull's law; infinite without scatter, shape (2,)
-    renewal: Array  # mean time after which a new film with a new threshold is in the contacts [s], shape (2,)
-    arc: Array  # arc resistance [Ohm], shape (2,)
-    extinction: Array  # voltage across the arc below which it goes out [V], shape (2,)
-    recovery: Array  # time from there until the film insulates again [s], shape (2,)
-    touch: Array  # mean times without and with touching asperities [s], shape (2, 2)
-    states: Integers  # states of one film: 2, or 3 where films touch, shape (1,)
 
 
 class State(NamedTuple):
@@ -153,15 +134,6 @@ class State(NamedTuple):
     # shape (2, 2, m).
     random: Array
     used: Integers  # how many of them are used, shape (2, 2)
-
-
-class Segments(NamedTuple):
-    """Pieces of the source: duration [s], value at the start [V], slope [V/s], and what rings from then."""
-
-    duration: Array
-    level: Array
-    slope: Array
-    ring: Complex
 
 
 @inner
@@ -368,7 +340,7 @@ class Work(NamedTuple):
     volts: Array  # voltages across both films at the end of the present piece [V], shape (2,)
     charges: Array  # charges of the nodes while elements move [C], shape (n,)
     events: Array  # table that takes the events, shape (m, 8)
-    filled: NDArray[np.int64]  # rows of the table that are filled, shape (1,)
+    filled: Integers  # rows of the table that are filled, shape (1,)
 
 
 def work_of(size: int, events: int) -> Work:

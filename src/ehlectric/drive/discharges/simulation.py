@@ -3,28 +3,25 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from copy import deepcopy
 from dataclasses import dataclass
 
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.cases.drive_inputs import Breakdown
 from ehlectric.drive.discharges.compiled import compile_for
 from ehlectric.drive.discharges.event_loop import (
     ARC,
     RECOVERING,
-    Films,
     Meters,
-    Segments,
     State,
     advance,
     empty_means,
     spectrum_of,
     work_of,
 )
-from ehlectric.drive.drive_bearings import BearingElement
+from ehlectric.drive.discharges.films_and_source import Films, Segments
 from ehlectric.drive.drive_record import COLUMNS, FILM, KEPT, OFF, ON, VOLTAGE, Record
 from ehlectric.drive.motor_circuit import Modes
 
@@ -62,39 +59,6 @@ class Measuring:
     # Whether the trace is around a typical one of the first events, where there are any, and not at the
     # begin.
     at_event: bool = False
-
-
-def films_of(bearings: Sequence[BearingElement], breakdown: Breakdown) -> Films:
-    """Films of both bearings as the compiled march reads them.
-
-    Films are replaced in the time that the oil takes through the most loaded contact, unless the case gives
-    another time. Asperities touch for that time, and part for as long as their share of time asks for.
-    """
-    count = max(bearing.breakdown.size for bearing in bearings)
-    scale = np.full((2, count), math.inf)
-    touch = np.full((2, 2), math.inf)
-    renewal = np.array([breakdown.renewal_time or bearing.transit for bearing in bearings])
-    for b, bearing in enumerate(bearings):
-        scale[b, : bearing.breakdown.size] = bearing.breakdown
-        if bearing.touching > 0.0:
-            closed = breakdown.touch_time or bearing.transit
-            # A film that never insulates opens for a part of the time that is not noticed.
-            touch[b] = closed * max(1.0 - bearing.touching, 1e-9) / bearing.touching, closed
-    still = [bearing.breakdown.size == 1 for bearing in bearings]
-    return Films(
-        scale=scale,
-        positions=np.array([bearing.breakdown.size for bearing in bearings]),
-        step=np.array(
-            [math.inf if fixed else bearing.step for fixed, bearing in zip(still, bearings, strict=True)]
-        ),
-        shape=np.array([bearing.shape for bearing in bearings]),
-        renewal=np.where([math.isfinite(bearing.shape) for bearing in bearings], renewal, math.inf),
-        arc=np.full(2, breakdown.arc_resistance),
-        extinction=np.full(2, breakdown.lowest_voltage),
-        recovery=np.full(2, breakdown.recovery_time),
-        touch=touch,
-        states=np.array([3 if np.any(np.isfinite(touch)) else 2]),
-    )
 
 
 class _Random:
