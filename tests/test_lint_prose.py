@@ -184,6 +184,47 @@ def test_numbers_of_a_tutorial_are_in_its_outputs(tmp_path):
     assert [place.words for place in lint_prose.numbers_without_an_output(pages)] == ["4.04 V"]
 
 
+GLOSSARY = """```{glossary}
+margin
+breakdown safety factor
+  Voltage divided by voltage ([page](../theory/margin.md)).
+
+breakdown
+  Loss of insulation.
+
+breakdown voltage
+  Voltage of a {term}`breakdown`.
+```
+"""
+
+
+@pytest.mark.parametrize(
+    ("page", "words"),
+    [
+        ("The margin is low. The margin is high.", ["margin"]),
+        ("Two\nmargins after a breakdown\nvoltage.", ["margins", "breakdown voltage"]),
+        ("The margin is a {term}`breakdown safety factor`. A breakdown.", ["breakdown"]),
+        ("The margin ([margin of a bearing](a.md)).\n\nThe margin.", []),
+        ('# Margin\n\n`margin`, **margin**, "margin", $margin$, <!--a: margin-->1<!--/-->', []),
+        ("```text\nmargin\n```\n\n$$\nmargin\n$$ (margin)\n\n- a margin", ["margin"]),
+        ("| margin | margin |\n| --- | --- |\n| margin | a |\n", []),
+        ("| a | b |\n| --- | --- |\n| margin | breakdown |\n", ["breakdown"]),
+        (":::{note}\nThe margin-like breakdowns.\n:::\n", ["breakdowns"]),
+        ("```{figure} a.png\n:alt: margin\n\nThe margin.\n```\n", []),
+    ],
+)
+def test_the_first_use_of_a_term_is_linked(tmp_path, page, words):
+    files = {"docs/howto/a.md": page, "docs/howto/index.md": page, "docs/validation/a.md": page}
+    pages = texts(tmp_path, files | {"docs/reference/glossary.md": GLOSSARY})
+    assert [place.words for place in lint_prose.terms_without_a_link(pages)] == words
+
+
+def test_a_page_that_a_term_names_needs_no_link_to_it(tmp_path):
+    files = {"docs/theory/margin.md": "\nA margin and a breakdown.", "docs/reference/glossary.md": GLOSSARY}
+    (place,) = lint_prose.terms_without_a_link(texts(tmp_path, files))
+    assert place == ("docs", "docs/theory/margin.md", 2, "breakdown")
+
+
 def test_a_count_falls_and_does_not_rise(tmp_path):
     def git(*arguments):
         command = ["git", "-C", tmp_path, "-c", "user.name=a", "-c", "user.email=a", *arguments]

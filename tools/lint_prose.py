@@ -23,6 +23,8 @@ from typing import Any, NamedTuple
 
 from docs.pages import written_pages
 
+from tools.term_links import Glossary, links_terms, unlinked
+
 ROOT = Path(__file__).parents[1]
 COUNTS = Path("tools/prose_counts.toml")
 PACKAGE = "src/ehlectric"
@@ -403,6 +405,19 @@ def numbers_without_an_output(texts: Texts) -> Iterator[Place]:
                         yield Place("docs", name, number, match[0])
 
 
+def terms_without_a_link(texts: Texts) -> Iterator[Place]:
+    """Yield first uses of terms of the glossary on pages for users that are not linked."""
+    file = texts.root / "docs" / "reference" / "glossary.md"
+    glossary = Glossary(file.read_text(encoding="utf-8") if file.exists() else "")
+    for file in texts.pages:
+        page = file.relative_to(texts.root / "docs").as_posix()
+        if links_terms(page):
+            text = file.read_text(encoding="utf-8")
+            for use in unlinked(text, page, glossary):
+                words = " ".join(text[use.start : use.end].split())
+                yield Place("docs", f"docs/{page}", text.count("\n", 0, use.start) + 1, words)
+
+
 class Rule(NamedTuple):
     """A construction that is counted: what it is, what to write instead, and its places."""
 
@@ -566,6 +581,11 @@ RULES = {
         "a number of a tutorial that its commands do not print",
         "the number of the output on the page; python -m docs.renew writes it",
         numbers_without_an_output,
+    ),
+    "S11": Rule(
+        "a term of the glossary without a link where a page uses it first",
+        "{term}`lambda ratio` or {term}`margins <margin>`, or a link to the page that explains it",
+        terms_without_a_link,
     ),
 }
 
