@@ -43,6 +43,13 @@ def _tutorial(command: str, run: Run, folder: Path, *, grade: int = 46) -> str:
     return run(shlex.split(command), folder)
 
 
+def _speeds(run: Run, folder: Path) -> str:
+    """Output of the sweep of the tutorial."""
+    (sweep,) = (block for block in blocks(page("first_bearing.md"), "toml") if "[vary]" in block)
+    (folder / "speeds.toml").write_text(sweep, "utf-8")
+    return _tutorial("sweep speeds.toml -o out", run, folder)
+
+
 def _contact(command: str, run: Run, folder: Path) -> str:
     """Output of a command for the contact of its tutorial."""
     case = block_with('title = "Ball on disc, 20 N, 60 °C"', "toml")
@@ -77,6 +84,7 @@ RUNS: Mapping[str, Callable[[Run, Path], str]] = {
     "check": partial(_tutorial, "check bearing.toml"),
     "solved": partial(_tutorial, f"bearing bearing.toml {_SOLVED}"),
     "thicker": partial(_tutorial, "check bearing.toml", grade=68),
+    "speeds": _speeds,
     "readme": partial(_example, f"bearing examples/bearing_6208.toml --contacts atlas {_SOLVED}"),
     "fits": partial(_fits, f"bearing bearing.toml --contacts formula {_SOLVED}"),
     "even": partial(_fits, f"bearing bearing.toml --contacts formula {_SOLVED}", inner=70),
