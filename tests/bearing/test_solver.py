@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from ehlectric import InputError
-from ehlectric.bearing.bearing_kinds import KINDS
+from ehlectric.bearing.bearing_kinds import KINDS, kind_of
 from ehlectric.bearing.preparation import least_load
 from ehlectric.bearing.result import BearingResult, check_bearing, solve_bearing
 from ehlectric.bearing.solving import POSITIONS
@@ -134,6 +134,14 @@ def test_below_the_least_load_a_domain_is_at_its_end(tables):
     # Without an end they would again be twice as long.
     assert inlets[2] < 1.3 * inlets[1]
     assert inlets[3] < 1.3 * inlets[1]
+
+
+@pytest.mark.parametrize("tables", [BALLS, ROLLERS], ids=["balls", "rollers"])
+@pytest.mark.parametrize("speed", [1e-3, 4.5, 300.0])
+def test_at_the_least_load_a_film_needs_the_largest_domain(tables, speed):
+    ring = ring_of(bearing_case(tables), inner=False, speed=speed)
+    needed = kind_of(ring).contact(ring, least_load(ring)).part_needed
+    assert 1.0 - 1e-7 < needed <= 1.0
 
 
 @pytest.mark.parametrize("contacts", ["solved", "formula"])

@@ -22,6 +22,14 @@ def test_error_is_below_the_tolerance(tolerance):
     assert np.max(np.abs(table(*points) - coupled(points))) < 5.0 * tolerance
 
 
+@pytest.mark.parametrize("expected", [(1, 1, 1), (3, 4, 5), (20, 20, 20)])
+def test_expected_numbers_of_polynomials(expected):
+    """Too few polynomials are followed by more, and many have the same values."""
+    table = smooth_table(coupled, *BOX, 1e-7, expected)
+    points = np.random.default_rng(8).uniform(*BOX, (2000, 3)).T
+    assert np.max(np.abs(table(*points) - coupled(points))) < 5e-7
+
+
 def test_points_of_a_group_share_the_first_variable():
     table = smooth_table(coupled, *BOX, 1e-8)
     draw = np.random.default_rng(9)

@@ -77,10 +77,6 @@ class DomainLaw:
         return np.ones_like(ends[0])
 
 
-# Nodes of the film along and across entrainment, on the edge of whose domain the gap continues it.
-RIM = 97, 65
-
-
 @dataclass(frozen=True)
 class UnitContact:
     """Dry contact with lengths on the raceway in b and gaps in b^2/Rx; numbers, or arrays of shape (...)."""
@@ -115,18 +111,20 @@ class UnitContact:
         return UnitContact(*(v if np.ndim(v) == 0 else v[points] for v in vars(self).values()))
 
 
-def rims(unit: UnitContact, domain: tuple[Numbers, Numbers, Numbers]) -> tuple[Array, Array, Array, Array]:
+def rims(
+    unit: UnitContact, domain: tuple[Numbers, Numbers, Numbers], rim: tuple[int, int]
+) -> tuple[Array, Array, Array, Array]:
     """Nodes on the edge of domains over b, gap there and the deflection in it over b^2/Rx, shape (..., n).
 
-    ``domain``, inlet and outlet over b and side over a, shape (...). Gap and deflection are the same on both
-    sides across entrainment.
+    ``domain``, inlet and outlet over b and side over a, shape (...); ``rim``, numbers of nodes along and
+    across entrainment. Gap and deflection are the same on both sides across entrainment.
     """
     inlet, outlet, side = (
         np.asarray(end, dtype=float)[..., np.newaxis] for end in np.broadcast_arrays(*domain)
     )
     unit = unit.for_nodes(1)
-    along = inlet + (outlet - inlet) * np.linspace(0.0, 1.0, RIM[0])[1:-1]
-    across = side * unit.ratio * np.linspace(0.0, 1.0, RIM[1] // 2 + 1)
+    along = inlet + (outlet - inlet) * np.linspace(0.0, 1.0, rim[0])[1:-1]
+    across = side * unit.ratio * np.linspace(0.0, 1.0, rim[1] // 2 + 1)
     # Both ends from the middle to the side, and the side without its ends.
     ones, rest = np.ones(across.shape), np.ones(along.shape)
     x = np.concatenate([inlet * ones, outlet * ones, along], axis=-1)
@@ -152,7 +150,7 @@ def _axis_ratios(radius_x: Numbers, radius_y: Numbers) -> Numbers:
 
 
 # Contacts that are matched together: few enough for the processor's cache.
-_BLOCK = 48
+_BLOCK = 96
 
 
 def around_directly(
@@ -192,7 +190,7 @@ def _around(
     """As ``around_directly``, for arrays of shape (m,)."""
     unit = UnitContact.of(race.radius_x, race.radius_y)
     inlet, outlet, side = domain
-    x, y, gap, opened = rims(unit, (inlet, outlet, side))
+    x, y, gap, opened = rims(unit, (inlet, outlet, side), nodes.rim)
     scale = b**2 / race.radius_x
     thickness = films[:, np.newaxis] + scale[:, np.newaxis] * gap
     lengths = b[:, np.newaxis]
@@ -301,14 +299,14 @@ def parts_around_ellipse(radius_ratio: float, law: DomainLaw) -> tuple[_Part, _P
     edge = np.sin(angle)
     near = np.cos(angle), edge + (side - edge) * far
     weights = 0.5 * np.pi * edge * _FINE_PART[:, np.newaxis] * (side - edge) * 3.0 * _FINE**2 * _FINE_PART
+    lengths = [end - 1.0 for end in (law.inlet, law.outlet)]
+    ahead = [(1.0 + length * _FINE[:, np.newaxis] ** 3, side * _FINE) for length in lengths]
+    x, y = (np.stack(np.broadcast_arrays(*values)) for values in zip(near, *ahead, strict=True))
+    gap, _ = unit.gap(x, unit.ratio * y)
     parts = []
-    for end in (law.inlet, law.outlet):
-        length = end - 1.0
-        ahead = 1.0 + length * _FINE[:, np.newaxis] ** 3, side * _FINE
+    for length, beyond in zip(lengths, gap[1:], strict=True):
         more = length * 3.0 * (_FINE**2 * _FINE_PART)[:, np.newaxis] * side * _FINE_PART
         # Both halves across entrainment.
         both = 2.0 * unit.ratio * np.stack([weights, more])
-        x, y = (np.stack(np.broadcast_arrays(*pair)) for pair in zip(near, ahead, strict=True))
-        gap, _ = unit.gap(x, unit.ratio * y)
-        parts.append((both.ravel(), gap.ravel()))
+        parts.append((both.ravel(), np.stack([gap[0], beyond]).ravel()))
     return parts[0], parts[1]

@@ -40,7 +40,8 @@ from ehlectric.formulas.hertz import line_gap, reduced_radius
 from ehlectric.formulas.smooth_tables import Function, SmoothTable, smooth_table
 from ehlectric.runtime.display import read_only_property
 
-# Least number of contacts for which polynomials are made, which need the integrals of some hundred contacts.
+# Least number of contacts for which polynomials of three or more variables are made, which need the
+# integrals of a hundred contacts.
 LEAST = 200
 
 # Largest error of polynomials over the value in the middle of their box: for capacitances around short and
@@ -51,6 +52,16 @@ _SHORT, _LONG, _BETWEEN, _RELATIVE = 1e-8, 2e-8, 2e-8, 3e-9
 # Steps to which the ends of boxes are rounded outwards, so that similar batches have the same ones: of
 # logarithms and of squares of angles.
 _STEP, _STEP_SQUARE = 0.125, 2.0**-8
+
+# Tables of two variables take few integrals, so that wide boxes serve all batches of a bearing. Around
+# ellipses: length of the intervals of the logarithm of the ratio of the radii, and range of the logarithm of
+# the film over b^2/Rx. Of rigid balls: step of the square of the angle, and least range of the logarithm of
+# the gap over the radius of the ball.
+_CELL, _FILMS, _OF_GAP = 0.5, (-10.0, 5.0), (2.0**-6, (-13.0, -5.0))
+
+# Numbers of polynomials along each variable that tables are expected to have.
+_IN_ELLIPSE, _IN_GAP = (4, 30), (5, 18)
+_AROUND_SHORT, _AROUND_LONG, _BETWEEN_BOTH = (2, 4, 4, 4), (2, 4, 6, 4), (2, 6, 4)
 
 # Box of the variables of a table: least and largest value of each.
 _Box = tuple[tuple[float, ...], tuple[float, ...]]
@@ -122,6 +133,7 @@ class _Contacts:
     unit: UnitContact  # contacts of the points, shape (n,)
     point: IntArray  # point of each contact, shape (m,)
     shape: tuple[int, ...]  # shape (...) of the m contacts
+    single: bool  # whether there is one point, which shares no polynomials with others
 
     @classmethod
     def of(cls, race: Raceway, *numbers: Numbers) -> _Contacts:
@@ -129,7 +141,7 @@ class _Contacts:
         row, unit, points = _points(race)
         shape = np.broadcast_shapes(points, *map(np.shape, numbers))
         point = np.broadcast_to(np.arange(np.size(unit.ratio)).reshape(points), shape).ravel()
-        return cls(row, unit, point, shape)
+        return cls(row, unit, point, shape, points == ())
 
     @property
     def angles(self) -> Array:
@@ -264,18 +276,23 @@ def around_ellipses(race: Raceway, middle: Numbers, law: DomainLaw) -> tuple[Arr
     contacts = _Contacts.of(race, middle)
     middle = contacts.row(middle)
     valid = np.isfinite(middle) & (middle > 0.0)
-    variables = np.log(contacts.unit.radius_ratio), np.log(middle[valid])
-    ratio, integrals = np.asarray(contacts.unit.radius_ratio)[contacts.point[valid]], []
-    for part in range(2):
-        values, table = np.full(middle.shape, np.nan), None
-        if np.count_nonzero(valid) >= LEAST:
-            table = _ellipse(law, part, _box(variables))
-        if table is None:
-            values[valid] = around_ellipse_directly(ratio, middle[valid], law)[part]
-        else:
-            values[valid] = np.exp(table(*variables, group=contacts.point[valid]))
-        integrals.append(values.reshape(contacts.shape))
-    return integrals[0], integrals[1]
+    ratio = np.log(contacts.unit.radius_ratio)
+    integrals = np.full((2, middle.size), np.nan)
+    # A table for each interval of the ratio: a number does not depend on the other contacts.
+    film, cells = np.log(middle, out=np.full(middle.shape, np.nan), where=valid), np.floor(ratio / _CELL)
+    inside = (film >= _FILMS[0]) & (film <= _FILMS[1]) & (not contacts.single)
+    for cell in np.unique(cells[np.isfinite(cells)]).tolist():
+        rows = np.flatnonzero(inside & (cells == cell)[contacts.point])
+        box = (cell * _CELL, _FILMS[0]), ((cell + 1.0) * _CELL, _FILMS[1])
+        tables = [_ellipse(law, part, box) for part in range(2)] if rows.size else []
+        for values, table in zip(integrals, tables, strict=False):
+            if table is not None:
+                values[rows] = np.exp(table(ratio, film[rows], group=contacts.point[rows]))
+    left = np.flatnonzero(valid & np.isnan(integrals).any(axis=0))
+    several = np.asarray(contacts.unit.radius_ratio)[contacts.point[left]]
+    integrals[:, left] = around_ellipse_directly(several, middle[left], law)
+    inlet, outlet = integrals.reshape(2, *contacts.shape)
+    return inlet, outlet
 
 
 def rigid_balls(race: Raceway, gap: Numbers) -> Array:
@@ -291,10 +308,11 @@ def rigid_balls(race: Raceway, gap: Numbers) -> Array:
     radius = contacts.of_point(contacts.race.ball_radius)
     valid = (gap > 0.0) & (gap <= radius) & contacts.of_point(contacts.race.holds)
     capacitance, table = np.full(gap.shape, np.nan), None
-    unit_length = contacts.of_point(contacts.length)[valid]
-    variables = np.square(contacts.angles), np.log(gap[valid] / unit_length), *contacts.varying(valid)
-    if size is not None and np.count_nonzero(valid) >= LEAST:
-        table = _rigid(size, _box(variables))
+    unit_length, over = contacts.of_point(contacts.length)[valid], gap[valid] / radius[valid]
+    variables = np.square(contacts.angles), np.log(over), *contacts.varying(valid)
+    least = LEAST if size is None or size.varying else 1
+    if size is not None and not contacts.single and np.count_nonzero(valid) >= least:
+        table = _rigid(size, _box(variables, *_OF_GAP))
     if table is None:
         capacitance[valid] = groove_capacitance(contacts.races(valid), gap[valid])
     else:
@@ -325,15 +343,23 @@ def _length_and_middle(state: tuple[int, ...], first: Array, second: Array) -> t
     return np.exp(first), 0.5 * np.exp(2.0 * first + second)
 
 
-def _box(variables: tuple[Array, ...]) -> _Box:
-    """Box of variables, the first of which may be a square; a variable with one value keeps it."""
+def _box(
+    variables: tuple[Array, ...], step: float = _STEP_SQUARE, least: tuple[float, float] | None = None
+) -> _Box:
+    """Box of variables; a variable with one value keeps it.
+
+    ``step``, step of the first one, which may be a square; ``least``, range of the second one that the box
+    holds in any case.
+    """
     low, high = [], []
     for number, values in enumerate(variables):
-        least, most = float(np.nanmin(values)), float(np.nanmax(values))
-        step = _STEP_SQUARE if number == 0 else _STEP
-        same = most - least <= 1e-12 * max(1.0, abs(most))
-        low.append(least if same else step * float(np.floor(least / step)))
-        high.append(least if same else step * float(np.ceil(most / step)))
+        ends = float(np.nanmin(values)), float(np.nanmax(values))
+        size = _STEP if number else step
+        if least is not None and number == 1:
+            ends, size = (min(ends[0], least[0]), max(ends[1], least[1])), 1.0
+        same = ends[1] - ends[0] <= 1e-12 * max(1.0, abs(ends[1]))
+        low.append(ends[0] if same else size * float(np.floor(ends[0] / size)))
+        high.append(ends[1] if same else size * float(np.ceil(ends[1] / size)))
     return tuple(low), tuple(high)
 
 
@@ -354,7 +380,8 @@ def _around(size: _Size, law: DomainLaw, state: tuple[int, ...], box: _Box) -> S
         ends = -inlet, outlet, side
         return around_directly(race, b, ends, films, shoulders=False, nodes=law.nodes)[0]
 
-    return _normalised(capacitance, box, law.coarseness * (_LONG if state[0] else _SHORT))
+    numbers = _expected(_AROUND_LONG if 1 in state else _AROUND_SHORT, box)
+    return _normalised(capacitance, box, law.coarseness * (_LONG if state[0] else _SHORT), numbers)
 
 
 @lru_cache(maxsize=128)
@@ -368,7 +395,7 @@ def _between(law: DomainLaw, state: tuple[int, ...], box: _Box) -> SmoothTable |
         far = tuple(np.broadcast_to(end, length.shape) for end in law.ends(state, length, unit))
         return between_directly(unit, near, (far[0], far[1], far[2]), middle)
 
-    return _normalised(integral, box, law.coarseness * _BETWEEN)
+    return _normalised(integral, box, law.coarseness * _BETWEEN, _BETWEEN_BOTH)
 
 
 @lru_cache(maxsize=64)
@@ -378,27 +405,35 @@ def _ellipse(law: DomainLaw, part: int, box: _Box) -> SmoothTable | None:
     def logarithm(at: Array) -> Array:
         return np.asarray(np.log(around_ellipse_directly(np.exp(at[0]), np.exp(at[1]), law)[part]))
 
-    return smooth_table(logarithm, np.array(box[0]), np.array(box[1]), law.coarseness * _RELATIVE)
+    low, high = map(np.array, box)
+    return smooth_table(logarithm, low, high, law.coarseness * _RELATIVE, _IN_ELLIPSE)
 
 
 @lru_cache(maxsize=64)
 def _rigid(size: _Size, box: _Box) -> SmoothTable | None:
-    """Logarithm of the capacitance of rigid balls [F] over squared angle, logarithm of the gap, and what
-    varies.
+    """Logarithm of the capacitance of rigid balls [F] over squared angle, logarithm of the gap over the
+    radius of the ball, and what varies.
     """
 
     def logarithm(at: Array) -> Array:
         race = size.race(at[0], at[2:])
-        return np.asarray(np.log(groove_capacitance(race, np.exp(at[1]))))
+        return np.asarray(np.log(groove_capacitance(race, size.ball_radius * np.exp(at[1]))))
 
-    return smooth_table(logarithm, np.array(box[0]), np.array(box[1]), _RELATIVE)
+    return smooth_table(logarithm, np.array(box[0]), np.array(box[1]), _RELATIVE, _expected(_IN_GAP, box))
 
 
-def _normalised(function: Function, box: _Box, tolerance: float) -> SmoothTable | None:
+def _expected(numbers: tuple[int, ...], box: _Box) -> tuple[int, ...]:
+    """Expected numbers along all variables of a box; few along further ones that vary."""
+    return (*numbers, *(2 for _ in box[0][len(numbers) :]))
+
+
+def _normalised(
+    function: Function, box: _Box, tolerance: float, expected: tuple[int, ...] = ()
+) -> SmoothTable | None:
     """Table of a function, with a tolerance over its value in the middle of the box."""
     low, high = map(np.array, box)
     scale = float(function(0.5 * (low + high)[:, np.newaxis])[0])
-    table = smooth_table(lambda at: function(at) / scale, low, high, tolerance)
+    table = smooth_table(lambda at: function(at) / scale, low, high, tolerance, expected)
     return None if table is None else replace(table, coefficients=scale * table.coefficients)
 
 

@@ -254,6 +254,8 @@ class Nodes:
     tails: int  # along rolling, ahead of the film and behind it
     ahead: int  # across the groove ahead of the film
     behind: int  # across the groove in each of four parts behind the film
+    # Nodes of the film along and across entrainment, on the edge of whose domain the gap continues it.
+    rim: tuple[int, int]
 
     @property
     def number(self) -> int:
@@ -262,8 +264,8 @@ class Nodes:
 
 
 # With fine nodes the error of each part is below 1e-9 of the whole contact, with coarse ones the error of all
-# parts is below 1e-6 of them.
-FINE, COARSE = Nodes((12, 8), 20, 14, 10), Nodes((9, 6), 14, 10, 7)
+# parts is below 1e-5 of them.
+FINE, COARSE = Nodes((12, 8), 20, 14, 10, (97, 65)), Nodes((8, 5), 12, 9, 6, (25, 17))
 
 # Largest distance of the foci from the middle over the side of a film, for the nodes next to it.
 _INSIDE = 0.95

@@ -224,8 +224,8 @@ _WEIGHT = 16
 # Light loads are solved if the least one is below this part of the others.
 _BELOW = 0.98
 
-# Exponents of ten between which the least load is searched [N], and their distance at which the search ends.
-_EXPONENTS, _CLOSE = (-6.0, 6.0), 1e-7
+# Exponents of ten between which a load is searched [N], step at which the search ends, and most steps.
+_EXPONENTS, _CLOSE, _MOST_STEPS = (-6.0, 6.0), 1e-9, 60
 
 # Ratio of the largest to the least load below which all loads count as equal.
 _ALIKE = 1.001
@@ -449,32 +449,45 @@ def least_load(ring: RingContacts[Any]) -> Numbers:
     """Least load at which the domain holds the length over which the film builds up [N], shape (...).
 
     Lighter contacts have thicker films, so that the breakdown voltage at this load is a lower bound of
-    theirs. It is found to 1e-6, so that it changes with the speed without steps. It is infinite where the
-    domain never holds this length.
+    theirs. It changes with the speed without steps. It is infinite where the domain never holds this length.
     """
     # The heavier the load, the shorter the length over which the film builds up, relative to the contact.
-    return _least_that(ring, lambda contact: np.asarray(contact.fits))
+    return _load_where(ring, lambda contact: contact.part_needed)
 
 
-def _least_that(ring: RingContacts[Any], condition: Callable[[Contact], Mask]) -> Numbers:
-    """Least load of contacts that meet a condition, which all heavier contacts meet [N]; infinite if none
-    meets it.
+def _load_where(ring: RingContacts[Any], ratio: Callable[[Contact], Numbers]) -> Numbers:
+    """Load [N] from which on a ratio that falls with the load is at most 1; infinite if it always exceeds 1.
+
+    The logarithms of both are nearly straight lines. The root is found by false position with the weights of
+    N. Anderson and A. Bjorck, BIT 13 (1973) 253, doi:10.1007/BF01951936.
     """
     kind = kind_of(ring)
 
-    def holds(exponent: Numbers) -> Mask:
-        return condition(kind.contact(ring, 10.0**exponent))
+    def excess(exponent: Numbers) -> Array:
+        return np.asarray(np.log(ratio(kind.contact(ring, 10.0**exponent))))
 
-    smallest, largest = _EXPONENTS
-    always, never = holds(smallest), ~holds(largest)
-    low, step = np.full(always.shape, smallest), largest - smallest
-    # The middle of each interval is the lower end of the next one where it does not hold the length.
-    while step >= _CLOSE:
-        step *= 0.5
-        middle = low + step
-        low = np.where(holds(middle), low, middle)
-    logarithm = np.where(always, smallest, middle)
-    return as_float(np.where(never, np.inf, 10.0**logarithm))
+    ends = [excess(exponent) for exponent in _EXPONENTS]
+    always, never = ends[0] <= 0.0, ~(ends[1] <= 0.0)
+    sought = ~(always | never)
+    low, high = (np.full(sought.shape, exponent) for exponent in _EXPONENTS)
+    above, below = (np.where(sought, end, sign) for end, sign in zip(ends, (1.0, -1.0), strict=True))
+    at, last = low, np.zeros(sought.shape, dtype=np.int8)
+    for _ in range(_MOST_STEPS):
+        before, at = at, np.where(sought, (low * below - high * above) / (below - above), at)
+        sought = sought & (np.abs(at - before) > _CLOSE)
+        if not np.any(sought):
+            break
+        value = excess(at)
+        side = np.where(value > 0.0, 1, -1)
+        # An end that stays for a second time gets a weight.
+        weight = 1.0 - value / np.where(sought, np.where(side > 0, above, below), 1.0)
+        weight = np.where(side == last, np.where(weight > 0.0, weight, 0.5), 1.0)
+        low, above = np.where(side > 0, at, low), np.where(side > 0, value, weight * above)
+        high, below = np.where(side > 0, high, at), np.where(side > 0, weight * below, value)
+        sought, last = sought & (value != 0.0), side
+    # Beyond the root, so that rounding leaves the ratio below 1.
+    load = 10.0 ** np.where(always, _EXPONENTS[0], at + _CLOSE)
+    return as_float(np.where(never, np.inf, load))
 
 
 def loads_to_solve(
@@ -523,7 +536,7 @@ def _with_room(ring: RingContacts[Any], load: Array) -> Array:
     # Rollers have a gap at every film, also at films that build up beyond a parabola.
     if not isinstance(contact, BallContact) or not np.any(too_thick(contact)):
         return load
-    return np.maximum(load, _least_that(ring, lambda contact: ~too_thick(contact)))
+    return np.maximum(load, _load_where(ring, lambda contact: contact.film / contact.thickest_film))
 
 
 def _lighter(lightest: Array, least: Array, number: int | None) -> tuple[Array, Mask]:

@@ -145,7 +145,7 @@ class BearingResult(Shown):
         margin: float | None = self.breaks()["margin"]
         return margin
 
-    @property
+    @read_only_property
     def warnings(self) -> tuple[ResultWarning, ...]:
         """Warnings about where the result is unreliable, each once."""
         return tuple(bearing_warnings(self.solution))
@@ -211,7 +211,9 @@ class BearingResult(Shown):
         """Verdict: whether breakdown is expected at the shaft voltage, and where the margin is below 1."""
         uncertainty, why = self._uncertainty_or_reason
         chance = None if uncertainty is None else uncertainty.chance
-        verdict = bearing_verdict(self.solution, self.margin_analysis, chance, unknown=why)
+        verdict = bearing_verdict(
+            self.solution, self.margin_analysis, chance, unknown=why, warnings=self.warnings
+        )
         cycle = None if self.duty is None else self.duty.statement
         return verdict if cycle is None else replace(verdict, reasons=(*verdict.reasons, cycle))
 
@@ -240,13 +242,15 @@ class BearingResult(Shown):
         probability of breakdown, which saves a second or two.
         """
         analysis, uncertainty = self.margin_analysis, self.uncertainty if probable else None
-        verdict = self.verdict if probable else bearing_verdict(self.solution, analysis)
+        verdict = (
+            self.verdict if probable else bearing_verdict(self.solution, analysis, warnings=self.warnings)
+        )
         summary: dict[str, Any] = {}
 
         def table_of(name: str, values: Mapping[str, Any]) -> Any:
             return plain(with_former_keys(values, name, BEARING_KEYS))
 
-        for key, value in summary_of(self.solution).items():
+        for key, value in summary_of(self.solution, self.warnings).items():
             if key == "mechanics":
                 speed = {"capacitive_speed": self.capacitive_speed}
                 table = analysis.summary()

@@ -68,8 +68,8 @@ BALL_DOMAINS = DomainLaw(
     ),
 )
 
-# Domains for contacts of which only ratios of results are used: errors of polynomials are about 1e-5, and
-# errors of integrals below 1e-6.
+# Domains for contacts of which only ratios of results are used: errors of polynomials and of integrals are
+# about 1e-5.
 _COARSE_DOMAINS = replace(BALL_DOMAINS, coarseness=1e3, nodes=COARSE)
 
 # Domains of rollers cost 0.3 to 1.2 % of the film. Beyond a hundred half-widths the inlet has eight lengths,
@@ -310,9 +310,9 @@ class BallContact:
         return _point_grid(inlet, outlet, side, nodes)
 
     @property
-    def fits(self) -> Mask:
-        """Whether the domain holds the lengths over which the film builds up, along and across."""
-        return self.domains.rule.holds(*self._lengths)
+    def part_needed(self) -> Numbers:
+        """Ends of the domain that the film needs over the largest ends: above 1 where it is cut off."""
+        return self.domains.rule.part_needed(*self._lengths)
 
     def conditions_on(self, grid: Grid) -> PointConditions:
         """Operating conditions of a film on the domain of a grid."""
@@ -437,9 +437,9 @@ class RollerContact:
         )
 
     @property
-    def fits(self) -> Mask:
-        """Whether the domain holds the length over which the film builds up."""
-        return self._domains.holds(self._build_up)
+    def part_needed(self) -> Numbers:
+        """Inlet that the film needs over the largest inlet: above 1 where it is cut off."""
+        return self._domains.part_needed(self._build_up)
 
     def conditions_on(self, _: Grid) -> Conditions:
         """Operating conditions of a film on the domain of a grid."""
@@ -832,7 +832,7 @@ class ContactCurve(Values):
         heavy = self.used & self._heavy
         if np.array_equal(heavy, self.used):
             return self
-        warnings = _Heavy(self.warnings_of, heavy[self.used]) if self.loads.ndim == 1 else self.warnings_of
+        warnings = _Heavy(self, heavy[self.used]) if self.loads.ndim == 1 else self.warnings_of
         return replace(self, used=heavy, warnings_of=warnings)
 
     @property
@@ -919,12 +919,12 @@ class _Given:
 
 @dataclass(frozen=True, eq=False)
 class _Heavy:
-    """Warnings of those contacts that are not light."""
+    """Warnings of those contacts of a curve that are not light."""
 
-    warnings_of: Callable[[], Sequence[tuple[ResultWarning, ...]]]
+    curve: ContactCurve
     heavy: Mask
 
     def __call__(self) -> tuple[tuple[ResultWarning, ...], ...]:
         return tuple(
-            warnings for warnings, heavy in zip(self.warnings_of(), self.heavy, strict=True) if heavy
+            warnings for warnings, heavy in zip(self.curve.warnings, self.heavy, strict=True) if heavy
         )

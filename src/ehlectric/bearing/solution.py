@@ -563,7 +563,7 @@ def with_light(curves: Iterable[ContactCurve]) -> list[tuple[ContactSolution, ..
     """Contacts of each ring with equal warnings on all rings about those that the atlas does not have; a
     light contact has a note instead of its warning.
     """
-    rings = [(curve.solutions, {contact.load for contact in curve.counted.solutions}) for curve in curves]
+    rings = [(curve.solutions, set(curve.loads[curve.counted.used].tolist())) for curve in curves]
     errors: dict[bool, list[float]] = {True: [0.0], False: [0.0]}
     for contacts, heavy in rings:
         for contact in contacts:

@@ -12,7 +12,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.bearing.bearing_kinds import kind_of
-from ehlectric.bearing.loads.totals import Equilibrium
+from ehlectric.bearing.loads.totals import Equilibrium, mirrored_order
 from ehlectric.bearing.physical_bounds import check_bounds
 from ehlectric.bearing.preparation import PreparedBearing, loads_to_solve, prepare_bearing
 from ehlectric.bearing.quick_contacts import QUICK_METHODS, is_quick, quick_curve
@@ -135,16 +135,25 @@ def _positions(prepared: PreparedBearing, curves: tuple[ContactCurve, ContactCur
 def _states(
     equilibria: Sequence[Equilibrium], ring: RingContacts[Any], curve: ContactCurve
 ) -> Iterator[RingState]:
-    """Contacts of all elements with a ring at each equilibrium, computed together."""
+    """Contacts of all elements with a ring at each equilibrium, computed together.
+
+    The second half of the equilibria mirrors the first, and has equal contacts.
+    """
     loads = [at.ring(inner=ring.inner) for at in equilibria]
-    load, gap = (np.concatenate([getattr(at, name) for at in loads], axis=-1) for name in ("load", "gap"))
-    tracks = ring.conditions.geometry.tracks
-    room = np.concatenate([_room(at, tracks, inner=ring.inner) for at in equilibria], axis=-1)
-    whole, number = ring_state(ring, curve, load=load, gap=gap, room=room), len(equilibria)
-    split = partial(np.split, indices_or_sections=number, axis=-1)
-    columns = zip(*map(split, whole.values.columns()), strict=True)
-    for at, apart, solved, values in zip(split(load), split(gap), split(whole.solved), columns, strict=True):
-        yield RingState(at, apart, solved, ContactValues(*values))
+    geometry, number = ring.conditions.geometry, len(equilibria) // 2 + 1
+    load, gap = (
+        np.concatenate([getattr(at, name) for at in loads[:number]], axis=-1) for name in ("load", "gap")
+    )
+    rooms = [_room(at, geometry.tracks, inner=ring.inner) for at in equilibria[:number]]
+    whole = ring_state(ring, curve, load=load, gap=gap, room=np.concatenate(rooms, axis=-1))
+    columns = [np.split(column, number, axis=-1) for column in (whole.solved, *whole.values.columns())]
+    order = mirrored_order(loads[0].load.shape[-1], geometry.groups)
+    for k, at in enumerate(loads):
+        if k < number:
+            solved, *values = (column[k] for column in columns)
+        else:
+            solved, *values = (column[len(loads) - k][..., order] for column in columns)
+        yield RingState(at.load, at.gap, solved, ContactValues(*values))
 
 
 # Load of an element at the inner ring over the largest one, from which on another track holds the element.

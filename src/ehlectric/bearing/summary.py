@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Sequence
 from operator import mul, truediv
 from typing import Any
 
@@ -49,7 +50,7 @@ from ehlectric.bearing.solution import (
 from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.discharge.discharge_laws import conductivity_of, known
 from ehlectric.quantities.former_keys import with_former_keys
-from ehlectric.quantities.result_warnings import texts_and_codes
+from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
 from ehlectric.quantities.results import BEARING_KEYS
 from ehlectric.runtime.files import plain
 
@@ -59,10 +60,11 @@ _PARTS_OF_FILM_FACTOR = ("heat_factor", "inlet_shear_factor", "supply_factor")
 _VOLTAGES = tuple(field.name for field in dataclasses.fields(Breakdown))
 
 
-def summary_of(solution: BearingSolution) -> dict[str, Any]:
+def summary_of(solution: BearingSolution, warnings: Sequence[ResultWarning] | None = None) -> dict[str, Any]:
     """Results of a bearing nested as in summary.json, SI units; None instead of NaN.
 
-    The verdict and the analysis of the margin are omitted, because they solve further bearings.
+    The verdict and the analysis of the margin are omitted, because they solve further bearings. ``warnings``,
+    warnings about the bearing, where they are known.
     """
     case, duty = solution.case, duty_of(solution)
     summary: dict[str, Any] = plain(
@@ -71,7 +73,7 @@ def summary_of(solution: BearingSolution) -> dict[str, Any]:
             "version": solution.version,
             "title": case.title,
             "converged": solution.converged,
-            **texts_and_codes(bearing_warnings(solution)),
+            **texts_and_codes(bearing_warnings(solution) if warnings is None else warnings),
             "inputs": case.all_inputs(),
             **tables_of(solution, duty),
             "contacts": contact_rows(solution, duty),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -54,7 +54,7 @@ from ehlectric.discharge.film_verdict import (
     weibull_part,
 )
 from ehlectric.quantities.lubrication_states import BOUNDARY, MIXED
-from ehlectric.quantities.result_warnings import active
+from ehlectric.quantities.result_warnings import ResultWarning, active
 from ehlectric.quantities.statement import Bound, Fact, Level, Statement
 from ehlectric.quantities.verdict import Verdict
 
@@ -66,6 +66,7 @@ def bearing_verdict(
     *,
     unknown: str = "",
     follows: bool = False,
+    warnings: Sequence[ResultWarning] | None = None,
 ) -> Verdict:
     """Verdict on a solved bearing; grey where the numbers must not be used, and without a strength or a shaft
     voltage. Of ceramic elements it is about the voltage that they insulate.
@@ -76,9 +77,10 @@ def bearing_verdict(
     is the margin at a probability of 5 %. Without a stated range of the strength, a margin that a change of
     the strength by 20 % takes across 1 is also yellow. ``unknown``, reason for which the probability has no
     value, though the bearing has a margin: no such verdict is green. ``follows``, whether the range of the
-    margin is still to be computed. The levels and codes follow ``breakdown_rule``.
+    margin is still to be computed. ``warnings``, warnings about the bearing, where they are known. The levels
+    and codes follow ``breakdown_rule``.
     """
-    warnings = bearing_warnings(solution)
+    warnings = bearing_warnings(solution) if warnings is None else warnings
     refused = unusable(warnings)
     if refused is not None:
         return refused

@@ -42,7 +42,7 @@ from ehlectric.cases.table import (
     CaseFile,
     Table,
     Title,
-    fields_within,
+    field_within,
     nearest_key,
     number_of,
     parser_of,
@@ -134,7 +134,7 @@ def _range(key: str, value: Any, model: type[Table]) -> InputRange:
 
 def _field(key: str, model: type[Table], takes: str = "a list of two values") -> FieldInfo:
     """Field of a dotted key that takes some values."""
-    field = fields_within(model).get(key)
+    field = field_within(model, key)
     if field is None or key == "ranges":
         raise InputError.unknown(key, nearest_key(key, model))
     if table_of(field.annotation) is not None:
@@ -144,7 +144,7 @@ def _field(key: str, model: type[Table], takes: str = "a list of two values") ->
 
 def _quantity(model: type[Table], key: str) -> Amount | None:
     """Quantity of a dotted key; None for a key that is none."""
-    field = fields_within(model).get(key)
+    field = field_within(model, key)
     quantity = None if field is None else number_of(field)
     return quantity if isinstance(quantity, Amount) else None
 

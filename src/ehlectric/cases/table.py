@@ -488,7 +488,7 @@ def _error(detail: ErrorDetails, model: type[Table], given: Mapping[str, Any]) -
 
 def _missing(key: str, model: type[Table], given: Any) -> InputError:
     """Error of a required key, with the values that it takes."""
-    field = fields_within(model).get(key)
+    field = field_within(model, key)
     sign = model.missing_table_hint(key, given) if isinstance(given, Mapping) else ""
     return InputError.missing(key, _takes(key, field, model) + sign)
 
@@ -602,6 +602,16 @@ def fields_within(model: type[Table], prefix: str = "") -> dict[str, FieldInfo]:
         if inner is not None:
             fields |= fields_within(inner, f"{prefix}{name}.")
     return fields
+
+
+def field_within(model: type[Table], key: str) -> FieldInfo | None:
+    """Field of a dotted key of a table or of the tables in it; None for an unknown key."""
+    inner: type[Table] | None = model
+    field: FieldInfo | None = None
+    for name in key.split("."):
+        field = None if inner is None else inner.known_keys().get(name)
+        inner = None if field is None else table_of(field.annotation)
+    return field
 
 
 def name_key(key: str, model: type[Table]) -> str:

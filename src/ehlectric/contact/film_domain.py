@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ehlectric.arrays import Mask, Numbers, as_float
+from ehlectric.arrays import Numbers, as_float
 
 # Distances of the ends of a domain from the middle of the contact: inlet, outlet and side.
 Ends = tuple[Numbers, Numbers, Numbers]
@@ -57,10 +57,10 @@ class DomainRule:
         )
         return inlet, outlet, side
 
-    def holds(self, along: Numbers, across: Numbers = 0.0) -> Mask:
-        """Whether a domain with the largest ends is long and wide enough for a film."""
-        fits = self.inlet(along) <= self.most[0]
-        return np.asarray(fits & (self.side(across) <= self.most[2]) if self.sideways else fits)
+    def part_needed(self, along: Numbers, across: Numbers = 0.0) -> Numbers:
+        """Inlet or side that a film needs over the largest one, the larger of both ratios."""
+        inlet = self.inlet(along) / self.most[0]
+        return np.maximum(inlet, self.side(across) / self.most[2]) if self.sideways else inlet
 
 
 # Largest inlet and side of a grid. Films of contacts under very light loads often do not converge on longer

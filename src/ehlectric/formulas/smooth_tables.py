@@ -12,7 +12,7 @@ M. A. Chkifa, A. Cohen and C. Schwab, Found. Comput. Math. 14 (2014) 601, doi:10
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
 from itertools import product
@@ -24,13 +24,14 @@ from ehlectric.arrays import Array, IntArray, Mask
 # Function of several variables at m points, shape (variables, m) -> (m,).
 Function = Callable[[Array], Array]
 
-# Most nodes along a variable, and most nodes in all; largest sum of the numbers of the first products.
-_MOST_ALONG, _MOST, _FIRST = 60, 2500, 3
+# Most nodes along a variable, and most nodes in all; largest number along a variable and largest sum of the
+# numbers of the first products, where none are expected; largest sum of parts of the expected numbers.
+_MOST_ALONG, _MOST, _ALONG, _FIRST, _LONGEST = 60, 2500, 2, 3, 1.0 + 1e-9
 
 # Coefficient over the tolerance beyond which products are added, its part that is expected of the next
-# product, and points between the nodes at which a table is compared with its function. The coefficient is
-# lowered down to its least part of the tolerance.
-_LARGE, _NEXT, _CHECKED, _LEAST = 0.5, 0.1, 24, 1e-6
+# product, points between the nodes at which a table is compared with its function, and the largest difference
+# there over the tolerance. The coefficient is lowered down to its least part of the tolerance.
+_LARGE, _NEXT, _CHECKED, _ACCURATE, _LEAST = 0.5, 0.1, 24, 0.3, 1e-6
 
 # Points that are computed together: few enough for the processor's cache; rows of a triangular system that
 # are solved together.
@@ -148,12 +149,16 @@ class SmoothTable:
         return rows[::-1], numbers[::-1], matrix
 
 
-def smooth_table(function: Function, low: Array, high: Array, tolerance: float) -> SmoothTable | None:
+def smooth_table(
+    function: Function, low: Array, high: Array, tolerance: float, expected: Sequence[int] = ()
+) -> SmoothTable | None:
     """Polynomial that meets a function in a box to a tolerance; None if that takes too many nodes, or if the
     function has no value at one of the points.
 
     ``function``, analytic function of points of shape (variables, m), two variables or more; ``low`` and
-    ``high``, box, shape (variables,); ``tolerance``, largest difference at points between the nodes.
+    ``high``, box, shape (variables,); ``tolerance``, largest difference at points between the nodes;
+    ``expected``, largest number of the polynomials along each variable that is expected. The first products
+    are then a simplex with these corners, and the function is called a few times less.
 
     Examples
     --------
@@ -162,22 +167,21 @@ def smooth_table(function: Function, low: Array, high: Array, tolerance: float) 
     0.0
     """
     box = np.asarray(low, dtype=float), np.asarray(high, dtype=float)
-    known = _Known(function, *box)
+    known = _Known(function, *box, expected)
     draw = np.random.default_rng(1).uniform(-1.0, 1.0, (box[0].size, _CHECKED))
     # Few different values of the first variable, which may be expensive to change.
     draw[0] = np.repeat(draw[0, :3], _CHECKED // 3)
     draw[box[1] <= box[0]] = 0.0
-    expected, large = known.at(draw), _LARGE * tolerance
-    if not np.all(np.isfinite(expected)):
+    values, large = known.at(draw), _LARGE * tolerance
+    if not np.all(np.isfinite(values)):
         return None
     # With all products along the variables, smaller coefficients add none.
     while known.complete and len(known.numbers) <= _MOST and large > _LEAST * tolerance:
-        if known.grow(large):
-            continue
-        error = float(np.max(np.abs(known.table(*draw) - expected)))
-        if error <= tolerance:
+        error = float(np.max(np.abs(known.table(*draw) - values)))
+        if error <= _ACCURATE * tolerance:
             return SmoothTable(*box, known.table.numbers, known.table.coefficients, error)
-        large *= 0.25
+        if not known.grow(large):
+            large *= 0.25
     return None
 
 
@@ -199,12 +203,15 @@ def _substituted(matrix: Array, right: Array) -> Array:
 class _Known:
     """Products of a table that grows, with the values of its function at their nodes."""
 
-    def __init__(self, function: Function, low: Array, high: Array) -> None:
+    def __init__(self, function: Function, low: Array, high: Array, expected: Sequence[int]) -> None:
         self.function, self.low, self.high = function, low, high
         self.numbers: list[tuple[int, ...]] = []
         self.coefficients = np.empty(0)
-        each = product(*(range(3 if end > start else 1) for start, end in zip(low, high, strict=True)))
-        self._add(numbers for numbers in each if sum(numbers) <= _FIRST)
+        most = expected or (_ALONG,) * len(low)
+        within = (k if end > start else 0 for k, start, end in zip(most, low, high, strict=True))
+        each, parts = product(*(range(k + 1) for k in within)), np.array(most, dtype=float)
+        longest = _LONGEST if expected else _FIRST / _ALONG
+        self._add(numbers for numbers in each if np.sum(numbers / parts) <= longest)
 
     def at(self, scaled: Array) -> Array:
         """Values of the function at points from -1 to 1, shape (variables, m)."""

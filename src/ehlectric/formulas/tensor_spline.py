@@ -7,7 +7,7 @@ third of a second to load.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -44,7 +44,8 @@ class TensorSpline:
         for number, axis in enumerate(axes):
             k = min(degree, axis.size - 1)
             along = _knots(axis, k)
-            first, basis = _basis(along, k, axis)
+            first = _first(along, k, axis)
+            basis = _basis(along, k, axis, first)
             matrix = np.zeros((axis.size, axis.size))
             matrix[np.arange(axis.size)[:, np.newaxis], first[:, np.newaxis] + np.arange(k + 1)] = basis.T
             lines = np.moveaxis(coefficients, number, 0)
@@ -57,25 +58,33 @@ class TensorSpline:
     def __call__(self, points: Array) -> Array:
         """Values at points of shape (..., variables), shape (..., n)."""
         flat = np.reshape(points, (-1, points.shape[-1]))
-        values = np.empty((len(flat), self.coefficients.shape[-1]))
-        for start in range(0, len(flat), _BLOCK):
-            values[start : start + _BLOCK] = self._at(flat[start : start + _BLOCK])
+        shape, n = self.coefficients.shape[:-1], self.coefficients.shape[-1]
+        firsts = [_first(*law) for law in zip(self.knots, self.degrees, flat.T, strict=True)]
+        cells = np.zeros(len(flat), dtype=np.intp)
+        for first, size in zip(firsts, shape, strict=True):
+            cells = cells * size + first
+        # Points of a cell have the same coefficients, and their values are a product of matrices.
+        order = np.argsort(cells, kind="stable")
+        flat, firsts = flat[order], [first[order] for first in firsts]
+        basis = list(map(_basis, self.knots, self.degrees, flat.T, firsts))
+        values = np.empty((len(flat), n))
+        for part in _blocks(cells[order]):
+            lows = [int(first[part.start]) for first in firsts]
+            near = tuple(slice(low, low + k + 1) for low, k in zip(lows, self.degrees, strict=True))
+            weights = np.ones((1, part.stop - part.start))
+            for along in basis:
+                weights = (weights[:, np.newaxis] * along[:, part]).reshape(-1, weights.shape[1])
+            values[order[part]] = (self.coefficients[near].reshape(-1, n).T @ weights).T
         return values.reshape(*points.shape[:-1], -1)
 
-    def _at(self, points: Array) -> Array:
-        """Values at points of shape (m, variables), shape (m, n)."""
-        number = len(points)
-        places, weights = np.zeros((number, 1), dtype=int), np.ones((number, 1))
-        for size, knots, k, at in zip(
-            self.coefficients.shape[:-1], self.knots, self.degrees, points.T, strict=True
-        ):
-            first, basis = _basis(knots, k, at)
-            along = first[:, np.newaxis] + np.arange(k + 1)
-            places = (places[:, :, np.newaxis] * size + along[:, np.newaxis]).reshape(number, -1)
-            weights = (weights[:, :, np.newaxis] * basis.T[:, np.newaxis]).reshape(number, -1)
-        near = self.coefficients.reshape(-1, self.coefficients.shape[-1]).take(places, axis=0)
-        values: Array = np.einsum("mp,mpn->mn", weights, near)
-        return values
+
+def _blocks(cells: IntArray) -> Iterator[slice]:
+    """Parts of points, in the order of their cells, that are in one cell each."""
+    start = 0
+    for end in [*(np.flatnonzero(np.diff(cells)) + 1).tolist(), cells.size]:
+        for first in range(start, end, _BLOCK):
+            yield slice(first, min(first + _BLOCK, end))
+        start = end
 
 
 def _knots(axis: Array, k: int) -> Array:
@@ -86,19 +95,25 @@ def _knots(axis: Array, k: int) -> Array:
     return np.concatenate([np.repeat(axis[0], k + 1), inner, np.repeat(axis[-1], k + 1)])
 
 
-def _basis(knots: Array, k: int, at: Array) -> tuple[IntArray, Array]:
-    """Number of the first B-spline that is not zero at points, shape (m,), and the values there of k + 1
-    B-splines from this one on, shape (k + 1, m), by the recurrence of de Boor.
+def _first(knots: Array, k: int, at: Array) -> IntArray:
+    """Number of the first B-spline that is not zero at points, shape (m,)."""
+    interval = np.searchsorted(knots, at, side="right") - 1
+    return np.clip(interval, k, knots.size - k - 2) - k
+
+
+def _basis(knots: Array, k: int, at: Array, first: IntArray) -> Array:
+    """Values at points, shape (m,), of k + 1 B-splines from the first one on, shape (k + 1, m), by the
+    recurrence of de Boor.
     """
-    interval = np.clip(np.searchsorted(knots, at, side="right") - 1, k, knots.size - k - 2)
+    near = [knots[first + place] for place in range(1, 2 * k + 1)]
     basis = np.zeros((k + 1, at.size))
     basis[0] = 1.0
     for degree in range(1, k + 1):
         carried = np.zeros(at.size)
         for r in range(degree):
-            right, left = knots[interval + r + 1], knots[interval + r + 1 - degree]
+            right, left = near[k + r], near[k + r - degree]
             part = basis[r] / (right - left)
             basis[r] = carried + (right - at) * part
             carried = (at - left) * part
         basis[degree] = carried
-    return interval - k, basis
+    return basis

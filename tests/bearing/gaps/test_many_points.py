@@ -21,6 +21,8 @@ from ehlectric.bearing.gap_tables import (
     rigid_rollers,
 )
 from ehlectric.bearing.gaps import (
+    COARSE,
+    FINE,
     LoadedContact,
     Raceway,
     RollerRaceway,
@@ -165,9 +167,32 @@ def test_few_contacts_are_integrated():
     assert b.size < LEAST
     assert around_of_balls(race, b, ends, films, BALL_DOMAINS) == pytest.approx(around, rel=1e-12)
     assert between_domains(race, ends, middle, BALL_DOMAINS) == pytest.approx(between, rel=1e-12)
-    found = around_ellipses(race, middle, BALL_DOMAINS)
-    assert found[0] == pytest.approx(before, rel=1e-12)
-    assert found[1] == pytest.approx(behind, rel=1e-12)
+    alone = around_ellipses(race.at(0), middle[:, 0], BALL_DOMAINS)
+    assert alone[0] == pytest.approx(before[:, 0], rel=1e-12)
+    assert alone[1] == pytest.approx(behind[:, 0], rel=1e-12)
+    # Several points share polynomials, whose box does not depend on their number.
+    together = around_ellipses(race, middle, BALL_DOMAINS)
+    assert together[0] == pytest.approx(before, rel=6e-9)
+    assert together[1] == pytest.approx(behind, rel=6e-9)
+
+
+def test_coarse_nodes():
+    """Fine ones are compared with a finer quadrature in test_groove.py."""
+    race, b, ends, films = contacts(6, outer=False)
+    fine, coarse = (
+        around_directly(race, b, (-ends[0], *ends[1:]), films, nodes=nodes)[0] for nodes in (FINE, COARSE)
+    )
+    assert coarse == pytest.approx(fine, rel=1e-5, abs=0.0)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("outer", [False, True])
+def test_polynomials_of_rigid_balls_are_the_integrals(outer):
+    race, gaps = race_of(np.linspace(-0.15, 0.15, 40), outer=outer), np.geomspace(2e-8, 5e-5, 30)
+    found = rigid_balls(race, gaps[:, np.newaxis] * np.linspace(1.0, 1.5, 40))
+    some = slice(0, 40, 13)
+    expected = groove_capacitance(race.at(some), gaps[:, np.newaxis] * np.linspace(1.0, 1.5, 40)[some])
+    assert found[:, some] == pytest.approx(expected, rel=6e-9, abs=0.0)
 
 
 @pytest.mark.slow

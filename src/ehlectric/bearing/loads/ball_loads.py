@@ -59,7 +59,7 @@ from ehlectric.errors import InputError
 B = TypeVar("B", BallBearing, FourPointBearing)
 
 # Points of operation that are computed together: few enough for the processor's cache.
-_BLOCK = 1024
+_BLOCK = 8192
 
 _TINY = np.finfo(float).tiny
 

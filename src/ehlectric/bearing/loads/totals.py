@@ -30,10 +30,7 @@ def mirrored(at: Equilibrium, position: Array, rows: int = 1) -> Equilibrium:
     ``position`` are the angles of the elements, with the cage at the pitch less its angle [rad], shape
     (..., elements), all ``rows`` one after the other.
     """
-    values = vars(at)
-    number = at.position.shape[-1]
-    # Each row by itself has its last element first.
-    turn = np.arange(number).reshape(rows, -1)[:, ::-1].ravel()
+    values, turn = vars(at), mirrored_order(at.position.shape[-1], rows)
     turned = {name: values[name][..., turn] for name in _OF_ELEMENTS & values.keys()}
     turned |= {name: values[name][..., turn, :] for name in _OF_SLICES & values.keys()}
     lateral = {name: -values[name] for name in values if name.startswith("lateral_")}
@@ -43,6 +40,17 @@ def mirrored(at: Equilibrium, position: Array, rows: int = 1) -> Equilibrium:
     return dataclasses.replace(
         at, position=np.broadcast_to(position, at.position.shape), speeds=speeds, **turned, **lateral
     )
+
+
+def mirrored_order(number: int, rows: int = 1) -> IntArray:
+    """Places of the elements in the order that a mirrored position has: each row has its last one first.
+
+    Examples
+    --------
+    >>> mirrored_order(6, 2).tolist()
+    [2, 1, 0, 5, 4, 3]
+    """
+    return np.arange(number).reshape(rows, -1)[:, ::-1].ravel()
 
 
 def around_in_rows(positions: Sequence[Array], rows: int) -> tuple[Array, IntArray]:

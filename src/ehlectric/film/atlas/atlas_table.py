@@ -79,24 +79,24 @@ class Table:
 
     @cached_property
     def _error(self) -> TensorSpline:
-        """Error of discretisation and interpolation, linear between nodes."""
-        total, (nearest, _) = self.errors + self.interpolation_errors, self._without_film
+        """Error of discretisation and interpolation, and its growth towards nodes without a film, which is
+        the last number; linear between nodes.
+        """
+        total, (nearest, more) = self.errors + self.interpolation_errors, self._without_film
         total[~self.solved] = total[self.solved][nearest]
-        return TensorSpline.through([np.log(axis) for axis in self.axes], total, degree=1)
-
-    @cached_property
-    def _growth(self) -> TensorSpline:
-        """Growth of the error towards nodes without a film, linear between nodes."""
         growth = np.zeros((*self.solved.shape, 1))
-        growth[~self.solved, 0] = self._without_film[1]
-        return TensorSpline.through([np.log(axis) for axis in self.axes], growth, degree=1)
+        growth[~self.solved, 0] = more
+        both = np.concatenate([total, growth], axis=-1)
+        return TensorSpline.through([np.log(axis) for axis in self.axes], both, degree=1)
 
     @cached_property
     def _without_film(self) -> tuple[IntArray, Array]:
         """Number of the solved node nearest to each node without a film, and growth of the error from it."""
         scaled = [max(rates) * np.log(axis) for axis, rates in zip(self.axes, self.growth, strict=True)]
         places = np.stack(np.meshgrid(*scaled, indexing="ij"), axis=-1)
-        growth = np.abs(places[~self.solved][:, np.newaxis] - places[self.solved]).sum(axis=-1)
+        # Coordinate by coordinate: an array of all differences does not fit into the processor's cache.
+        pairs = zip(places[~self.solved].T, places[self.solved].T, strict=True)
+        growth = sum(np.abs(np.subtract.outer(*pair)) for pair in pairs)
         return np.argmin(growth, axis=1), np.min(growth, axis=1)
 
     @cached_property
@@ -124,7 +124,7 @@ class Table:
             self.check(*map(float, at))
         points = np.stack(np.broadcast_arrays(*at), axis=-1)
         logs = np.log(points)
-        return np.moveaxis(self._spline(logs), -1, 0), np.moveaxis(self._error(logs), -1, 0)
+        return np.moveaxis(self._spline(logs), -1, 0), np.moveaxis(self._error(logs)[..., :-1], -1, 0)
 
     def continued(self, *at: Numbers) -> tuple[Array, Array, Array]:
         """Stored numbers, their errors in the table and the growth of these errors outside the table.
@@ -140,7 +140,7 @@ class Table:
         ]
         inside = [np.log(value) for value in self.nearest(*map(np.exp, logs))]
         points = np.stack(inside, axis=-1)
-        numbers, errors = (np.moveaxis(law(points), -1, 0) for law in (self._spline, self._error))
+        numbers, both = (np.moveaxis(law(points), -1, 0) for law in (self._spline, self._error))
         heavier = logs[0] > inside[0]
         if np.any(heavier):
             # The last two nodes have the power of the load.
@@ -148,7 +148,7 @@ class Table:
             before = np.moveaxis(self._spline(points[heavier] - [step, *np.zeros(len(logs) - 1)]), -1, 0)
             steps = (logs[0] - inside[0])[heavier] / step
             numbers[:, heavier] += steps * (numbers[:, heavier] - before)
-        return numbers, errors, self._growth(points)[..., 0] + self._grown(logs, inside)
+        return numbers, both[:-1], both[-1] + self._grown(logs, inside)
 
     def _grown(self, logs: list[Array], inside: list[Array]) -> Array:
         """Growth of the errors from the nearest points ``inside`` the table, both as logarithms."""
