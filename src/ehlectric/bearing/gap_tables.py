@@ -411,8 +411,8 @@ def _ellipse(law: DomainLaw, part: int, box: _Box) -> SmoothTable | None:
 
 @lru_cache(maxsize=64)
 def _rigid(size: _Size, box: _Box) -> SmoothTable | None:
-    """Logarithm of the capacitance of rigid balls [F] over squared angle, logarithm of the gap over the
-    radius of the ball, and what varies.
+    """Logarithm of the capacitance [F] of rigid balls over the squared angle, the logarithm of gap over ball
+    radius, and what varies.
     """
 
     def logarithm(at: Array) -> Array:

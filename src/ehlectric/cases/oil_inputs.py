@@ -72,6 +72,13 @@ def law_parameters(*choices: str) -> dict[str, Parameter]:
     return {parameter.name: parameter for law in laws for parameter in law.parameters}
 
 
+@lru_cache(maxsize=256)
+def _field_of(parameter: Parameter) -> FieldInfo:
+    """Field of a parameter of a law, which is made once."""
+    annotation = Annotated[float, with_bounds(Amount, parameter)]
+    return FieldInfo(annotation=Optional[annotation], default=None)  # noqa: UP045
+
+
 @dataclass(frozen=True)
 class Named(AfterValidator):
     """Pydantic annotation of a name, with the names that are allowed."""
@@ -528,8 +535,7 @@ class Properties(Table, book="lubricant", named_by="base"):
             known[name] = field
             for parameter in law_parameters(name).values() if name in LAWS else ():
                 if parameter.name not in cls.model_fields:
-                    annotation = Annotated[float, with_bounds(Amount, parameter)]
-                    known[parameter.name] = FieldInfo(annotation=Optional[annotation], default=None)  # noqa: UP045
+                    known[parameter.name] = _field_of(parameter)
         return known
 
     @field_validator("temperature", mode="before")
