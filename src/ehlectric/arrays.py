@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar, overload
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 Array: TypeAlias = NDArray[np.float64]
@@ -66,6 +67,20 @@ def any_of(*conditions: Booleans) -> Booleans:
     for condition in conditions:
         holds = holds | condition
     return holds
+
+
+def largest_nearby(values: Array) -> Array:
+    """Return the largest of each value of a grid and of its neighbours, also of the diagonal ones.
+
+    Examples
+    --------
+    >>> largest_nearby(np.array([3.0, 1.0, 0.0, 2.0])).tolist()
+    [3.0, 3.0, 2.0, 2.0]
+    """
+    for axis in range(values.ndim):
+        ends = [(1, 1) if k == axis else (0, 0) for k in range(values.ndim)]
+        values = np.max(sliding_window_view(np.pad(values, ends, mode="edge"), 3, axis), axis=-1)
+    return values
 
 
 def as_float(values: Numbers | np.floating[Any] | NDArray[np.floating[Any]]) -> Numbers:

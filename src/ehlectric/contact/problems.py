@@ -9,7 +9,6 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-import scipy
 
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
@@ -35,6 +34,7 @@ from ehlectric.film import (
 )
 from ehlectric.formulas.film_line import CentralThickness, moes
 from ehlectric.formulas.film_point import load_exponent, nijenbanning_venner_moes
+from ehlectric.formulas.monotone_cubic import MonotoneCubic
 from ehlectric.lubricant.law import PressureLaw
 from ehlectric.lubricant.oil import Oil
 from ehlectric.surfaces.generated_profiles import Domain
@@ -199,7 +199,9 @@ def _on_columns(
     def resampled(values: Array) -> Array:
         # Monotone cubic interpolation is exact at the nodes, and makes the film nowhere thinner.
         for k, (nodes, columns) in enumerate(zip(film.axes, axes, strict=True)):
-            values = scipy.interpolate.PchipInterpolator(nodes, values, axis=k)(columns)
+            lines = np.moveaxis(values, k, -1)
+            curves = MonotoneCubic(nodes, lines.reshape(-1, nodes.size))(columns)
+            values = np.moveaxis(curves.reshape(*lines.shape[:-1], columns.size), -1, k)
         return values
 
     # Middle and gap are interpolated, because separately interpolated walls could cross between nodes.

@@ -9,7 +9,6 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-import scipy
 
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
@@ -36,6 +35,7 @@ from ehlectric.discharge.film_breakdown import field_warning_conditions
 from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.field import Field, PointField
 from ehlectric.film import FilmProblem, OnGrid, Progress, with_far_field
+from ehlectric.formulas.polynomials import on_nodes
 from ehlectric.lubricant.oil import Oil
 from ehlectric.quantities.result_warnings import ResultWarning, active
 from ehlectric.runtime.files import now
@@ -304,9 +304,9 @@ def _smooth(
     field = solvers.field[conditions.geometry](kind.field_problem(last, conditions, film, heights))
     nodes = films.film.axes
     return Smooth(
-        _on(film.axes, film.pressure, nodes),
-        _on(film.axes, film.thickness, nodes),
-        _on(field.axes, field.middle_strength, columns),
+        on_nodes(film.pressure, film.axes, nodes),
+        on_nodes(film.thickness, film.axes, nodes),
+        on_nodes(field.middle_strength, field.axes, columns),
     )
 
 
@@ -330,12 +330,3 @@ def _coarser(contact: PreparedContact, films: Refined, solvers: Solvers) -> Coar
     if not film.converged:
         return None
     return Coarser.of(conditions, film)
-
-
-def _on(axes: tuple[Array, ...], values: Array, nodes: tuple[Array, ...]) -> Array:
-    """Values on other nodes within the same domain; unchanged if the nodes are equal."""
-    if all(np.array_equal(axis, other) for axis, other in zip(axes, nodes, strict=True)):
-        return values
-    at = np.stack(np.meshgrid(*nodes, indexing="ij"), axis=-1)
-    interpolated: Array = scipy.interpolate.RegularGridInterpolator(axes, values)(at)
-    return interpolated

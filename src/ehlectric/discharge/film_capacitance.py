@@ -18,7 +18,6 @@ from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import scipy
 from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array, Mask
@@ -28,6 +27,7 @@ from ehlectric.discharge.discharge_laws import Size
 from ehlectric.errors import InputError, shown
 from ehlectric.field import ATOM, areas_by_zone
 from ehlectric.formulas.gaussian import dawson
+from ehlectric.formulas.polynomials import on_nodes
 from ehlectric.lubricant.oil import Oil
 
 if TYPE_CHECKING:
@@ -38,10 +38,8 @@ if TYPE_CHECKING:
 def at_columns(film: Film | PointFilm, field: Field | PointField, values: Array) -> Array:
     """Interpolate values linearly from the nodes of a film to the columns of its field."""
     # A column at the edge of the domain may be outside it because of rounding.
-    columns = [np.clip(at, axis[0], axis[-1]) for at, axis in zip(field.axes, film.axes, strict=True)]
-    interpolated = scipy.interpolate.RegularGridInterpolator(film.axes, values)
-    values_at_columns: Array = interpolated(tuple(np.meshgrid(*columns, indexing="ij")))
-    return values_at_columns
+    columns = (np.clip(at, axis[0], axis[-1]) for at, axis in zip(field.axes, film.axes, strict=True))
+    return on_nodes(values, film.axes, tuple(columns))
 
 
 def oil_fraction(thickness: Array, density: Array, cavitated: Mask) -> Array:

@@ -17,10 +17,10 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar
 
 import numpy as np
-import scipy
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, largest_nearby
 from ehlectric.errors import ConvergenceError
+from ehlectric.formulas.akima import with_middles
 from ehlectric.quantities.field_metadata import number, stored
 from ehlectric.runtime.display import Values
 
@@ -146,9 +146,7 @@ def places(problem: GapProblem, strength: Array) -> list[Place]:
 
 def _columns(problem: GapProblem, strength: Array, first_order: Array) -> Iterator[tuple[int, ...]]:
     bound = strength + HIGHER_ORDER * np.maximum(first_order - strength, 0.0)
-    summits = (bound == scipy.ndimage.maximum_filter(bound, size=3)) & (
-        bound > _LOW * float(np.max(strength))
-    )
+    summits = (bound == largest_nearby(bound)) & (bound > _LOW * float(np.max(strength)))
     left = np.where(summits, bound, 0.0)
     column = tuple(int(k) for k in np.unravel_index(np.argmax(strength), strength.shape))
     for _ in range(_MOST_PLACES):
@@ -410,10 +408,7 @@ class _Window(Generic[ProblemT]):
         for k, (name, axis) in enumerate(self.problem.positions.items()):
             fine = np.empty(2 * axis.size - 1)
             fine[::2], fine[1::2] = axis, 0.5 * (axis[:-1] + axis[1:])
-            values = [
-                scipy.interpolate.Akima1DInterpolator(axis, value, axis=k, method="makima")(fine)
-                for value in values
-            ]
+            values = [with_middles(axis, value, k) for value in values]
             changed[name] = fine
         middle, gap, permittivity = values[0], np.exp(values[1]), values[2]
         changed |= {"lower": middle - 0.5 * gap, "upper": middle + 0.5 * gap, "permittivity": permittivity}

@@ -7,11 +7,16 @@ from functools import cache
 from typing import Protocol
 
 import numpy as np
-import scipy
 
 from ehlectric.arrays import Array
 from ehlectric.film.mesh import Mesh
-from ehlectric.formulas.polynomials import derivative_matrix, interpolation, lobatto_nodes, lobatto_weights
+from ehlectric.formulas.polynomials import (
+    derivative_matrix,
+    gauss_legendre,
+    interpolation,
+    lobatto_nodes,
+    lobatto_weights,
+)
 
 # Number of Gauss points across the film. If the stress changes by 200 Eyring stresses across the film, the
 # flux is accurate to 2e-8, where it changes by 500 to 2e-3.
@@ -52,7 +57,7 @@ class Across:
 
 def integrals(nodes: Array, ends: Array) -> Array:
     """Integrals from 0 to each of ``ends`` (n,) of the Lagrange polynomials of ``nodes`` (m,), (n, m)."""
-    points, weights = scipy.special.roots_legendre(nodes.size // 2 + 1)
+    points, weights = gauss_legendre(nodes.size // 2 + 1)
     return np.stack([0.5 * end * weights @ interpolation(nodes, 0.5 * end * (1.0 + points)) for end in ends])
 
 
@@ -68,7 +73,7 @@ class Quadrature:
     @cache
     def gauss(cls, number: int = _POINTS) -> Quadrature:
         """Gauss-Legendre points of the flow across the film."""
-        points, weights = scipy.special.roots_legendre(number)
+        points, weights = gauss_legendre(number)
         return cls(0.5 * points, 0.5 * weights)
 
 

@@ -7,17 +7,16 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 import numpy as np
-import scipy
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, largest_nearby
 from ehlectric.film.deflection import Geometry
 from ehlectric.film.face_flow import Fluid
-from ehlectric.film.mesh import Mesh, at_centre
+from ehlectric.film.mesh import Mesh, at_centre, on_mesh
 from ehlectric.film.nested import accurate_film
 from ehlectric.film.newton import GridSolution, State
 from ehlectric.film.patch import part_of_domain
 from ehlectric.film.problem import FilmProblem
-from ehlectric.formulas.polynomials import gauss_legendre
+from ehlectric.formulas.polynomials import gauss_legendre, on_nodes
 from ehlectric.readable import readable
 
 # Factor by which the change of the minimum from the coarser grid exceeds its error on the finer one, with the
@@ -223,14 +222,6 @@ _REACH = 4.0
 Values = tuple[Mesh, Array]
 
 
-def interpolated(mesh: Mesh, values: Array, x: Array, y: Array) -> Array:
-    """Nodal values (nx, ny) at the positions x and y, by linear interpolation along both axes."""
-    result: Array = scipy.interpolate.make_interp_spline(mesh.x, values, k=1, axis=0)(x)
-    if mesh.y.size > 1:
-        result = scipy.interpolate.make_interp_spline(mesh.y, result, k=1, axis=1)(y)
-    return result
-
-
 def cropped(coarse: Values, fine: Mesh) -> Values:
     """Nodal values (nx, ny) of a coarse grid on its nodes within the domain of a fine grid."""
     mesh, values = coarse
@@ -260,7 +251,7 @@ def change_near(fine: Values, coarse: Values, places: list[tuple[float, float]])
     [0.0, 0.1]
     """
     mesh, values = cropped(coarse, fine[0])
-    difference = np.abs(interpolated(*fine, mesh.x, mesh.y) - values)
+    difference = np.abs(on_mesh(fine[1], fine[0], mesh) - values)
     largest = 0.0
     for at_x, at_y in places:
         near = np.abs(mesh.x - at_x)[:, np.newaxis] <= (_REACH + 0.01) * mesh.dx
@@ -392,7 +383,7 @@ def between_nodes(mesh: Mesh, pressure: Array) -> float:
         if len(values) > 4:
             parabola[1:-1] += np.abs(np.diff(values, 2, axis=0)) / 8.0
             fourth[2:-2] = np.maximum(fourth[2:-2], np.abs(np.diff(values, 4, axis=0)))
-    near = scipy.ndimage.maximum_filter(difference, size=(3, 1 if whole.shape[1] == 1 else 3))
+    near = largest_nearby(difference)
     return max(0.0, float(np.max(whole + of_parabola + _PART * near)) - float(np.max(whole)))
 
 
@@ -479,7 +470,7 @@ def change_of_minimum(fine: Values, coarse: Values) -> float:
     0.3
     """
     mesh, film = cropped(coarse, fine[0])
-    there = interpolated(*fine, mesh.x, mesh.y)
+    there = on_mesh(fine[1], fine[0], mesh)
     change = np.abs(there - film)
     lowest = float(np.min(fine[1]))
     candidates = there - _CANDIDATE * change <= lowest
@@ -516,8 +507,8 @@ def roughness_between_nodes(
     for first in range(0, mesh.x.size - 1, _BLOCK):
         rows = slice(first, first + _BLOCK + 1)
         x = _parted(mesh.x[rows], parts)
-        block = Mesh(mesh.x[rows], mesh.y, mesh.symmetric)
-        lowest = min(lowest, float(np.min(interpolated(block, smooth[rows], x, y) + added_gap(x, y))))
+        between = on_nodes(smooth[rows], (mesh.x[rows], mesh.y), (x, y))
+        lowest = min(lowest, float(np.min(between + added_gap(x, y))))
     of_minimum = 1.0 - lowest / float(np.min(thickness))
     return max(of_minimum, _near_centre(added_gap, mesh, parts) / at_centre(mesh, thickness))
 
@@ -526,9 +517,8 @@ def _near_centre(added_gap: Callable[[Array, Array], Array], mesh: Mesh, parts: 
     """Largest distance of the gap between the nodes from the line through the nodes, near X = Y = 0."""
     x = mesh.x[np.abs(mesh.x) <= (_CENTRE + 1.0) * mesh.dx]
     y = mesh.y if mesh.dy is None else mesh.y[np.abs(mesh.y) <= (_CENTRE + 1.0) * mesh.dy]
-    near = Mesh(x, y)
     finer = _parted(x, parts), (y if y.size == 1 else _parted(y, parts))
-    through_nodes = interpolated(near, added_gap(x, y), *finer)
+    through_nodes = on_nodes(added_gap(x, y), (x, y), finer)
     return float(np.max(np.abs(added_gap(*finer) - through_nodes)))
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlectric.arrays import Array, Mask
+from ehlectric.formulas.polynomials import on_nodes
 
 
 @dataclass(frozen=True)
@@ -157,11 +158,4 @@ def on_mesh(values: Array, of: Mesh, mesh: Mesh) -> Array:
     >>> on_mesh(np.array([[0.0], [1.0], [4.0]]), of, mesh)[:, 0].tolist()
     [0.0, 0.5, 1.0, 2.5, 4.0]
     """
-    for axis, old, new in ((-2, of.x, mesh.x), (-1, of.y, mesh.y)):
-        if old.size == 1 or (old.size == new.size and np.array_equal(old, new)):
-            continue
-        left = np.clip(np.searchsorted(old, new, side="right") - 1, 0, old.size - 2)
-        part = (new - old[left]) / (old[left + 1] - old[left])
-        part = part[:, np.newaxis] if axis == -2 else part
-        values = (1.0 - part) * np.take(values, left, axis) + part * np.take(values, left + 1, axis)
-    return values
+    return on_nodes(values, (of.x, of.y), (mesh.x, mesh.y))

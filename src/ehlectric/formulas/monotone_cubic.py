@@ -71,9 +71,12 @@ class MonotoneCubic:
         x, last = self._x, self._size - 1
         low = np.take_along_axis(x, self._first[..., np.newaxis], -1)
         at = np.clip(at, low, x[..., -1:])
-        place = np.zeros(at.shape, dtype=np.intp)
-        for node in range(1, last):
-            place += x[..., node : node + 1] <= at
+        if x.ndim == 1:
+            place = np.searchsorted(x[1:last], at, side="right")
+        else:
+            place = np.zeros(at.shape, dtype=np.intp)
+            for node in range(1, last):
+                place += x[..., node : node + 1] <= at
         part = (at - np.take_along_axis(x, place, -1)) / np.take_along_axis(self._step, place, -1)
         place += last * np.arange(x[..., 0].size).reshape(*x.shape[:-1], 1)
         rows = np.take(self._rows, place.ravel(), axis=0)

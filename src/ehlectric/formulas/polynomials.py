@@ -44,6 +44,27 @@ def interpolation(nodes: Array, at: Array) -> Array:
     return np.stack(columns, axis=1)
 
 
+def on_nodes(values: Array, axes: tuple[Array, ...], nodes: tuple[Array, ...]) -> Array:
+    """Return nodal values on the nodes of another grid within the same domain, by linear interpolation.
+
+    ``values`` have the shape (..., n1, n2) for two axes of n1 and n2 nodes. An axis is kept where both grids
+    have the same nodes, or where it has a single node. The given array is returned if all axes are kept.
+
+    Examples
+    --------
+    >>> on_nodes(np.array([0.0, 1.0, 4.0]), (np.arange(3.0),), (np.array([0.5, 1.5]),)).tolist()
+    [0.5, 2.5]
+    """
+    for axis, (old, new) in enumerate(zip(axes, nodes, strict=True), -len(axes)):
+        if old.size == 1 or (old.size == new.size and np.array_equal(old, new)):
+            continue
+        left = np.clip(np.searchsorted(old, new, side="right") - 1, 0, old.size - 2)
+        part = (new - old[left]) / (old[left + 1] - old[left])
+        part = part.reshape(-1, *(1,) * (-1 - axis))
+        values = (1.0 - part) * np.take(values, left, axis) + part * np.take(values, left + 1, axis)
+    return values
+
+
 def linear_interpolation(left: IntArray, share: Array, size: int) -> scipy.sparse.csr_array:
     """Sparse matrix (n, size) of linear interpolation between the nodes ``left`` (n,) and the next ones.
 
