@@ -27,19 +27,55 @@ def test_the_command_starts_without_what_it_may_not_need():
     assert not loaded & heavy
 
 
-# What an answer without figures, files of results and solved films does not need.
-HEAVY = {"scipy", "matplotlib", "xarray", "pint", "h5py", "numba"}
-SOLVERS = {"ehlectric.film.newton", "ehlectric.field.poisson", "ehlectric.drive.discharges.event_loop"}
+# What an answer without figures, files of results and solved films does not need. SciPy itself is small, and
+# loads each of its parts at its first use.
+PARTS_OF_SCIPY = {
+    f"scipy.{part}" for part in ("special", "linalg", "sparse", "fft", "interpolate", "optimize")
+}
+FILES = {"xarray", "pint", "h5py", "pandas", "matplotlib"}
+COMPILER = {"numba", "ehlectric.drive.discharges.event_loop"}
+BEARINGS = {"ehlectric.cases.bearing_case", "ehlectric.bearing.uncertainty", "ehlectric.sweep.sweep_inputs"}
+SOLVERS = {"ehlectric.film.newton", "ehlectric.field.poisson"}
+UNSOLVED = PARTS_OF_SCIPY | FILES | COMPILER
+
+# Modules of commands: those that each loads, those that it must not load, and the largest number of all.
+BEARING, LINE = "examples/bearing_6208.toml", "examples/line_contact.toml"
+LOADED = {
+    f"check {BEARING}": ("ehlectric.bearing.uncertainty", UNSOLVED | SOLVERS, 720),
+    "check examples/drive.toml": ("ehlectric.drive.preparation", UNSOLVED | SOLVERS, 720),
+    f"check {LINE}": ("ehlectric.contact.preparation", UNSOLVED | BEARINGS, 690),
+    f"bearing {BEARING} --contacts atlas --no-plots --output OUT": (
+        "ehlectric.bearing.stored",
+        PARTS_OF_SCIPY | COMPILER | {"matplotlib", "pint", "pandas", "ehlectric.film.newton"},
+        850,
+    ),
+    f"run {LINE} --no-plots --output OUT": (
+        "ehlectric.film.newton",
+        BEARINGS | COMPILER | {"scipy.interpolate", "scipy.optimize", "scipy.ndimage", "matplotlib", "pint"},
+        1050,
+    ),
+    "oil iso-vg-32": ("ehlectric.cases.oil_report", UNSOLVED | BEARINGS | SOLVERS, 560),
+    "init OUT": ("ehlectric.runs.example_files", UNSOLVED | SOLVERS, 640),
+}
 
 
-def test_checking_a_bearing_loads_no_scipy_and_no_solver():
-    loaded = modules_after(
-        "from ehlectric.runs.preview import preview_of; from ehlectric import BearingCase;"
-        "preview_of(BearingCase.from_toml('examples/bearing_6208.toml'))"
-    )
-    assert "ehlectric.bearing.uncertainty" in loaded
-    assert not loaded & (HEAVY | SOLVERS)
-    assert len(loaded) <= 700
+@pytest.mark.parametrize("command", LOADED)
+def test_a_command_loads_only_what_it_needs(command, tmp_path):
+    needed, unneeded, most = LOADED[command]
+    typed = command.replace("OUT", str(tmp_path / "out.toml")).split()
+    code = f"""
+import runpy, sys
+sys.argv = ["ehlectric", *{typed}]
+try:
+    runpy.run_module("ehlectric", run_name="__main__")
+finally:
+    open({str(tmp_path / "modules")!r}, "w").write(" ".join(sys.modules))
+"""
+    subprocess.run([sys.executable, "-c", code], check=True, capture_output=True)
+    loaded = {*(tmp_path / "modules").read_text().split()}
+    assert needed in loaded
+    assert not loaded & unneeded
+    assert len(loaded) <= most
 
 
 @pytest.mark.slow

@@ -70,7 +70,7 @@ def any_of(*conditions: Booleans) -> Booleans:
 
 
 def largest_nearby(values: Array) -> Array:
-    """Return the largest of each value of a grid and of its neighbours, also of the diagonal ones.
+    """Return at each node the largest value of the node and its neighbours, including diagonal neighbours.
 
     Examples
     --------

@@ -134,7 +134,7 @@ else:
 class Table(BaseModel, metaclass=_Listed):
     """Frozen table of a case file; unknown keys are errors."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
 
     # Name of the table in the book of inputs, and key that a text instead of the table stands for.
     BOOK: ClassVar[str] = ""
