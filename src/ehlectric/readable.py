@@ -89,14 +89,16 @@ def chance_text(probability: float, error: float) -> str:
 
     Examples
     --------
-    >>> chance_text(0.163, 0.016), chance_text(0.0, 0.0009), chance_text(1.0, 0.0009)
-    ('16 % (sampling error 1.6 %)', 'below 0.09 %', 'above 99.9 %')
+    >>> chance_text(0.163, 0.032), chance_text(0.0, 0.00372), chance_text(1.0, 0.00372)
+    ('16 % (sampling error 3.2 %)', 'below 0.75 %', 'above 99.25 %')
     """
     if not at_an_end(probability, error):
         return f"{readable(100.0 * probability, 2)} % (sampling error {readable(100.0 * error, 2)} %)"
-    if probability < error:
-        return f"below {readable(100.0 * (probability + error), 1)} %"
-    return f"above {readable(100.0 * (probability - error))} %"
+    # Wilson's interval of a share of 0 is twice as wide as its half. Two digits, rounded up.
+    most = 100.0 * (min(probability, 1.0 - probability) + 2.0 * error)
+    step = 10.0 ** (math.floor(math.log10(most)) - 1)
+    most = step * math.ceil(most / step)
+    return f"below {readable(most, 2)} %" if probability < error else f"above {readable(100.0 - most, 4)} %"
 
 
 # Difference of the bounds of a probability below which they are one number.

@@ -97,25 +97,25 @@ def test_statements_are_plain_data():
 
 def test_lines_have_the_numbers_of_the_sentences():
     values = {"shaft": 4.04, "breakdown": 3.9, "margin": 0.966, "interval": None}
-    chance = {"probability": Statement.of("chance", pair=(0.53, 0.022)), "doubts": None}
+    chance = {"probability": Statement.of("chance", pair=(0.53, 0.043)), "doubts": None}
     verdict = Verdict(
         "yellow",
         "breakdown-likely",
         Statement.of("bearing-voltages", **values),
         Statement.of("at", speed=314.159265, temperature=343.15),
         reasons=(
-            Statement.of("probability", low=0.46, median=0.97, high=2.09, **chance),
+            Statement.of("probability", low=0.46, median=0.97, high=2.09, off=0.099, **chance),
             Statement.of("measure-first", first="winding-rotor capacitance", share=0.45),
             Statement.of("warning", code="estimated-alpha"),
         ),
         assumptions=(Statement.of("films", words=("fully flooded", "rough")),),
         bound="best",
     )
-    interval = "90 % interval of the margin 0.46 to 2.09, median 0.97"
+    interval = "90 % interval of the margin 0.46 to 2.09, median 0.97 (sampling error 9.9 %)"
     assert [*verdict.lines()] == [
         ("", "Breakdown likely at 3000 rpm, 70 °C"),
         ("voltages", f"shaft 4.04 V, first breakdown 3.9 V, margin 0.97; {interval}"),
-        ("probability", "53 % (sampling error 2.2 %)"),
+        ("probability", "53 % (sampling error 4.3 %)"),
         ("but", "The pressure-viscosity coefficient is estimated from the base oil."),
         ("measure", "winding-rotor capacitance first (45 % of the spread of the margin)"),
         ("model", "best estimate: fully flooded, rough film"),

@@ -93,7 +93,8 @@ def test_points_have_the_probability_of_their_bearing_alone():
 def test_samples_are_those_of_the_bearing_with_shares_of_its_inputs():
     """Without the shares, which points do not have, nothing else differs."""
     solution = solve_bearing(with_motor()).solution
-    whole, spread = uncertainty_of_result(solution), spread_of_result(solution, 2048)
+    whole = uncertainty_of_result(solution)
+    spread = spread_of_result(solution, whole.samples)
     assert np.array_equal(whole.margins, spread.margins)
     shares = {"indices", "predicted"}
     assert spread.summary() == {k: v for k, v in whole.summary().items() if k not in shares}

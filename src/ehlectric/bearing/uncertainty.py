@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from ehlectric.bearing.curve_nodes import where_it_bends
 from ehlectric.bearing.many_points import gathered, many_of, reason_of, solved_parts
 from ehlectric.bearing.margin import ONLY_SOLVED, QuickMargins, film_factors, margin_and_lambda
 from ehlectric.bearing.perturbed_bearings import LEAST, MOST
-from ehlectric.bearing.solution import BearingSolution, film_error
+from ehlectric.bearing.solution import BearingSolution, conducts, film_error
 from ehlectric.bearing.solving import NOT_IN_FILMS
 from ehlectric.bearing.uncertain_inputs import Change, changes_of, proportional_to_strength
 from ehlectric.cases.bearing_case import BearingCase
@@ -29,8 +29,12 @@ from ehlectric.runtime.display import read_only_property
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.threads import one_blas_thread
 
-# Points of the design, a power of 2, and the seed of its random shifts.
-SAMPLES, SEED = 2048, 1
+# Numbers of points of the design, powers of 2, to which it is refined, and the seed of its scrambling. The
+# first one is enough for terms of the third degree in eight inputs.
+STAGES, SEED = (512, 1024, 2048), 1
+
+# Share of the variance that the polynomial behind the shares of the inputs has to predict.
+_PREDICTED = 0.99
 
 # Points of the estimate at once, in which the films stay as they are.
 QUICK_SAMPLES = 256
@@ -126,6 +130,13 @@ class MarginSpread:
         """
         return self.chance.error
 
+    @property
+    def margin_error(self) -> float:
+        """Largest sampling error of the median and of both ends of the interval, part of their value, at a
+        confidence of 95 %: the error of as many random points.
+        """
+        return self.chance.margin_error
+
     @read_only_property
     def chance(self) -> Chance:
         """Probability and interval as a verdict says them."""
@@ -155,6 +166,7 @@ class MarginSpread:
             "margin_median": self.median,
             "margin_low": low,
             "margin_high": plain(high),
+            "margin_error": self.margin_error,
             "breakdown_probability": self.probability,
             "breakdown_probability_low": least,
             "breakdown_probability_high": most,
@@ -189,6 +201,10 @@ class Uncertainty(MarginSpread):
 
     def _shares(self) -> dict[str, Any]:
         return {"indices": [asdict(entry) for entry in self.inputs], "predicted": self.predicted}
+
+
+# Distribution with or without the contributions of the inputs.
+_Spread = TypeVar("_Spread", bound=MarginSpread)
 
 
 @dataclass(frozen=True)
@@ -290,7 +306,7 @@ def uncertainty_of(
     solution: BearingSolution,
     margins: QuickMargins,
     *,
-    samples: int = SAMPLES,
+    samples: int | None = None,
     seed: int = SEED,
 ) -> Uncertainty:
     """Distribution of the margin of a solved bearing over its uncertain inputs.
@@ -300,26 +316,27 @@ def uncertainty_of(
     margins of the solution at changed inputs; ``samples``, number of points, a power of 2; ``seed`` of the
     design.
 
+    By default the design is refined from 512 points up to 2048, until the sampling error of the probability
+    cannot change the level of the verdict, and the shares of the inputs predict 99 % of the variance.
+
     Raises InputError where no point has a result.
     """
-    design, computed, at = _sampled(solution, margins, samples, seed)
-    spread = _with_reason(spread_at(design, computed, at, seed), design, margins, computed, at)
-    inputs, predicted = _inputs(design, computed, at)
-    return Uncertainty(**vars(spread), inputs=inputs, predicted=predicted)
-
-
-def _sampled(
-    solution: BearingSolution, margins: QuickMargins, samples: int, seed: int
-) -> tuple[Design, Array, Array]:
-    """Design of a solved bearing, margins at its points without the factors, shape (n,), and these points."""
-    design = Design.of(solution)
-    at = sobol_points(design.width, samples, seed)
-    return design, _computed(design, margins, at), at
+    design, touching = Design.of(solution), bool(conducts(solution))
+    stages = STAGES if samples is None else (samples,)
+    at, computed = sobol_points(design.width, stages[-1], seed), np.empty(0)
+    for count in stages:
+        computed = np.concatenate([computed, _computed(design, margins, at[computed.size : count])])
+        inputs, predicted = _inputs(design, computed, at[:count])
+        spread = spread_at(design, computed, at[:count], seed)
+        uncertainty = Uncertainty(**vars(spread), inputs=inputs, predicted=predicted)
+        if predicted >= _PREDICTED and uncertainty.chance.is_settled(touching=touching):
+            break
+    return _with_reason(uncertainty, design, margins, computed, at)
 
 
 def _with_reason(
-    spread: MarginSpread, design: Design, margins: QuickMargins, computed: Array, at: Array
-) -> MarginSpread:
+    spread: _Spread, design: Design, margins: QuickMargins, computed: Array, at: Array
+) -> _Spread:
     """Distribution with the reason of the first of its points that has no result."""
     if not spread.failed:
         return spread
@@ -348,8 +365,9 @@ def spread_of_result(solution: BearingSolution, samples: int, seed: int = SEED) 
     """
     if not has_chance(solution):
         return None
-    margins = QuickMargins.of(solution)
-    design, computed, at = _sampled(solution, margins, samples, seed)
+    margins, design = QuickMargins.of(solution), Design.of(solution)
+    at = sobol_points(design.width, samples, seed)
+    computed = _computed(design, margins, at)
     return _with_reason(spread_at(design, computed, at, seed), design, margins, computed, at)
 
 

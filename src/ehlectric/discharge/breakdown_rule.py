@@ -112,6 +112,32 @@ def sampling_error(probability: float, number: int) -> float:
     return math.sqrt(probability * (1.0 - probability) * z2 + 0.25 * z2**2) / (1.0 + z2)
 
 
+def share_interval(share: float, number: int) -> tuple[float, float]:
+    """Return Wilson's interval for a share of random points, at a confidence of 95 %.
+
+    Examples
+    --------
+    >>> [round(end, 4) for end in share_interval(0.05, 512)]
+    [0.0342, 0.0725]
+    """
+    z2 = _CONFIDENCE**2 / number
+    middle, error = (share + 0.5 * z2) / (1.0 + z2), sampling_error(share, number)
+    return max(0.0, middle - error), min(1.0, middle + error)
+
+
+def _margin_error(*quantiles: tuple[Array, float]) -> float:
+    """Largest sampling error of quantiles of margins: half of the interval between the margins at the ends of
+    ``share_interval``, divided by its middle. ``quantiles``, margins and probability of each.
+    """
+    errors = []
+    for margins, probability in quantiles:
+        ends = share_interval(probability, margins.size)
+        low, high = (float(np.quantile(margins, end, method="higher")) for end in ends)
+        # Both ends may be 0 or infinite, and the quantile then has no error.
+        errors.append(0.0 if low == high else 1.0 - 2.0 * low / (low + high))
+    return max(errors)
+
+
 @dataclass(frozen=True)
 class Chance:
     """Probability of breakdown within the uncertain inputs, and the inputs that spread it most."""
@@ -123,6 +149,8 @@ class Chance:
     low: float
     median: float
     high: float
+    # Largest sampling error of low, median and high, part of their value.
+    margin_error: float = 0.0
     # Name of the input that spreads the margin most, and its share of the variance of the logarithm of the
     # margin; empty for an immediate estimate, which neglects inputs that change the films.
     first: str = ""
@@ -143,20 +171,34 @@ class Chance:
         (0.25, (0.125, 0.625), inf)
         """
         probability = float(np.mean(margins < 1.0))
-        least = np.concatenate([np.zeros(failed), margins])
+        least, most = (np.concatenate([margins, np.full(failed, end)]) for end in (0.0, np.inf))
         low, median, high = np.quantile(least, INTERVAL).tolist()
         if failed:
             # No value lies between a margin and an infinite one.
-            most = np.concatenate([margins, np.full(failed, np.inf)])
             high = float(np.quantile(most, CERTAIN, method="higher"))
         error = sampling_error(probability, margins.size)
-        samples = margins.size + failed
-        return cls(probability, error, low, median, high, samples=samples, failed=failed, **others)
+        margin_error = _margin_error((least, UNLIKELY), (least, EVEN), (most, CERTAIN))
+        others |= {"samples": least.size, "failed": failed}
+        return cls(probability, error, low, median, high, margin_error, **others)
 
     @property
     def bounds(self) -> tuple[float, float]:
         """Smallest and largest probability that points without a result allow."""
         return bounds_of(self.probability, self.samples, self.failed)
+
+    def is_settled(self, *, touching: bool) -> bool:
+        """Whether the level stays the same within the sampling error. ``touching``, whether the level follows
+        ``touching_rule``.
+
+        Examples
+        --------
+        >>> margins = np.repeat([0.5, 1.5], [20, 492])
+        >>> Chance.of(margins).is_settled(touching=False), Chance.of(margins[10:]).is_settled(touching=False)
+        (False, True)
+        """
+        low, high = (share_interval(bound, self.samples) for bound in self.bounds)
+        limits = [(low, EVEN)] if touching else [(high, UNLIKELY), (low, CERTAIN)]
+        return all(limit < least or limit > most for (least, most), limit in limits)
 
     @property
     def level(self) -> Level:
@@ -191,14 +233,19 @@ class Chance:
 
         Examples
         --------
-        >>> chance = Chance(0.163, 0.016, 0.783, 1.474, 3.0, "rotor capacitance", 0.567)
+        >>> chance = Chance(0.163, 0.032, 0.783, 1.474, 3.0, 0.06, "rotor capacitance", 0.567)
         >>> [one.code for one in chance.statements()]
         ['probability', 'measure-first']
         """
         if not self.first:
             return (Statement.of("probability-follows"),)
         without = Statement.of("without-doubts") if doubts else None
-        about: dict[str, Any] = {"low": self.low, "median": self.median, "high": self.high}
+        about: dict[str, Any] = {
+            "low": self.low,
+            "median": self.median,
+            "high": self.high,
+            "off": self.margin_error,
+        }
         if self.failed:
             about = {"failed": self.failed, "samples": self.samples}
         return (

@@ -418,7 +418,10 @@ def _margin_range(summary: Summary) -> str | None:
 def _median_note(summary: Summary) -> str:
     uncertainty = summary["uncertainty"]
     least = "at least " if uncertainty.get("failed") else ""
-    return f", median {least}{ratio_text(uncertainty['margin_median'])}"
+    median = f", median {least}{ratio_text(uncertainty['margin_median'])}"
+    error = uncertainty.get("margin_error")
+    # Results of earlier versions have no error.
+    return median if error is None else f"{median}, sampling error {readable(100.0 * error, 2)} %"
 
 
 def _probability(key: str) -> Callable[[Summary], Any]:

@@ -174,9 +174,9 @@ def test_an_extrapolated_viscosity_is_not_called_a_possible_breakdown():
     verdict = result.verdict
     assert (verdict.level, verdict.lead) == ("yellow", "Breakdown not known")
     assert "The viscosity is extrapolated to below 0 °C." in verdict.text
-    assert "The probability of breakdown, which does not contain this, is below 0.09 %" in verdict.text
+    assert "The probability of breakdown, which does not contain this, is below 0.75 %" in verdict.text
     rows = {row.key: row.text for row in total_rows(result.summary())}
-    assert rows["uncertainty.breakdown_probability"] == "below 0.09 %"
+    assert rows["uncertainty.breakdown_probability"] == "below 0.75 %"
     assert math.isfinite(result.margin)
 
 

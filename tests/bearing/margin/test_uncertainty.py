@@ -19,7 +19,7 @@ from ehlectric.bearing.uncertainty import (
     quick_chance,
     uncertainty_of,
 )
-from ehlectric.discharge.breakdown_rule import sampling_error
+from ehlectric.discharge.breakdown_rule import Chance, sampling_error
 from ehlectric.tables.bearing_tables import total_rows
 
 STRENGTH, ROTOR = "discharge.dielectric_strength", "motor.winding_rotor_capacitance"
@@ -177,6 +177,40 @@ def test_the_same_seed_gives_the_same_numbers(usual):
     assert first.summary() != other.summary()
 
 
+@pytest.fixture(scope="module")
+def random_margins(usual):
+    """Margins of the usual bearing at 8192 points of an independent generator."""
+    solution, margins = usual
+    design = Design.of(solution)
+    at = np.random.default_rng(23).random((8192, design.width))
+    return _computed(design, margins, at) * np.exp(np.sum(design.log_factors(at), axis=-1))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize(
+    ("probability", "most"), [(0.01, 512), (0.04, 2048), (0.1, 512), (0.5, 512), (0.9, 512), (0.995, 512)]
+)
+def test_the_level_is_the_level_of_many_random_points(usual, random_margins, probability, most, seed):
+    """A factor on the rotor's voltage divides all margins by itself."""
+    factor = float(np.quantile(random_margins, probability))
+    margins = dataclasses.replace(usual[1], margin_factor=usual[1].margin_factor / factor)
+    exact = Chance.of(random_margins / factor)
+    refined = uncertainty_of(usual[0], margins, seed=seed).chance
+    assert refined.level == exact.level
+    assert refined.samples <= most
+    assert abs(refined.probability - probability) < refined.error + exact.error
+    ends = np.array([[chance.low, chance.median, chance.high] for chance in (refined, exact)])
+    assert np.all(np.abs(ends[0] / ends[1] - 1.0) < refined.margin_error + exact.margin_error)
+
+
+@pytest.mark.slow
+def test_more_points_contain_the_points_before(usual):
+    few, many = (uncertainty_of(*usual, samples=samples) for samples in (64, 128))
+    assert few.margins == pytest.approx(many.margins[:64], rel=1e-6)
+    assert uncertainty_of(*usual, samples=64, seed=1).samples == 64
+
+
 @pytest.mark.slow
 def test_the_probability_is_that_of_two_hundred_thousand_points(usual):
     solution, margins = usual
@@ -213,9 +247,9 @@ def test_points_without_a_result_are_told_in_the_table():
     oil = {f"lubricant.temperature.{key}": value for key, value in thin.items()}
     case = bearing(ranges={"bearing.temperature": ["60 degC", "320 degC"]}, **oil)
     summary = solve_bearing(case, workers=1).summary()
-    failed = summary["uncertainty"]["failed"]
-    assert 0 < failed < 2048
+    failed, samples = (summary["uncertainty"][key] for key in ("failed", "samples"))
+    assert 0 < failed < samples
     (row,) = (row for row in total_rows(summary) if row.key == "uncertainty.breakdown_probability")
-    assert row.note == f", {failed} of 2048 points have no result"
+    assert row.note == f", {failed} of {samples} points have no result"
     (row,) = (row for row in total_rows(summary) if row.key == "uncertainty.margin_range")
     assert row.value == "not known"

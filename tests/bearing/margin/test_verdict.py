@@ -179,7 +179,7 @@ def test_surfaces_that_touch_do_not_read_as_safe():
     assert verdict.level == "red"
     assert verdict.text.startswith("Discharges expected: ")
     assert verdict.text.endswith(
-        "The probability of breakdown, which includes frequent asperity contact, is above 99.9 %."
+        "The probability of breakdown, which includes frequent asperity contact, is above 99.25 %."
     )
     assert [part for part in ("30 rpm", "70 °C", "lambda ratio 0.") if part not in verdict.text] == []
     assert verdict.margin is None
