@@ -98,7 +98,9 @@ def quick_case(case: BearingCase, *, constant: bool = False) -> tuple[BearingCas
     None for an oil that neither describes; ``refused``, key that cannot be used, and why.
     """
     contacts = quick_way(case.contacts)
-    changed = heat_by_formula(case).replace({"contacts": contacts})
+    changed = heat_by_formula(case)
+    if changed.contacts != contacts:
+        changed = changed.replace({"contacts": contacts})
     discharge, bearing = case.discharge, case.bearing
     try:
         oil = case.lubricant.at(bearing.oil_temperature, bearing.temperature_key())
