@@ -132,8 +132,9 @@ class MarginSpread:
 
     @property
     def margin_error(self) -> float:
-        """Largest sampling error of the median and of both ends of the interval, part of their value, at a
-        confidence of 95 %: the error of as many random points.
+        """Largest relative sampling error of the median and both ends of the interval, at 95 % confidence.
+
+        As many random points have this error; a Sobol design has a smaller error.
         """
         return self.chance.margin_error
 

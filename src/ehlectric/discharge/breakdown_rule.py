@@ -126,8 +126,10 @@ def share_interval(share: float, number: int) -> tuple[float, float]:
 
 
 def _margin_error(*quantiles: tuple[Array, float]) -> float:
-    """Largest sampling error of quantiles of margins: half of the interval between the margins at the ends of
-    ``share_interval``, divided by its middle. ``quantiles``, margins and probability of each.
+    """Largest relative sampling error of quantiles of margins, at a confidence of 95 %.
+
+    ``share_interval`` has two ends. The error is half the distance between the margins at both ends, divided
+    by their mean. ``quantiles``, margins and probability of each.
     """
     errors = []
     for margins, probability in quantiles:
