@@ -117,7 +117,7 @@ def solved_parts(
         # voltages are all that differs.
         case = case.with_values({SPEED: np.full(case.shape, case.bearing.inner_speed)})
     for points in np.array_split(np.arange(case.shape[0]), -(-case.shape[0] // TOGETHER)):
-        with one_blas_thread():
+        with one_blas_thread(of_scipy=False):
             part = _solved(case, points, positions, detail)
         if part is not None:
             yield part

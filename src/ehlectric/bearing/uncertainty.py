@@ -437,7 +437,7 @@ def _inputs(design: Design, computed: Array, at: Array) -> tuple[tuple[Uncertain
     first, total, variance, missed = np.zeros(number), np.zeros(number), 0.0, 0.0
     if number and np.count_nonzero(separated) > 1:
         logs = np.log(computed[separated])
-        with one_blas_thread():
+        with one_blas_thread(of_scipy=False):
             decomposition = variance_shares(2.0 * at[separated, :number] - 1.0, logs)
         first, total, variance = decomposition.first, decomposition.total, decomposition.variance
         missed = (1.0 - decomposition.predicted) * float(np.var(logs))

@@ -12,7 +12,8 @@ import threading
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
-from functools import cache, cached_property
+from functools import cached_property
+from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -83,26 +84,35 @@ if sys.version_info < (3, 12) and hasattr(os, "register_at_fork"):
     os.register_at_fork(after_in_child=_renew_properties)
 
 
-@cache
+# Libraries with threads in this process, by whether SciPy has loaded its BLAS; the search takes milliseconds.
+_controllers: dict[bool, ThreadpoolController] = {}
+
+
 def _controller() -> ThreadpoolController:
-    # The search for the libraries takes milliseconds and is done once in a process.
-    return ThreadpoolController()
+    loaded = "scipy.linalg" in sys.modules
+    if loaded not in _controllers:
+        _controllers[loaded] = ThreadpoolController()
+    return _controllers[loaded]
 
 
-@cache
 def _blas() -> list[Any]:
     """Libraries of BLAS and LAPACK in this process, with their present ``num_threads``."""
     return [each for each in _controller().lib_controllers if each.user_api == "blas"]
 
 
 @contextmanager
-def one_blas_thread() -> Iterator[None]:
+def one_blas_thread(*, of_scipy: bool = True) -> Iterator[None]:
     """Context in which BLAS and LAPACK run on one thread.
 
     The limit holds for the whole process. Threads therefore wait for each other: overlapping contexts could
     leave the limit set at their end. Solve in several processes to use several cores. A process that is
     forked meanwhile keeps one thread.
+
+    A library that is loaded within the context would not be limited. SciPy's BLAS is therefore loaded before,
+    unless the context needs only NumPy, with ``of_scipy=False``.
     """
+    if of_scipy:
+        import_module("scipy.linalg")
     with _turn.taken():
         # The processes of a sweep have one thread already; to set it and to set it back takes time.
         if all(library.num_threads == 1 for library in _blas()):
