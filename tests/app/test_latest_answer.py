@@ -81,12 +81,24 @@ def test_fuller_answers_follow_in_their_order():
         async def fullest(_):
             return "fullest"
 
-        page.latest_answer._fuller = (page.whole, fullest)
+        page.latest_answer._steps = (page.quick, page.whole, fullest)
         await page.latest_answer.ask(1)
         await until(lambda: len(page.shown) > 2)
         return page
 
     assert [answer for _, answer in asyncio.run(use()).shown] == ["quick", "whole", "fullest"]
+
+
+def test_answers_before_one_that_is_known_are_skipped():
+    async def use():
+        page = Page()
+        page.latest_answer._known = lambda inputs: int(inputs == 1)
+        await page.latest_answer.ask(1)
+        await page.latest_answer.ask(2)
+        await until(lambda: len(page.shown) > 2)
+        return page
+
+    assert asyncio.run(use()).shown == [(1, "whole"), (2, "quick"), (2, "whole")]
 
 
 def test_inputs_in_between_are_never_computed():

@@ -4,12 +4,15 @@ import asyncio
 import logging
 import os
 import signal
+import tomllib
 from multiprocessing.forkserver import _forkserver
 
 import pytest
 
+from ehlectric.app.calls import BEARING_QUICK, Call
 from ehlectric.app.work import Limits, Work, limits_of
 from ehlectric.errors import InputError, LostError
+from ehlectric.runs.example_files import example_text
 from tests.helpers import calls
 from tests.helpers.processes import PATIENCE, alive, wait_until
 
@@ -125,6 +128,44 @@ def test_more_answers_than_may_wait_are_refused():
     found = working(None, use)
     assert found[:50] == [2] * 50
     assert all(isinstance(error, LostError) for error in found[50:])
+
+
+TABLE = tomllib.loads(example_text("bearing_6208"))
+WRONG = {**TABLE, "bearing": {**TABLE["bearing"], "radial_load": "-1 N"}}
+
+
+CONCERNED = Call("answer_parts.concerned")
+
+
+def test_an_answer_to_the_same_inputs_is_computed_once(tmp_path):
+    async def use(work):
+        begun, submit = [], work._threads.submit
+        work._threads.submit = lambda ask, *given: begun.append(given[1]) or submit(ask, *given)
+        shares = [work.share(), work.share()]
+        # Of two pages at once, and of one of them later.
+        first, second = await asyncio.gather(*(share.quick(BEARING_QUICK, TABLE, None) for share in shares))
+        kept = shares[0].has(BEARING_QUICK, TABLE, None)
+        third = await shares[0].quick(BEARING_QUICK, dict(TABLE), None)
+        answers_of_one = len(begun)
+        # Files of a session may change.
+        await shares[0].quick(BEARING_QUICK, TABLE, tmp_path)
+        for _ in range(2):
+            with pytest.raises(InputError, match="radial_load"):
+                await shares[1].quick(BEARING_QUICK, WRONG, None)
+        wrong_kept = shares[1].has(BEARING_QUICK, WRONG, None)
+        return first == second == third, kept, answers_of_one, wrong_kept, len(begun)
+
+    assert working(None, use) == (True, True, 1, False, 4)
+
+
+def test_the_answers_that_are_kept_are_few():
+    async def use(work):
+        share = work.share()
+        for number in range(70):
+            await share.quick(CONCERNED, f"film_formulas.{number}.thickness")
+        return [share.has(CONCERNED, f"film_formulas.{number}.thickness") for number in (0, 69)]
+
+    assert working(None, use) == [False, True]
 
 
 def test_a_job_tells_its_progress_and_returns():

@@ -12,7 +12,7 @@ I = TypeVar("I")  # noqa: E741
 T = TypeVar("T")
 
 # Time without a change after which fuller answers are computed [s].
-_QUIET = 0.3
+_QUIET = 0.15
 
 
 class OnlyLast:
@@ -45,6 +45,7 @@ class LatestAnswer(Generic[I, T]):
     """Answers to the latest inputs; those to older inputs that have not begun are never computed.
 
     ``quick`` computes an answer at once, and each of ``later`` a fuller one, in their order.
+    ``known`` returns the number of the fullest answer that is computed already; those before are skipped.
     ``show`` shows an answer to the latest inputs, ``passing`` one to inputs that have changed meanwhile, and
     ``refuse`` the error where the latest inputs have no answer.
     """
@@ -58,19 +59,23 @@ class LatestAnswer(Generic[I, T]):
         passing: Callable[[I, T], None],
         refuse: Callable[[Exception], None],
         behind: asyncio.Semaphore,
+        known: Callable[[I], int] = lambda _: 0,
     ) -> None:
-        self._quick, self._fuller, self._refuse = quick, tuple(later), refuse
+        self._steps, self._known, self._refuse = (quick, *later), known, refuse
         self._show, self._pass = show, passing
         self._behind = behind
         self._request = 0
-        self._pending: tuple[int, I] | None = None
+        self._pending: tuple[int, I, bool] | None = None
         self._running: asyncio.Task[None] | None = None
         self._later: asyncio.Task[None] | None = None
 
-    def ask(self, inputs: I) -> asyncio.Task[None]:
-        """Ask for the answers to new inputs; the task ends with the immediate answer to the latest inputs."""
+    def ask(self, inputs: I, *, at_once: bool = False) -> asyncio.Task[None]:
+        """Ask for the answers to new inputs; the task ends with the immediate answer to the latest inputs.
+
+        Fuller answers follow ``at_once``, or when the inputs are quiet.
+        """
         self.drop()
-        self._pending = (self._request, inputs)
+        self._pending = (self._request, inputs, at_once)
         if self._running is None or self._running.done():
             self._running = asyncio.create_task(self._run())
         return self._running
@@ -82,11 +87,14 @@ class LatestAnswer(Generic[I, T]):
 
     async def _run(self) -> None:
         while self._pending is not None:
-            (request, inputs), self._pending = self._pending, None
-            answer = await self._answer(request, inputs, self._quick)
+            (request, inputs, at_once), self._pending = self._pending, None
+            step = self._known(inputs)
+            answer = await self._answer(request, inputs, self._steps[step])
             if answer is not None and request == self._request:
-                if self._fuller:
-                    self._later = asyncio.create_task(self._when_quiet(request, inputs))
+                if fuller := self._steps[step + 1 :]:
+                    self._later = asyncio.create_task(
+                        self._follow(request, inputs, fuller, 0.0 if at_once else _QUIET)
+                    )
                 self._show(inputs, answer)
             elif answer is not None and self._waits():
                 self._pass(inputs, answer)
@@ -104,13 +112,15 @@ class LatestAnswer(Generic[I, T]):
                 self._refuse(error)
             return None
 
-    async def _when_quiet(self, request: int, inputs: I) -> None:
-        await asyncio.sleep(_QUIET)
-        for fuller in self._fuller:
+    async def _follow(
+        self, request: int, inputs: I, fuller: Sequence[Callable[[I], Awaitable[T]]], quiet: float
+    ) -> None:
+        await asyncio.sleep(quiet)
+        for compute in fuller:
             async with self._behind:
                 if request != self._request:
                     return
-                answer = await self._answer(request, inputs, fuller)
+                answer = await self._answer(request, inputs, compute)
             if answer is None or request != self._request:
                 return
             self._show(inputs, answer)

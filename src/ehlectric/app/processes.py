@@ -22,6 +22,13 @@ from ehlectric.runtime.worker_processes import end_with_parent
 # Loaded before there is any work, in the process from which all others are forked.
 _PRELOADED = "ehlectric.app.compute.preload"
 
+# Modules of the other pages, which a process loads one by one when it was idle for a time [s]. Before the
+# first answer they would take as long as the answer itself.
+_OTHERS = tuple(
+    f"ehlectric.app.compute.{name}_answers" for name in ("contact", "drive", "sweep", "remedy", "compare")
+)
+_IDLE = 5.0
+
 # Variables in which BLAS libraries look up the number of threads when they are loaded.
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
@@ -181,8 +188,11 @@ def _uninterrupted() -> Iterator[None]:
 def _serve(pipe: Any, bounds: Bounds) -> None:
     """Answer calls until the server closes the pipe; in the process."""
     _prepare(bounds)
+    others = [*_OTHERS]
     with contextlib.suppress(EOFError, BrokenPipeError):
         while True:
+            while others and not pipe.poll(_IDLE):
+                import_module(others.pop(0))
             try:
                 function, values, reports = pipe.recv()
             except EOFError:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import signal
 import socket
 import threading
@@ -15,7 +16,7 @@ from nicegui import Client, app, ui
 from starlette.middleware.gzip import GZipMiddleware
 from starlette.types import ASGIApp
 
-from ehlectric.app.pages import PAGES
+from ehlectric.app.pages import FIRST, PAGES
 from ehlectric.app.security import (
     MOST_PAGES,
     Guard,
@@ -42,7 +43,8 @@ _MESSAGES = 100
 _GRACE = 1
 
 # Smallest response that is compressed [bytes], and level of the compression. Level 9 takes three times as
-# long for 5 % fewer bytes: compressing the 4.6 MB of Plotly would be a fifth of the work for a page.
+# long for 5 % fewer bytes: compressing the 4.6 MB of Plotly would be a fifth of the work for a page. Pages
+# for a browser on this machine are not compressed.
 _COMPRESSED, _LEVEL = 1000, 4
 
 # Largest message of a browser [bytes].
@@ -63,7 +65,7 @@ def serve(guard: Guard, listening: socket.socket, work: Work, *, ready: Callable
         timeout_graceful_shutdown=_GRACE,
     )
     log_in_single_lines()
-    _Server(config, ready).run(sockets=[listening])
+    _Server(config, work, ready).run(sockets=[listening])
 
 
 def open_browser(address: str) -> None:
@@ -72,11 +74,11 @@ def open_browser(address: str) -> None:
 
 
 class _Server(uvicorn.Server):
-    """Server that calls a function when it begins to answer requests."""
+    """Server that calls a function when it begins to answer requests, and then answers the first page."""
 
-    def __init__(self, config: uvicorn.Config, ready: Callable[[], None]) -> None:
+    def __init__(self, config: uvicorn.Config, work: Work, ready: Callable[[], None]) -> None:
         super().__init__(config)
-        self._ready = ready
+        self._work, self._ready = work, ready
 
     @contextmanager
     def capture_signals(self) -> Iterator[None]:
@@ -95,6 +97,8 @@ class _Server(uvicorn.Server):
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         await super().startup(sockets)
         self._ready()
+        # While a browser loads the page, which gets the answers that are kept.
+        self._first = asyncio.create_task(FIRST(self._work))
 
 
 def _application(guard: Guard, work: Work) -> ASGIApp:
@@ -115,8 +119,11 @@ def _application(guard: Guard, work: Work) -> ASGIApp:
         show_welcome_message=False,
     )
     paged = with_bounded_pages(with_bounded_bodies(outer), open_pages)
-    # Pages are compressed after their scripts got the nonce.
-    return guard.around(GZipMiddleware(with_policy(paged), minimum_size=_COMPRESSED, compresslevel=_LEVEL))
+    answering = with_policy(paged)
+    if guard.token:
+        # Pages are compressed after their scripts got the nonce.
+        answering = GZipMiddleware(answering, minimum_size=_COMPRESSED, compresslevel=_LEVEL)
+    return guard.around(answering)
 
 
 def open_pages() -> int:

@@ -3,13 +3,15 @@
 The process of the server computes nothing, so that every page answers at once whatever is being solved. A
 immediate answer waits for one of a few warm processes. A job has a process of its own, which is killed when
 it is cancelled, when its tab is closed, or when it uses more time or memory than is allowed. Sessions are
-served alternately.
+served alternately. Immediate answers that need no file are kept for a while: a page gets an answer that was
+computed before, or that is being computed, without a second computation.
 """
 
 from __future__ import annotations
 
 import asyncio
 import contextlib
+import json
 import logging
 import os
 import shutil
@@ -38,6 +40,9 @@ _log = logging.getLogger("ehlectric.app")
 
 # Quick answers of one session that are computed at once, and those that may wait.
 _AT_ONCE, _QUEUED = 2, 50
+
+# Immediate answers that are kept; an answer about a bearing has 130 kB.
+_KEPT = 64
 
 # Names of the folders of servers, and of the file in each that its server keeps locked.
 _PREFIX, _LOCK = "ehlectric-app-", "lock"
@@ -238,7 +243,9 @@ class Work:
         number = max(1, min(4, cores()))
         self._quick = [Worker(self._context, self._bounds(self.limits.quick_memory)) for _ in range(number)]
         self.behind = asyncio.Semaphore(max(1, number - 1))
-        self._idle: asyncio.Queue[Worker] = asyncio.Queue()
+        # The last process that answered answers next: it has parts of the answers to the same inputs.
+        self._idle: asyncio.LifoQueue[Worker] = asyncio.LifoQueue()
+        self._answers: dict[str, asyncio.Task[Returned | Raised]] = {}
         for worker in self._quick:
             self._idle.put_nowait(worker)
         self._threads = ThreadPoolExecutor(number + self.limits.jobs, "ehlectric-work")
@@ -277,7 +284,27 @@ class Work:
             self.scratch.remove()
 
     async def answer(self, function: Call[Any], values: tuple[Any, ...]) -> Returned | Raised:
-        """Outcome of a function in one of the processes of immediate answers."""
+        """Outcome of a function in one of the processes of immediate answers, or its kept outcome."""
+        key = _key(function, values)
+        if not key:
+            return await self._answer(function, values)
+        task = self._answers.pop(key, None)
+        if task is None or task.cancelled():
+            task = asyncio.create_task(self._answer(function, values))
+        self._answers[key] = task  # the latest at the end
+        if len(self._answers) > _KEPT:
+            del self._answers[next(iter(self._answers))]
+        outcome = await asyncio.shield(task)
+        if isinstance(outcome, Raised):
+            self._answers.pop(key, None)
+        return outcome
+
+    def has(self, function: Call[Any], values: tuple[Any, ...]) -> bool:
+        """Whether the outcome of a function is kept."""
+        task = self._answers.get(_key(function, values))
+        return task is not None and task.done()
+
+    async def _answer(self, function: Call[Any], values: tuple[Any, ...]) -> Returned | Raised:
         worker = await self._idle.get()
         loop, overdue = asyncio.get_running_loop(), asyncio.Event()
 
@@ -389,6 +416,10 @@ class Share:
             raise outcome.error
         return cast("T", outcome.result)
 
+    def has(self, function: Call[Any], *values: Any) -> bool:
+        """Whether ``quick`` has its result without a computation."""
+        return self._work.has(function, values)
+
     def start(self, function: Call[Any], *values: Any) -> Job:
         """Start a job: ``function(*values, progress)`` in a process of its own.
 
@@ -406,6 +437,22 @@ class Share:
         self._closed = True
         for job in self._jobs:
             job.cancel()
+
+
+def _key(function: Call[Any], values: tuple[Any, ...]) -> str:
+    """Key of an outcome that depends on nothing else than a call and plain values; empty for another.
+
+    Examples
+    --------
+    >>> _key(Call("duty_answers.look"), ({"title": "A"}, None))
+    'duty_answers.look [{"title": "A"}, null]'
+    >>> _key(Call("duty_answers.look"), ({}, Path("folder")))
+    ''
+    """
+    try:
+        return f"{function.name} {json.dumps(values)}" if isinstance(function, Call) else ""
+    except TypeError:  # Folders and contents of files.
+        return ""
 
 
 def log(outcome: Raised) -> None:

@@ -48,6 +48,7 @@ from ehlectric.bearing import (
     BearingSolution,
     CaseKey,
     MarginAnalysis,
+    Speed,
     bearing_verdict,
     capacitance_is_bound,
     error_text,
@@ -66,6 +67,7 @@ from ehlectric.figures.ring_panels import film_panel, largest_gap, load_panel
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.lubrication_states import is_shorted
 from ehlectric.quantities.result_bounds import bearing_bounds
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.rows import Row, value_at
 from ehlectric.quantities.sheets import BEARING_CARDS, DIFFERENCES, PAGE_COLUMNS
@@ -367,6 +369,12 @@ def _solved(key: CaseKey) -> BearingResult:
     return solve_bearing(key.case, workers=1)
 
 
+@lru_cache(maxsize=4)
+def _over_speed(key: CaseKey, ratio_of_case: float) -> tuple[list[Speed], list[ResultWarning]]:
+    """Numbers of a case over its speed, which the answer with the probability has again."""
+    return over_speed(key.case, ratio_of_case=ratio_of_case)
+
+
 def answer_of(
     result: BearingResult, *, whole: bool, probable: bool = True, changes: tuple[Difference, ...] = ()
 ) -> BearingAnswer:
@@ -380,7 +388,8 @@ def answer_of(
         warnings += result.uncertainty.warnings
     figures = _figures(result, summary) if result.converged else {}
     if whole and result.converged:
-        points, left_out = over_speed(result.case, ratio_of_case=summary["bearing"]["lambda_ratio"])
+        key, ratio = key_of(result.case, without_effect=()), summary["bearing"]["lambda_ratio"]
+        points, left_out = _over_speed(key, ratio)
         warnings += tuple(left_out)
         at_case = (result.case.bearing.inner_speed, summary)
         bound = capacitance_is_bound(result.solution)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
+from typing import Any
 
 from ehlectric.app.pages import bearing_page, compare_page, contact_page, drive_page, sweep_page
 from ehlectric.app.work import Work
@@ -15,3 +16,6 @@ PAGES: tuple[Callable[[Work], None], ...] = (
     sweep_page.add,
     compare_page.add,
 )
+
+# Computes the answers to the inputs with which the first page begins.
+FIRST: Callable[[Work], Coroutine[Any, Any, None]] = bearing_page.BearingPage.answer_start

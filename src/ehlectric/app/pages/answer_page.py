@@ -59,10 +59,22 @@ class AnswerPage(Generic[A]):
             passing=lambda _, answer: self._put(answer),
             refuse=self._refuse,
             behind=session.work.behind,
+            known=self._known,
         )
 
     async def _answer(self, call: Call[A], inputs: Inputs) -> A:
         return await self.session.work.quick(call, dict(inputs.table), self.session.made_folder)
+
+    def _known(self, inputs: Inputs) -> int:
+        """Number of the fullest answer that is computed already; 0 without one."""
+        values, calls = (dict(inputs.table), self.session.made_folder), (self.quick, *self.later)
+        return max((n for n, call in enumerate(calls) if self.session.work.has(call, *values)), default=0)
+
+    @classmethod
+    async def answer_start(cls, work: Work) -> None:
+        """Compute the answers to the inputs with which the page begins."""
+        for call in (cls.quick, *cls.later):
+            await work.answer(call, (dict(cls.start.table), None))
 
     @classmethod
     def add(cls, work: Work) -> None:
@@ -76,7 +88,7 @@ class AnswerPage(Generic[A]):
             with framed(cls.title, cls.path):
                 page.build(error)
             # The first answer comes with the page, unless the processes are still starting.
-            await asyncio.wait([page.refresh()], timeout=cls.wait)
+            await asyncio.wait([page.refresh(at_once=True)], timeout=cls.wait)
 
     @classmethod
     def starting(cls, inputs: Inputs) -> Inputs:
@@ -148,21 +160,21 @@ class AnswerPage(Generic[A]):
         show_address(self.session.inputs, self.path)
         self.refresh()
 
-    def refresh(self) -> asyncio.Future[None]:
+    def refresh(self, *, at_once: bool = False) -> asyncio.Future[None]:
         """Answer the present inputs; the future ends with the immediate answer."""
         self.solving.forget()
-        return self._ask()
+        return self._ask(at_once=at_once)
 
     def close(self) -> None:
         """Want no further answers."""
         self._latest_answer.drop()
 
-    def _ask(self) -> asyncio.Future[None]:
+    def _ask(self, *, at_once: bool = False) -> asyncio.Future[None]:
         """Show the solved answer where there is one, or ask for the quick one; the one before is dimmed."""
         solved = self.solving.answer()
         if solved is None:
             self._dim(dimmed=True)
-            return self._latest_answer.ask(self.session.inputs)
+            return self._latest_answer.ask(self.session.inputs, at_once=at_once)
         self._latest_answer.drop()
         self._show(self.session.inputs, solved)
         ended = asyncio.get_running_loop().create_future()

@@ -198,10 +198,10 @@ class BearingPage(AnswerPage[BearingAnswer]):
                 raise LostError("the inputs have changed")
             return await self.session.work.quick(BEARING_DUTY, dict(inputs.table), self.session.made_folder)
 
-    def _ask(self) -> asyncio.Future[None]:
+    def _ask(self, *, at_once: bool = False) -> asyncio.Future[None]:
         self._cycle.drop()
         self.view.remedies.wait()
-        return super()._ask()
+        return super()._ask(at_once=at_once)
 
     def _show(self, inputs: Inputs, answer: BearingAnswer) -> None:
         super()._show(inputs, answer)
