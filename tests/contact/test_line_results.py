@@ -188,6 +188,16 @@ def test_surfaces_of_equal_bodies_lie_at_half_the_film(paper_result):
     np.testing.assert_allclose(field.y[1:-1, 0], -half, rtol=1e-12)
 
 
+def test_equal_walls_have_one_name_whatever_the_rounding(paper_result):
+    """Both walls of equal bodies have the same field, whose last digit depends on the processor."""
+    field = paper_result.field
+    assert np.max(field.strength[..., 0]) == pytest.approx(np.max(field.strength[..., -1]), rel=1e-9)
+    for wall in (0, -1):
+        strength = field.strength.copy()
+        strength[..., wall] *= 1.0 + 1e-12
+        assert dataclasses.replace(field, strength=strength).max_strength_wall == "surface 1"
+
+
 def test_film_nodes_carry_the_field(paper_result):
     inside = paper_result.field.x[1:-1]
     assert np.all(np.isin(inside, paper_result.film.x))

@@ -93,14 +93,20 @@ class GapField(Values):
 
     @property
     def max_strength_wall(self) -> str:
-        """Location of the largest abs(E) across the film: "surface 1", "mid-film" or "surface 2"."""
-        sections = self._sections.reshape(3, -1)
-        return ("surface 1", "mid-film", "surface 2")[int(np.argmax(np.max(sections, axis=1)))]
+        """Location of the largest abs(E) across the film: "surface 1", "mid-film" or "surface 2"; the
+        first one of those that are equal within rounding, as both walls of equal bodies.
+        """
+        largest = np.max(self._sections.reshape(3, -1), axis=1)
+        first = int(np.argmax(largest >= (1.0 - _EQUAL) * np.max(largest)))
+        return ("surface 1", "mid-film", "surface 2")[first]
 
     @property
     def _sections(self) -> Array:
         return np.stack([self.strength[..., 0], self.middle_strength, self.strength[..., -1]])
 
+
+# Relative difference of two field strengths that are equal within rounding.
+_EQUAL = 1e-6
 
 # Fraction of the largest field. Places with less, even after correction, are skipped. Columns are also
 # skipped if their thin-gap field is lower than the second fraction: a cylinder of any size doubles the field
