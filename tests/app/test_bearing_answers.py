@@ -9,8 +9,8 @@ import pytest
 from ehlectric.app.charts.bearing_charts import OverSpeed, speed_rows
 from ehlectric.app.compute.answer_parts import page_warnings_of
 from ehlectric.app.compute.bearing_answers import (
+    analysed_answer,
     answer_of,
-    answer_over_speed,
     bearing_case,
     differences,
     quick_answer,
@@ -267,7 +267,7 @@ def test_no_figures_of_films_that_are_not_converged(monkeypatch):
 
     monkeypatch.setattr(BearingSolution, "converged", False)
     result = solve_bearing(bearing_case(inputs(), "atlas"), workers=1)
-    answer = answer_of(result, whole=False)
+    answer = answer_of(result, analysed=False, curves=False)
     assert (answer.verdict.level, answer.figures) == ("grey", {})
 
 
@@ -483,13 +483,16 @@ def test_without_a_motor_the_first_breakdown_decides():
 
 
 @pytest.mark.slow
-def test_curves_come_before_the_probability():
+def test_the_probability_comes_before_the_curves():
     table = inputs()
-    before, whole = answer_over_speed(table), whole_quick_answer(table)
-    assert (before.over_speed, before.whole) == (True, False)
-    assert (whole.over_speed, whole.whole) == (True, True)
-    assert before.figures.keys() == whole.figures.keys() > {"breakdown", "capacitance"}
-    assert before.effects.rows == whole.effects.rows
-    assert "probability-follows" in [one.code for one in before.verdict.reasons]
-    assert not any("probability of breakdown is" in one for one in before.verdict.sentences())
+    first, before, whole = quick_answer(table), analysed_answer(table), whole_quick_answer(table)
+    assert [(one.analysed, one.whole) for one in (first, before, whole)] == [
+        (False, False),
+        (True, False),
+        (True, True),
+    ]
+    assert whole.figures.keys() - before.figures.keys() == {"breakdown", "capacitance"}
+    assert (before.shown, before.verdict, before.effects) == (whole.shown, whole.verdict, whole.effects)
+    assert "probability-follows" in [one.code for one in first.verdict.reasons]
+    assert not any("probability of breakdown is" in one for one in first.verdict.sentences())
     assert any("probability of breakdown is" in one for one in whole.verdict.sentences())

@@ -11,8 +11,8 @@ from ehlectric.app.charts.duty_charts import MOST_DUTY_ROWS, duty_figure, duty_r
 from ehlectric.app.charts.plotly_panels import thinned
 from ehlectric.app.compute.answer_parts import lines_of
 from ehlectric.app.compute.bearing_answers import (
+    analysed_answer,
     answer_of,
-    answer_over_speed,
     bearing_case,
     duty_answer,
     quick_answer,
@@ -108,7 +108,7 @@ def test_the_page_has_the_numbers_of_the_command(answer, summary):
 def test_the_answer_about_the_bearing_does_not_wait_for_its_cycle(session, table):
     """It reads no file: one that is not there does not matter, and its rows stand with the cycle."""
     lost = table | {"duty": {"file": f"{SURFACES}/lost.csv"}}
-    for answers in (quick_answer, answer_over_speed):
+    for answers in (quick_answer, analysed_answer):
         found = answers(lost, session)
         assert found.lines == answers({k: v for k, v in table.items() if k != "duty"}, session).lines
         assert found.duty is None
@@ -118,7 +118,7 @@ def test_the_answer_about_the_bearing_does_not_wait_for_its_cycle(session, table
 
 @pytest.mark.slow
 def test_a_solved_answer_has_the_cycle_of_its_run(session, table, answer):
-    found = answer_of(solve_bearing(bearing_case(table, session=session), workers=1), whole=True)
+    found = answer_of(solve_bearing(bearing_case(table, session=session), workers=1))
     assert found.duty.lines == answer.lines
     assert not any("cycle" in line.name for line in found.lines)
 

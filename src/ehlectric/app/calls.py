@@ -52,7 +52,7 @@ class Call(Generic[T]):
 
 # A bearing.
 BEARING_QUICK: Call[BearingAnswer] = Call("bearing_answers.quick_answer")
-BEARING_OVER_SPEED: Call[BearingAnswer] = Call("bearing_answers.answer_over_speed")
+BEARING_ANALYSED: Call[BearingAnswer] = Call("bearing_answers.analysed_answer")
 BEARING_WHOLE: Call[BearingAnswer] = Call("bearing_answers.whole_quick_answer")
 BEARING_SOLVED: Call[BearingAnswer] = Call("bearing_answers.solve_contacts")
 

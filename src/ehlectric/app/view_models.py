@@ -641,12 +641,12 @@ class BearingAnswer(PageAnswer):
     contacts: Contacts  # "atlas", "formula" or "solved"
     converged: bool  # whether the films of all contacts converged
     numbers: Mapping[str, Any]  # numbers of the table ``bearing`` of summary.json
-    # Whether it has what takes half a second: critical speeds, effects of inputs and curves over the speed.
-    over_speed: bool
-    margin: Mapping[str, Any] | None  # table ``margin`` of summary.json; None unless ``over_speed``
+    # Whether it has critical speeds, effects of inputs and probability; a whole answer also has the curves.
+    analysed: bool
+    margin: Mapping[str, Any] | None  # table ``margin`` of summary.json; None unless ``analysed``
     contact_rows: tuple[Mapping[str, Any], ...]  # a row for each element and ring, as in ``contacts.csv``
     differences: tuple[Difference, ...] = ()
-    # Margins if one input changes; None unless ``over_speed``, and without a margin.
+    # Margins if one input changes; None unless ``analysed``, and without a margin.
     effects: Table | None = None
     # Duty cycle of a solved bearing; None without one, and of an immediate answer, which its page asks for
     # later.

@@ -48,7 +48,6 @@ from ehlectric.bearing import (
     BearingSolution,
     CaseKey,
     MarginAnalysis,
-    Speed,
     bearing_verdict,
     capacitance_is_bound,
     error_text,
@@ -67,7 +66,6 @@ from ehlectric.figures.ring_panels import film_panel, largest_gap, load_panel
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.lubrication_states import is_shorted
 from ehlectric.quantities.result_bounds import bearing_bounds
-from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.rows import Row, value_at
 from ehlectric.quantities.sheets import BEARING_CARDS, DIFFERENCES, PAGE_COLUMNS
@@ -295,19 +293,19 @@ def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> Beari
 
     Raises InputError if the tables are no valid case, or neither the atlas nor a formula describes its films.
     """
-    return answer_of(solved_quickly(without_cycle(table, session)), whole=False)
+    return answer_of(solved_quickly(without_cycle(table, session)), analysed=False, curves=False)
 
 
-def answer_over_speed(table: Mapping[str, Any], session: Path | None = None) -> BearingAnswer:
-    """Answer about a bearing as ``quick_answer`` has it, with critical speeds, effects of the inputs and
-    curves over the speed, but without the probability of breakdown.
+def analysed_answer(table: Mapping[str, Any], session: Path | None = None) -> BearingAnswer:
+    """Answer about a bearing as ``quick_answer`` has it, with critical speeds, effects of the inputs and the
+    probability of breakdown, without the curves over the speed.
     """
-    return answer_of(solved_quickly(without_cycle(table, session)), whole=True, probable=False)
+    return answer_of(solved_quickly(without_cycle(table, session)), curves=False)
 
 
 def whole_quick_answer(table: Mapping[str, Any], session: Path | None = None) -> BearingAnswer:
-    """Answer about a bearing as ``answer_over_speed`` has it, with the probability of breakdown."""
-    return answer_of(solved_quickly(without_cycle(table, session)), whole=True)
+    """Answer about a bearing as ``analysed_answer`` has it, with the curves over the speed."""
+    return answer_of(solved_quickly(without_cycle(table, session)))
 
 
 def duty_answer(table: Mapping[str, Any], session: Path | None = None) -> DutyAnswer:
@@ -340,7 +338,7 @@ def solve_contacts(
     case = bearing_case(table, session=session)
     outcome = run_bearing(case, folder, report, contacts="solved", workers=workers)
     progress(0, 0, "speeds and ranges")
-    return answer_of(outcome.result, whole=True, changes=_changes(case, outcome.summary))
+    return answer_of(outcome.result, changes=_changes(case, outcome.summary))
 
 
 def _changes(case: BearingCase, solved: Mapping[str, Any]) -> tuple[Difference, ...]:
@@ -369,27 +367,24 @@ def _solved(key: CaseKey) -> BearingResult:
     return solve_bearing(key.case, workers=1)
 
 
-@lru_cache(maxsize=4)
-def _over_speed(key: CaseKey, ratio_of_case: float) -> tuple[list[Speed], list[ResultWarning]]:
-    """Numbers of a case over its speed, which the answer with the probability has again."""
-    return over_speed(key.case, ratio_of_case=ratio_of_case)
-
-
 def answer_of(
-    result: BearingResult, *, whole: bool, probable: bool = True, changes: tuple[Difference, ...] = ()
+    result: BearingResult,
+    *,
+    analysed: bool = True,
+    curves: bool = True,
+    changes: tuple[Difference, ...] = (),
 ) -> BearingAnswer:
-    """Answer of a solved bearing; ``whole`` with the analysis of its margin, which takes half a second, and
-    then with the probability of breakdown where it is ``probable``, which takes a second or two.
+    """Answer of a solved bearing: ``analysed`` with critical speeds, effects of the inputs and probability of
+    breakdown, and with the ``curves`` over the speed; each takes half a second.
     """
-    summary = result.summary(probable=probable) if whole else summary_of(result.solution)
-    verdict = _verdict(result, whole=whole, probable=probable)
+    summary = result.summary() if analysed else summary_of(result.solution)
+    verdict = result.verdict if analysed else quick_verdict(result.solution)
     warnings = result.warnings
-    if whole and probable and result.uncertainty is not None:
+    if analysed and result.uncertainty is not None:
         warnings += result.uncertainty.warnings
     figures = _figures(result, summary) if result.converged else {}
-    if whole and result.converged:
-        key, ratio = key_of(result.case, without_effect=()), summary["bearing"]["lambda_ratio"]
-        points, left_out = _over_speed(key, ratio)
+    if curves and result.converged:
+        points, left_out = over_speed(result.case, ratio_of_case=summary["bearing"]["lambda_ratio"])
         warnings += tuple(left_out)
         at_case = (result.case.bearing.inner_speed, summary)
         bound = capacitance_is_bound(result.solution)
@@ -399,14 +394,14 @@ def answer_of(
     return BearingAnswer(
         title=result.case.title,
         contacts=result.case.contacts,
-        whole=whole and probable,
-        over_speed=whole,
+        whole=curves,
+        analysed=analysed,
         converged=result.converged,
         verdict=verdict,
         meaning=meaning_of(verdict),
         how=_how(result),
-        shown=shown_numbers(summary, placed, whole=whole),
-        deciding=deciding(summary, probable=whole and probable),
+        shown=shown_numbers(summary, placed, whole=analysed),
+        deciding=deciding(summary, probable=analysed),
         numbers=summary["bearing"],
         margin=summary.get("margin"),
         contact_rows=tuple(summary["contacts"]),
@@ -417,17 +412,8 @@ def answer_of(
         seconds=summary["seconds"],
         differences=changes,
         effects=effects_table(summary),
-        duty=shown_duty(result.duty, summary) if whole and result.duty is not None else None,
+        duty=shown_duty(result.duty, summary) if analysed and result.duty is not None else None,
     )
-
-
-def _verdict(result: BearingResult, *, whole: bool, probable: bool) -> Verdict:
-    """Verdict with what is known so far, which says what follows."""
-    if not whole:
-        return quick_verdict(result.solution)
-    if probable:
-        return result.verdict
-    return bearing_verdict(result.solution, result.margin_analysis, quick_chance(result.solution))
 
 
 def _how(result: BearingResult) -> str:

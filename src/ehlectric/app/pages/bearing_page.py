@@ -10,8 +10,8 @@ from typing import ClassVar
 from nicegui import ui
 
 from ehlectric.app.calls import (
+    BEARING_ANALYSED,
     BEARING_DUTY,
-    BEARING_OVER_SPEED,
     BEARING_QUICK,
     BEARING_SOLVED,
     BEARING_WHOLE,
@@ -86,30 +86,33 @@ class BearingView(AnswerView[BearingAnswer]):
         if self._pending is not None:
             self.tell(without_what_follows(self._pending))
             self._pending = None
+            self.panel.dim(dimmed=False)
 
     def show(self, answer: BearingAnswer) -> None:
         """Show an answer; what follows with the whole answer stays dimmed until that is there."""
         super().show(answer)
         self.body.props(f'data-contacts="{answer.contacts}" data-whole="{str(answer.whole).lower()}"')
-        self._pending = None if answer.whole else answer
+        self._pending = None if answer.analysed else answer
         self._changes.content = differences_html(answer.differences)
         self._changes.set_visibility(bool(answer.differences))
-        known = answer.over_speed or not answer.figures
-        if known:
+        if answer.analysed or not answer.figures:
             self._effects.content = effects_html(answer.effects)
+        known = answer.whole or not answer.figures
+        if known:
             self.panel.lead("breakdown", answer.figures.get("breakdown"))
         else:
             self.panel.wait(self.waits)
         self.panel.figures["breakdown"].dim(dimmed=not known)
         self._effects.set_visibility(bool(self._effects.content))
-        mark(self._effects, "stale", on=not answer.over_speed)
+        mark(self._effects, "stale", on=not answer.analysed)
+        self.panel.dim(dimmed=not answer.analysed)
         say(self._none, "" if answer.figures else "Not converged: the figures would show no solution.")
 
     def show_figure(self, name: str, place: FigureBox, answer: BearingAnswer) -> None:
         """Show a figure; one over the speed stays as it is until an answer has it."""
-        if name in _AT_ONCE or answer.over_speed or not answer.figures:
+        if name in _AT_ONCE or answer.whole or not answer.figures:
             place.show(answer.figures.get(name))
-        place.dim(dimmed=name in _OVER_SPEED and not answer.over_speed)
+        place.dim(dimmed=name in _OVER_SPEED and not answer.whole)
 
 
 def without_what_follows(answer: BearingAnswer) -> BearingAnswer:
@@ -159,7 +162,7 @@ class BearingPage(AnswerPage[BearingAnswer]):
     short: ClassVar[Mapping[str, str]] = {"bearing.margin": "", "margin.critical_speed": "breakdown below"}
     wait = 0.4
     elsewhere = (DUTY_FILE,)
-    quick, later, solved = BEARING_QUICK, (BEARING_OVER_SPEED, BEARING_WHOLE), BEARING_SOLVED
+    quick, later, solved = BEARING_QUICK, (BEARING_ANALYSED, BEARING_WHOLE), BEARING_SOLVED
 
     view: BearingView
 

@@ -20,7 +20,11 @@ class Panel:
 
     def __init__(self, leading: Iterable[str], waits: str) -> None:
         with ui.element("div").classes("panel").props('data-testid="panel"') as self._box:
-            with ui.element("div").classes("panel-words").props('role="status" aria-atomic="false"'):
+            with (
+                ui.element("div")
+                .classes("panel-words")
+                .props('role="status" aria-atomic="false"') as self._words
+            ):
                 self.verdict = VerdictBox()
                 with ui.element("div").classes("deciding") as self._deciding:
                     self._number = NumberBox("div", "div", "div")
@@ -37,6 +41,10 @@ class Panel:
         """Say why the place of the figure is still empty."""
         if self._waits.visible:
             self._waits.text = text
+
+    def dim(self, *, dimmed: bool) -> None:
+        """Dim the verdict and its number while their final answer is computed."""
+        mark(self._words, "stale", on=dimmed)
 
     def empty(self, text: str) -> None:
         """Show no figure, and describe instead what would show one."""
@@ -217,8 +225,10 @@ class FigureBox:
         self._box.set_visibility(shown is not None)
         if shown is not None:
             self._title.text, self._caption.text = shown.title, shown.caption
-            self.plot.props["aria-label"] = shown.label
-            self.plot.update_figure(dict(shown.plot))
+            # A fuller answer has most figures of the answer before, which are not sent and drawn again.
+            if (self.plot.props["aria-label"], self.plot.figure) != (shown.label, shown.plot):
+                self.plot.props["aria-label"] = shown.label
+                self.plot.update_figure(dict(shown.plot))
             table = shown.table
             self._table.content = "" if table is None else behind("Numbers of this figure", table_html(table))
 
