@@ -36,7 +36,7 @@ SPEEDS = (500, 1000, 3000, 6000, 15000)
 
 
 def times() -> None:
-    """Print the table of docs/validation/performance.md."""
+    """Print the wall time of the example with contacts of each kind, for docs/validation/performance.md."""
     print("| contacts of `examples/bearing_6208.toml` | seconds | limit |")
     print("| --- | ---: | ---: |")
     for contacts, (limit, repeats) in LIMITS.items():
@@ -46,7 +46,7 @@ def times() -> None:
 
 
 def speeds() -> None:
-    """Print the table of docs/howto/film_sources.md: differences of quick contacts from solved ones."""
+    """Print the differences of quick contacts from solved ones, for docs/howto/film_sources.md."""
     print("| speed | contacts | capacitance | in air | first breakdown | stated | left the atlas | CPU s |")
     print("| ---: | --- | ---: | ---: | ---: | ---: | --- | ---: |")
     for speed in SPEEDS:

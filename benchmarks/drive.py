@@ -25,7 +25,7 @@ DRIVES = {
 
 
 def main() -> None:
-    """Print the table of docs/validation/performance.md."""
+    """Print discharges, processor time and memory of each drive, for docs/validation/performance.md."""
     print(processor())
     example = DriveCase.from_toml(EXAMPLE).replace({"remedies": ()})
     solve_drive(example.replace({"drive.duration": "1 ms"}))

@@ -1,4 +1,4 @@
-"""Measure the solvers and their baselines in one run, and print the tables of docs/validation/performance.md.
+"""Measure the solvers and their baselines in one run; print the numbers of docs/validation/performance.md.
 
 python benchmarks/table.py
 """
@@ -55,7 +55,7 @@ def _row(what: str, ours: float, against: str, theirs: float) -> tuple[str, ...]
 
 
 def main() -> None:
-    """Print the tables of docs/validation/performance.md."""
+    """Print times and memory of line and point contacts, for docs/validation/performance.md."""
     rows = []
     film = {n: best(lambda n=n: solve_film(cases.film_problem(n))) for n in (801, 3201)}
     film |= {n: best(lambda n=n: solve_film(cases.film_problem(n)), 3) for n in (25_601, 102_401)}

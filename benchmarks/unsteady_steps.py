@@ -66,7 +66,7 @@ def measured(problem: FilmProblem, steps: int) -> tuple[str, ...]:
 
 
 def main() -> None:
-    """Print the table of docs/validation/performance.md."""
+    """Print time, iterations and memory of each contact, for docs/validation/performance.md."""
     print(f"{processor()}, {len(os.sched_getaffinity(0))} cores, load {os.getloadavg()[0]:.1f}\n")
     print("| contact | nodes | steps | ms a step | of the processor | Newton | GMRES | MB more |")
     print("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |")
