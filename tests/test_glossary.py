@@ -7,7 +7,7 @@ import pytest
 from ehlectric.cases.input_keys import input_of
 from ehlectric.quantities.lubrication_states import STATES
 from ehlectric.quantities.quantity import key_of
-from ehlectric.quantities.results import BEARING_KEYS, CONTACT_KEYS, DRIVE_KEYS
+from ehlectric.quantities.results import BEARING_KEYS, CONTACT_KEYS, DRIVE_KEYS, GEAR_KEYS
 from tests.helpers.places import ROOT
 
 TEXT = (ROOT / "docs" / "reference" / "glossary.md").read_text("utf-8")
@@ -48,6 +48,6 @@ def test_keys_that_entries_name_exist():
     """Dotted keys are inputs or results; a list has brackets."""
     named = {key.replace("[]", "") for key in re.findall(r"`([a-z_]+(?:\[\])?\.[a-z_.]+)`", TEXT)}
     assert len(named) > 40
-    books = (BEARING_KEYS, DRIVE_KEYS, *CONTACT_KEYS.values())
+    books = (BEARING_KEYS, DRIVE_KEYS, GEAR_KEYS, *CONTACT_KEYS.values())
     unknown = {key for key in named if input_of(key) is None and not any(key_of(book, key) for book in books)}
     assert not unknown - {"summary.json"}

@@ -15,7 +15,7 @@ FOLDERS = ("tutorials", "howto", "reference", "theory")
 # Pages that use the word of a term in another sense.
 OTHER_SENSES = {
     "arc": {"howto/bearing_kinds.md", "reference/bearing_output.md", "theory/bearing_loads.md"},
-    "drive": {"theory/together.md"},
+    "drive": {"theory/gears.md", "theory/together.md"},
     "full film": {"theory/motion.md", "theory/starvation.md"},
     "half-width": {"howto/measured.md", "theory/mixed.md"},
     "stationary": {"howto/bearing_kinds.md", "theory/bearing_loads.md"},

@@ -9,6 +9,7 @@ from .cases.case import PointCase as PointCase
 from .cases.case_oil import oil as oil
 from .cases.drive_case import DriveCase as DriveCase
 from .cases.film_factors import FilmFactors as FilmFactors
+from .cases.gear_case import GearCase as GearCase
 from .contact import PointResult as PointResult
 from .contact import Result as Result
 from .drive import DriveResult as DriveResult
@@ -21,6 +22,8 @@ from .errors import LostError as LostError
 from .figures.result_figures import figure as figure
 from .figures.result_figures import figure_names as figure_names
 from .figures.result_figures import save_figures as save_figures
+from .gear import GearResult as GearResult
+from .gear import solve_gear as solve_gear
 from .lubricant.python_laws import Laws as Laws
 from .motion.result import MotionResult as MotionResult
 from .motion.run import run_motion as run_motion

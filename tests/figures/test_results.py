@@ -20,6 +20,7 @@ from ehlectric import (
     Case,
     DriveResult,
     FilmFactors,
+    GearResult,
     InputError,
     MotionResult,
     PointResult,
@@ -86,7 +87,16 @@ def test_names_are_those_of_the_tables_of_figures():
 
 
 def test_each_class_of_results_has_its_figures():
-    classes = [Result, PointResult, BearingResult, DriveResult, MotionResult, SweepResults, FilmFactors]
+    classes = [
+        Result,
+        PointResult,
+        BearingResult,
+        DriveResult,
+        MotionResult,
+        SweepResults,
+        FilmFactors,
+        GearResult,
+    ]
     assert {kind.result_kind for kind in [*classes, MotionRun]} == {*get_args(ResultKind)}
     for kind in get_args(ResultKind):
         assert callable(result_figures._KINDS[kind]().figure), kind

@@ -87,8 +87,10 @@ def test_fields_are_the_keys_of_the_form_in_their_order(name):
 
 
 def test_an_input_with_a_field_is_in_a_form():
+    # The app has no page for gear pairs.
+    tables = {table: keys for table, keys in inputs().items() if table.split(".")[0] != "gear"}
     sliding = {
-        f"{table}.{key}" for table, keys in inputs().items() for key, entry in keys.items() if entry.shown
+        f"{table}.{key}" for table, keys in tables.items() for key, entry in keys.items() if entry.shown
     }
     assert sliding <= {key.replace("body_1", "body") for key in KEYS}
 

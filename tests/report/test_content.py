@@ -2,11 +2,13 @@
 
 import json
 import tomllib
+from typing import get_args
 
 import pytest
 
 from ehlectric import BearingCase, Case, load, save, solve
 from ehlectric.cases.bearing_kinds import KINDS_OF_BEARINGS
+from ehlectric.cases.gear_inputs import Sharing
 from ehlectric.errors import InputError
 from ehlectric.figures import figure_names
 from ehlectric.figures.figure_names import in_formats
@@ -30,6 +32,7 @@ from ehlectric.report.written_report import write_report
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.bearings import BALLS, OIL, bearing_case, changed
 from tests.helpers.each import each
+from tests.helpers.gears import spur_case
 from tests.helpers.hot_cases import HOT_LINE
 
 TABLE = {
@@ -176,7 +179,7 @@ def test_every_figure_that_a_result_can_have_has_a_caption():
         figure_names.ROUGHNESS_FIGURE, figure_names.BREAKDOWN_FIGURE,
         figure_names.METER_FIGURE, *figure_names.MOTION_FIGURE_FILES, *figure_names.BEARING_FIGURE_FILES,
         *figure_names.SPEED_FIGURE_FILES, figure_names.SENSITIVITY_FIGURE,
-        figure_names.TEMPERATURE_FIGURE, figure_names.SHEAR_FIGURE,
+        figure_names.TEMPERATURE_FIGURE, figure_names.SHEAR_FIGURE, *figure_names.GEAR_FIGURE_FILES,
     )  # fmt: skip
     assert {file.removesuffix(".png") for file in in_formats(files)} == set(TEXTS["captions"])
     assert caption_of("film", converged=False).startswith(SENTENCES["unconverged_figure"])
@@ -272,9 +275,10 @@ def test_keys_are_told_by_their_names(text, shown):
 
 
 def test_conditions_of_limits_and_publications_are_known():
-    cases = Case.from_dict(TABLE), BearingCase.from_dict(BALLS)
+    cases = Case.from_dict(TABLE), BearingCase.from_dict(BALLS), spur_case()
     known = {name for case in cases for name in conditions_of(case)}
     known |= {f"kind {kind}" for kind in KINDS_OF_BEARINGS}
+    known |= {f"sharing {law}" for law in get_args(Sharing)}
     names = {name.removeprefix("not ") for one in (*LIMITS, *REFERENCES) for name in one.when}
     assert {name for name in names if not name.startswith(("law ", "rheology "))} <= known
 

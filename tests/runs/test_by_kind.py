@@ -82,12 +82,37 @@ case = "contact.toml"
 [vary]
 "contact.entrainment_speed" = ["2 m/s", "4 m/s"]
 """
-FILES = {"contact": CASE, "motion": CASE + MOTION, "bearing": BEARING, "drive": DRIVE, "sweep": SWEEP}
+GEAR = """\
+[gear]
+normal_module = "4.5 mm"
+teeth = [16, 24]
+normal_pressure_angle = "20 deg"
+profile_shift = [0.18, 0.17]
+face_width = "14 mm"
+flank_ra = "0.3 um"
+material = "steel"
+[gear.operation]
+pinion_torque = "100 N m"
+pinion_speed = "2000 rpm"
+oil_temperature = "80 degC"
+bulk_temperature = "80 degC"
+[lubricant]
+base = "fva-3"
+"""
+FILES = {
+    "contact": CASE,
+    "motion": CASE + MOTION,
+    "bearing": BEARING,
+    "drive": DRIVE,
+    "gear": GEAR,
+    "sweep": SWEEP,
+}
 WRITTEN = {
     "contact": ["summary.json", "result.nc", "film.csv"],
     "motion": ["summary.json", "motion.nc"],
     "bearing": ["summary.json", "contacts.csv", "bearing.nc"],
     "drive": ["summary.json", "events.csv", "spectrum.csv", "drive.nc"],
+    "gear": ["summary.json", "path.csv", "mesh.csv", "gear.nc"],
     "sweep": ["sweep.csv", "sweep.parquet", "sweep.nc"],
 }
 

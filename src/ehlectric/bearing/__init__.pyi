@@ -36,6 +36,8 @@ from .duty_cycle import life_of as life_of
 from .duty_cycle import rows_of as rows_of
 from .duty_cycle import run_duty as run_duty
 from .duty_points import between_places as between_places
+from .gaps import RollerRaceway as RollerRaceway
+from .gaps import roller_tails as roller_tails
 from .impedance import Impedance as Impedance
 from .impedance import impedance_of as impedance_of
 from .impedance import oil_relaxation_time as oil_relaxation_time

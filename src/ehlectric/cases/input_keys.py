@@ -13,6 +13,7 @@ from ehlectric.cases.amounts import Amount, Amounts, Count
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.drive_case import DriveCase
+from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.oil_inputs import law_parameters
 from ehlectric.cases.table import (
     Table,
@@ -52,10 +53,10 @@ def _tables_in(model: type[Table]) -> Iterator[type[Table]]:
             yield from _tables_in(inner)
 
 
-# Tables of case, bearing and drive files by their names in the book of inputs. The table of sweep files is in
-# the package sweep.
+# Tables of case, bearing, gear and drive files by their names in the book of inputs. The table of sweep files
+# is in the package sweep.
 TABLES: Mapping[str, type[Table]] = {
-    table.BOOK: table for file in (DriveCase, BearingCase, Case) for table in _tables_in(file)
+    table.BOOK: table for file in (DriveCase, GearCase, BearingCase, Case) for table in _tables_in(file)
 }
 
 
@@ -70,7 +71,8 @@ def input_of(key: str) -> Quantity | None:
     ('N', "Roelands' constant")
     """
     entry = input_at(key) or _entry(*table_and_key(key)[:2])
-    return None if entry is None else replace(entry, unit=unit_of(_numbered(key)))
+    # A key that is a number or a word has no annotation with a unit.
+    return None if entry is None else replace(entry, unit=unit_of(_numbered(key)) or entry.unit)
 
 
 def _entry(table: str, name: str) -> Quantity | None:
@@ -110,7 +112,8 @@ def describe(key: str) -> str:
     table, name, _ = table_and_key(key)
     if not table or name not in (descriptions(table) if table in inputs() else {}):
         every = [f"{book}.{name}" for book in inputs() for name in descriptions(book)]
-        raise InputError.unknown(key, nearest(key, every))
+        within = [known for known in every if known.startswith(f"{key}.")]
+        raise InputError.unknown(key, nearest(key, within or every))
     unit, text = unit_of(_numbered(key)), phrase(table, name)
     first, stop, others = text.partition(". ")
     return f"{first} [{printed(unit)}]{stop}{others}" if unit else text
@@ -200,6 +203,8 @@ def _model_of(name: str) -> type[Table]:
     """Case that has a table or key of this name."""
     if name in _OF_BEARINGS:
         return BearingCase
+    if name == "gear":
+        return GearCase
     return DriveCase if name in (*_OF_DRIVES, *ENDS) else Case
 
 
@@ -234,7 +239,7 @@ def _in_a_table(key: str) -> bool:
     name = inner.partition(".")[0]
     if end:
         return name in BearingCase.known_keys()
-    return any(name in model.known_keys() for model in (Case, BearingCase, DriveCase))
+    return any(name in model.known_keys() for model in (Case, BearingCase, GearCase, DriveCase))
 
 
 def unit_of(key: str) -> str:

@@ -56,7 +56,7 @@ def check(file: Path, quiet: bool = False, as_json: bool = False) -> None:
         from ehlectric.runs.file_kinds import expect
         from ehlectric.runs.preview import preview_of
 
-        checked = expect(file, "contact", "motion", "bearing", "drive", "sweep")
+        checked = expect(file, "contact", "motion", "bearing", "drive", "gear", "sweep")
         preview = preview_of(by_kind.RUNS[checked.kind].read(checked))
     if as_json:
         typer.echo(json.dumps(preview.summary, indent=2))
@@ -208,9 +208,9 @@ def plot(
 ) -> None:
     """Draw the figures of a result again.
 
-    The result of a contact, of moving roughness, of a bearing, of a drive or of a sweep. A sweep over one or
-    two keys is drawn as a map and lines, and a Sobol design as its sensitivity; for other sweeps use
-    ehlectric map.
+    The result of a contact, of moving roughness, of a bearing, of a gear pair, of a drive or of a sweep. A
+    sweep over one or two keys is drawn as a map and lines, and a Sobol design as its sensitivity; for other
+    sweeps use ehlectric map.
     """
     with user_errors():
         look = figure_options(formats, style)
@@ -371,3 +371,49 @@ def _drive_tables(outcome: RunOutcome[object]) -> Iterator[Table]:
     yield ends_table(outcome.summary)
     if outcome.summary["remedies"]:
         yield remedies_table(outcome.summary)
+
+
+@command("gear")
+def gear(
+    gear_file: Path,
+    output: Path = Path("gear"),
+    contacts: str = "",
+    plots: bool = True,
+    formats: list[str] | None = None,
+    style: str = "screen",
+    quiet: bool = False,
+    as_json: bool = False,
+) -> None:
+    """Solve a pair of cylindrical gears; write summary.json, tables as CSV, gear.nc and figures.
+
+    The files are summary.json, path.csv with radii, speeds, loads and films at the points A to E of the path
+    of contact, mesh.csv with capacitance and breakdown voltage over the phase of the mesh, gear.nc for
+    ehlectric plot, and figures.
+
+    The folder then holds only this result: files of an earlier result are removed, other files stay. A
+    folder with a sweep or with moving roughness is refused.
+
+    Exit status 0: solved. 2: the input is wrong.
+    """
+    with ExitStack() as locked:
+        with user_errors():
+            look = figure_options(formats, style)
+
+            from ehlectric.runs import by_kind
+            from ehlectric.runs.file_kinds import expect
+            from ehlectric.runtime.folders import RESULT_LOCK, alone_in
+
+            case = by_kind.read_gear(expect(gear_file, "gear"))
+            folder = locked.enter_context(alone_in(output, locks=[RESULT_LOCK]))
+            with progress_line(shown=not quiet) as progress:
+                outcome = by_kind.run_gear(case, folder, progress, contacts=contacts)
+        _print_and_draw(outcome, _gear_tables, folder, look if plots else None, quiet=quiet, as_json=as_json)
+
+
+def _gear_tables(outcome: RunOutcome[object]) -> Iterator[Table]:
+    """Tables of a gear pair: points of the path of contact, and key figures."""
+    from ehlectric.tables.gear_tables import gear_rows, points_table
+    from ehlectric.tables.measured_tables import table_of
+
+    yield points_table(outcome.summary)
+    yield table_of(gear_rows(outcome.summary), outcome.summary["title"])

@@ -8,6 +8,7 @@ from .conditions import check_pressure as check_pressure
 from .conditions import check_width as check_width
 from .conditions import default_side as default_side
 from .conditions import least_pressure as least_pressure
+from .conditions import line_conditions as line_conditions
 from .conditions import resolve as resolve
 from .conditions import surface_ratios as surface_ratios
 from .contact_heat import hot_oil as hot_oil

@@ -84,6 +84,11 @@ DRIVE_FIGURE_FILES = (
     DRIVE_DUTY_FIGURE,
 )
 
+# Figures of gear pairs: radii, speeds, loads and pressures along the path of contact, the film along it, map
+# of the film on the flank, and capacitance and breakdown voltage over a phase of the mesh.
+GEAR_FLANK_FIGURE = "gear_flank.png"
+GEAR_FIGURE_FILES = ("gear_path.png", "gear_film.png", GEAR_FLANK_FIGURE, "gear_mesh.png")
+
 # Figures of an oil.
 OIL_FIGURE_FILES = ("oil_over_pressure.png", "oil_over_temperature.png")
 

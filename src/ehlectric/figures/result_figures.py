@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from ehlectric.cases.film_factors import FilmFactors
     from ehlectric.contact import PointResult, Result
     from ehlectric.drive import DriveResult
+    from ehlectric.gear import GearResult
     from ehlectric.motion.stored_run import MotionRun
     from ehlectric.sweep import SweepResults
 
@@ -40,6 +41,7 @@ if TYPE_CHECKING:
         | PointResult
         | BearingResult
         | DriveResult
+        | GearResult
         | xr.Dataset
         | MotionRun
         | SweepResults
@@ -59,8 +61,9 @@ def figure(result: AnyResult, name: str, *, style: str = "screen", **options: An
 
     Parameters
     ----------
-    result : Result, PointResult, BearingResult, DriveResult, Dataset, MotionRun, SweepResults or FilmFactors
-        Result of a contact, bearing, drive, transient contact, sweep or measurement.
+    result : any result
+        Result
+        Result of a contact, bearing, gear pair, drive, transient contact, sweep or measurement.
     name : str
         Name of its file, such as "film.png" of a line contact, or "film" for short; ``figure_names`` lists
         the names.
@@ -108,8 +111,9 @@ def figure_names(result: AnyResult) -> list[str]:
 
     Parameters
     ----------
-    result : Result, PointResult, BearingResult, DriveResult, Dataset, MotionRun, SweepResults or FilmFactors
-        Result of a contact, bearing, drive, transient contact, sweep or measurement.
+    result : any result
+        Result
+        Result of a contact, bearing, gear pair, drive, transient contact, sweep or measurement.
 
     Returns
     -------
@@ -147,8 +151,9 @@ def save_figures(
 
     Parameters
     ----------
-    result : Result, PointResult, BearingResult, DriveResult, Dataset, MotionRun, SweepResults or FilmFactors
-        Result of a contact, bearing, drive, transient contact, sweep or measurement.
+    result : any result
+        Result
+        Result of a contact, bearing, gear pair, drive, transient contact, sweep or measurement.
     folder : str or Path
         Folder of the files; it is made if it does not exist.
     formats : sequence of str
@@ -244,6 +249,13 @@ def _of_drives() -> _Draws:
     return _Draws(drive.figure, drive.drive_figures_of, first)
 
 
+def _of_gears() -> _Draws:
+    from ehlectric.figures import gear_figures as gear
+    from ehlectric.figures.figure_names import GEAR_FIGURE_FILES, GEAR_FLANK_FIGURE
+
+    return _Draws(gear.figure, lambda _: GEAR_FIGURE_FILES, _without_options(lambda _: GEAR_FLANK_FIGURE))
+
+
 def _of_measurements() -> _Draws:
     from ehlectric.figures import measured_figures as measured
 
@@ -281,6 +293,7 @@ _KINDS: Mapping[ResultKind | Literal["dataset"], Callable[[], _Draws]] = Mapping
         "contact": _of_contacts,
         "bearing": _of_bearings,
         "drive": _of_drives,
+        "gear": _of_gears,
         "motion": _of_motions,
         "dataset": _of_datasets,
         "sweep": _of_sweeps,

@@ -176,5 +176,21 @@ DRIVE_KEYS: Keys = {
     **under("remedies", {key: _DRIVE[key] for key in _SUMS}),
 }
 DRIVE_BOOK: Keys = {**_DRIVE, **DRIVE_KEYS, **_read("drive", stored=False)}
+
+# Gear pairs, and the points of their path of contact, which are also the rows of path.csv.
+_GEAR = {**_OIL, **_read("gear")}
+POINT_KEYS: Keys = _within("point", _GEAR)
+PATH_POINTS = ("A", "B", "C", "D", "E")
+GEAR_KEYS: Keys = {
+    **{key: quantity for key, quantity in _GEAR.items() if not key.startswith("point.")},
+    **{
+        f"points.{point}.{name}": replace(quantity, label=f"{quantity.label}, point {point}")
+        for point in PATH_POINTS
+        for name, quantity in POINT_KEYS.items()
+    },
+}
+# Columns of mesh.csv, with their units.
+PHASE_COLUMNS = {"phase": "", "capacitance": "F", "breakdown_voltage": "V", "contact_time_share": ""}
+GEAR_BOOK: Keys = {**GEAR_KEYS, **_read("gear", stored=False)}
 EVENT_KEYS: Keys = _within("event", _DRIVE)
 EVENT_COLUMNS = {name: quantity.unit for name, quantity in EVENT_KEYS.items()}

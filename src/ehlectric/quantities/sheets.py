@@ -33,6 +33,7 @@ CONTACT, CHECK = _sheet("contact"), _sheet("contact_check")
 MOTION, MOTION_CHECK = _sheet("motion"), _sheet("motion_check")
 BEARING, BEARING_CHECK = _sheet("bearing"), _sheet("bearing_check")
 DRIVE, DRIVE_CHECK, REMEDIES = _sheet("drive"), _sheet("drive_check"), _sheet("remedies")
+GEAR = _sheet("gear")
 
 # Keys that are shown only where a condition holds, by its name.
 CONTACT_ONLY, BEARING_ONLY = (_READ["only"][name] for name in ("contact", "bearing"))
@@ -49,6 +50,7 @@ BREAKDOWN_FORMULAS = {"line": "pan_hamrock", "point": "chittenden"}
 
 # Large numbers of the first page of a report, each with those that stand small below it.
 FIRST_PAGE_OF_BEARING, FIRST_PAGE_OF_DRIVE = _cards("first_page_of_bearing"), _cards("first_page_of_drive")
+FIRST_PAGE_OF_GEAR = _cards("first_page_of_gear")
 
 # Numbers of the rating life on this page.
 FIRST_PAGE_OF_LIFE: Mapping[str, tuple[str, ...]] = {

@@ -49,6 +49,7 @@ _WAYS: Mapping[str, Callable[[Any], str]] = {
     "Ω": lambda value: amount(value, "Ω"),
     "µm": lambda value: f"{readable(1e6 * value)} µm",
     "V4": lambda value: amount(value, "V"),
+    "Nm": lambda value: amount(value, "N m"),
     "V3": _three_digits("V"),
     "J3": _three_digits("J"),
     "time": time_share_text,

@@ -17,7 +17,8 @@ from ehlectric.cases import library
 from ehlectric.cases.amounts import INFINITE, Amount
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
-from ehlectric.cases.drive_case import DriveCase, SweptCase
+from ehlectric.cases.drive_case import DriveCase
+from ehlectric.cases.gear_case import GearCase, SolvedCase
 from ehlectric.cases.input_keys import describe, input_field, input_of, kind_of, of_both_ends
 from ehlectric.cases.library.estimated_bearings import estimated_file, is_estimated
 from ehlectric.cases.library.library_oils import KINDS, Source, sources_of
@@ -62,7 +63,7 @@ class Input:
         return self.source is not None and self.source.kind not in _KNOWN
 
 
-def inputs_of(case: SweptCase, *, apart: bool = False) -> Iterator[Input]:
+def inputs_of(case: SolvedCase, *, apart: bool = False) -> Iterator[Input]:
     """Inputs of a case in the order of its tables, without the title and the remedies of a drive.
 
     A value is a library value where it equals the value of the base that the case names, and a default
@@ -84,7 +85,7 @@ def inputs_of(case: SweptCase, *, apart: bool = False) -> Iterator[Input]:
             yield Input(key, value, "default" if _is_default(key, value) else "given")
 
 
-def _tables(case: SweptCase, *, apart: bool) -> dict[str, Any]:
+def _tables(case: SolvedCase, *, apart: bool) -> dict[str, Any]:
     """Nested tables of the inputs that are set; two equal bearings of a drive are one."""
     tables = case.model_dump(mode="json", exclude_none=True, exclude_unset=True)
     tables.pop("remedies", None)
@@ -95,8 +96,8 @@ def _tables(case: SweptCase, *, apart: bool) -> dict[str, Any]:
     return tables
 
 
-def parts_of(case: SweptCase, *, apart: bool = False) -> dict[str, Case | BearingCase]:
-    """Cases of contacts or bearings in a case, by what stands before their keys."""
+def parts_of(case: SolvedCase, *, apart: bool = False) -> dict[str, Case | BearingCase | GearCase]:
+    """Cases of contacts, bearings or gear pairs in a case, by what stands before their keys."""
     if not isinstance(case, DriveCase):
         return {"": case}
     if case.drive_end == case.non_drive_end and not apart:
@@ -104,7 +105,7 @@ def parts_of(case: SweptCase, *, apart: bool = False) -> dict[str, Case | Bearin
     return {f"{end}.": getattr(case, end) for end in ENDS}
 
 
-def input_text(case: SweptCase, key: str, value: Any) -> str:
+def input_text(case: SolvedCase, key: str, value: Any) -> str:
     """Value of an input as a report shows it, in a unit that suits it."""
     if value == INFINITE:
         return "infinite, a plane"
@@ -112,7 +113,7 @@ def input_text(case: SweptCase, key: str, value: Any) -> str:
     return with_units_kept(printable(text.replace("ohm", "Ω") if is_number(value) else text))
 
 
-def replaced_by(case: SweptCase, key: str) -> str:
+def replaced_by(case: SolvedCase, key: str) -> str:
     """Key of a drive whose value replaces the value of its bearings; empty where none does."""
     end, inner = end_and_key(key)
     return REPLACED[inner] if end and isinstance(case, DriveCase) and inner in case.replaced else ""
@@ -146,7 +147,7 @@ def _is_default(key: str, value: Any) -> bool:
     return not field.is_required() and _equal(value, field.default)
 
 
-def _library_values(case: Case | BearingCase) -> dict[str, tuple[str, Source | None, Any]]:
+def _library_values(case: Case | BearingCase | GearCase) -> dict[str, tuple[str, Source | None, Any]]:
     """Values of the bases that a case names, by dotted key: name of the file, source, and value."""
     values: dict[str, tuple[str, Source | None, Any]] = {}
     given = case.model_dump(mode="json", exclude_none=True, exclude_unset=True)
@@ -199,15 +200,18 @@ def _values(folder: str, base: str, table: Mapping[str, Any]) -> dict[str, Any]:
     return values
 
 
-def material_sources(case: SweptCase) -> Iterator[tuple[str, Source]]:
-    """Names and sources of the solids of the library that bearings or a contact are made of."""
+def material_sources(case: SolvedCase) -> Iterator[tuple[str, Source]]:
+    """Names and sources of the solids of the library that bearings, gears or a contact are made of."""
     for name in dict.fromkeys(name for part in parts_of(case).values() for name in _materials(part)):
         for source in _sources_of_inputs(library.tables("solid", name)):
             yield name, source
 
 
-def _materials(case: Case | BearingCase) -> Iterator[str]:
+def _materials(case: Case | BearingCase | GearCase) -> Iterator[str]:
     """Solids of the library that a case names."""
+    if isinstance(case, GearCase):
+        yield case.gear.material
+        return
     if isinstance(case, Case):
         bodies = (case.contact.body_1, case.contact.body_2)
         yield from (body.material for body in bodies if body is not None and body.material is not None)
@@ -233,7 +237,7 @@ def varied_keys(varied: Sequence[str]) -> tuple[set[str], bool]:
 
 
 def input_sections(
-    case: SweptCase, varied: Sequence[str] = (), rests: Sequence[Block] = ()
+    case: SolvedCase, varied: Sequence[str] = (), rests: Sequence[Block] = ()
 ) -> Iterator[Section]:
     """Section of what a result rests on: ``rests`` and the inputs that are assumptions; and section of all
     inputs with their origin.
@@ -285,7 +289,7 @@ def worded(text: str) -> str:
 _KEY = re.compile(r"\b[a-z]{2,}(?:[._][a-z0-9]+)+\b")
 _TABLES = (
     "bearing", "circuit", "breakdown", "source", "drive", "discharge", "lubricant", "lubricant.temperature",
-    "contact", "grid", "film",
+    "contact", "grid", "film", "gear", "gear.operation", "gear.contact",
 )  # fmt: skip
 
 
@@ -297,7 +301,7 @@ def _name_of_key(match: re.Match[str]) -> str:
     return next((about.label for about in known if about is not None and about.label), word.replace("_", " "))
 
 
-def given_inputs(case: SweptCase, varied: Sequence[str] = ()) -> str:
+def given_inputs(case: SolvedCase, varied: Sequence[str] = ()) -> str:
     """Inputs with their values in a line, without defaults, values of the library, varied inputs, and inputs
     of bearings that a drive replaces.
     """
@@ -313,13 +317,13 @@ def given_inputs(case: SweptCase, varied: Sequence[str] = ()) -> str:
     )
 
 
-def _is_used(case: SweptCase, key: str) -> bool:
+def _is_used(case: SolvedCase, key: str) -> bool:
     """Whether a drive uses an input of one of its bearings; their motor and their duty cycle are its own."""
     end, inner = end_and_key(key)
     return not (replaced_by(case, key) or (end and inner.startswith(("motor.", "duty."))))
 
 
-def _given(case: SweptCase, inputs: Sequence[Input]) -> Iterator[str]:
+def _given(case: SolvedCase, inputs: Sequence[Input]) -> Iterator[str]:
     """Names and values of inputs of one machine part."""
     from_data_sheet = any("lubricant.viscosity" in entry.key for entry in inputs)
     for entry in inputs:
@@ -336,7 +340,7 @@ def _sources(inputs: Iterable[Input]) -> list[Source]:
     return list(dict.fromkeys(entry.source for entry in inputs if entry.source is not None))
 
 
-def _input_cells(case: SweptCase, entry: Input, numbers: Mapping[Source, int]) -> tuple[Cell, ...]:
+def _input_cells(case: SolvedCase, entry: Input, numbers: Mapping[Source, int]) -> tuple[Cell, ...]:
     origin = entry.origin if entry.origin in WORDS else f"library {entry.origin}"
     if entry.source is not None:
         origin = f"{origin}: {entry.source.kind} [{numbers[entry.source]}]"
@@ -356,7 +360,7 @@ def _meaning(key: str) -> str:
     return worded(re.split(r" \[|; |\. ", text)[0])
 
 
-def _assumptions(case: SweptCase, inputs: Iterable[Input]) -> Iterator[Block]:
+def _assumptions(case: SolvedCase, inputs: Iterable[Input]) -> Iterator[Block]:
     """Table of the inputs that are assumptions, estimates or follow by a rule, and of the given strength,
     which is seldom measured, grouped by their sources.
     """
@@ -376,7 +380,7 @@ def _assumptions(case: SweptCase, inputs: Iterable[Input]) -> Iterator[Block]:
     yield Text(SENTENCES["given_inputs"])
 
 
-def limit_section(case: SweptCase) -> Section:
+def limit_section(case: SolvedCase) -> Section:
     """Section of what the models behind a result neglect."""
     rows = tuple((limit.topic, limit.text) for limit in limits_of(case))
     return Section(
@@ -385,7 +389,7 @@ def limit_section(case: SweptCase) -> Section:
     )
 
 
-def source_section(case: SweptCase) -> Section:
+def source_section(case: SolvedCase) -> Section:
     """Return the section with the sources of library values, materials, equations and standards."""
     blocks: list[Block] = []
     numbered = enumerate(_sources(inputs_of(case)), 1)

@@ -1,4 +1,4 @@
-"""Report of a stored result of any kind: contact, moving roughness, bearing, drive, or a sweep of them."""
+"""Report of a stored result of any kind: contact, moving roughness, bearing, gear pair, drive, or a sweep."""
 
 from __future__ import annotations
 
@@ -12,9 +12,11 @@ from ehlectric.cases.defaults import HOW
 from ehlectric.contact import ContactResult
 from ehlectric.drive import DriveResult
 from ehlectric.errors import printable
+from ehlectric.gear import GearResult
 from ehlectric.motion.result import MotionResult
+from ehlectric.quantities.formats import amount, operating_point
 from ehlectric.quantities.rows import placed
-from ehlectric.quantities.sheets import CONTACT_CARDS
+from ehlectric.quantities.sheets import CONTACT_CARDS, FIRST_PAGE_OF_GEAR
 from ehlectric.report.appendix import (
     date_of_report,
     file_section,
@@ -43,6 +45,7 @@ from ehlectric.sweep import NAME as SWEEP
 from ehlectric.sweep import SweepResults, read_sweep
 from ehlectric.tables.bearing_tables import films_table, loads_table, total_rows
 from ehlectric.tables.contact_tables import result_rows
+from ehlectric.tables.gear_tables import gear_rows, points_table
 from ehlectric.tables.motion_tables import run_rows
 
 
@@ -137,12 +140,40 @@ def _bearing(result: BearingResult) -> Part:
     )
 
 
+def _gear(result: GearResult) -> Part:
+    summary, gear = result.summary(), result.case.gear
+    rows, teeth = gear_rows(summary), "/".join(map(str, gear.teeth))
+    shape = "spur" if gear.helix_angle == 0.0 else "helical"
+    speed, temperature = operating_point(gear.operation.pinion_speed, result.solution.bulk_temperature)
+    machine = (
+        f"{shape.capitalize()} gears of {gear.material} with {teeth} teeth, normal module "
+        f"{amount(gear.normal_module, 'm')}, face width {amount(gear.face_width, 'm')}: "
+        f"{amount(gear.operation.pinion_torque, 'N m')} on gear 1, {speed}, flanks at {temperature}."
+    )
+    return part_of(
+        result,
+        summary,
+        kind=f"{shape} gear pair {teeth}, films {HOW[result.case.contacts]}",
+        command="gear",
+        machine=machine,
+        first=(Numbers(numbers_of(rows, FIRST_PAGE_OF_GEAR, summary)),),
+        numbers=tuple(row_tables(rows, "Overview")),
+        further=(
+            Section(
+                "Path of contact",
+                (cell_table(points_table(summary), "Points of the path of contact", "quantity"),),
+            ),
+        ),
+    )
+
+
 # Parts by the class of the result.
 _PARTS: Mapping[type, Callable[[Any], Part]] = MappingProxyType(
     {
         ContactResult: _contact,
         MotionResult: _motion,
         BearingResult: _bearing,
+        GearResult: _gear,
         DriveResult: drive_part,
         SweepResults: sweep_part,
     }

@@ -46,7 +46,7 @@ def part_of(result: Any, summary: Mapping[str, Any], *, date: str = "", **fields
     first = next((name for name in (*_DECIDING, default) if name in names), "")
     shared = {
         "lead": lead_of(result),
-        "failure": "" if result.converged else SENTENCES["unsolved"],
+        "failure": "" if getattr(result, "converged", True) else SENTENCES["unsolved"],
         "verdict": getattr(result, "verdict", None),
         "warnings": result.all_warnings if isinstance(result, BearingResult) else result.warnings,
         "figures": tuple(sorted(names, key=lambda name: name != first)),
@@ -65,7 +65,8 @@ def _details(summary: Mapping[str, Any], date: str) -> dict[str, str]:
     return {
         "result computed by": f"ehlectric {summary['version']}",
         "date of the result": date,
-        "converged": "yes" if summary["converged"] else "no",
+        # Gear pairs that are not converged have no result.
+        "converged": "no" if summary.get("converged") is False else "yes",
         "computing time": f"{readable(total)} s" if is_number(total) else "",
         "seed of the random numbers": "" if seed is None else str(seed),
     }

@@ -12,7 +12,8 @@ from typing import TypeVar
 
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
-from ehlectric.cases.drive_case import DriveCase, SweptCase
+from ehlectric.cases.drive_case import DriveCase
+from ehlectric.cases.gear_case import GearCase, SolvedCase
 from ehlectric.cases.library.estimated_bearings import is_estimated
 from ehlectric.quantities.quantity import data_file
 
@@ -54,7 +55,7 @@ LIMITS, DRIVE_LIMITS = _of_file(Limit, "limits"), _of_file(Limit, "drive_limits"
 REFERENCES, DRIVE_REFERENCES = _of_file(Reference, "references"), _of_file(Reference, "drive_references")
 
 
-def limits_of(case: SweptCase) -> Iterator[Limit]:
+def limits_of(case: SolvedCase) -> Iterator[Limit]:
     """Limits that hold for a case; for a drive, the limits of its bearings follow, each once."""
     if isinstance(case, DriveCase):
         yield from _holding(DRIVE_LIMITS, case)
@@ -63,7 +64,7 @@ def limits_of(case: SweptCase) -> Iterator[Limit]:
         yield from _holding(LIMITS, case)
 
 
-def references_of(case: SweptCase) -> Iterator[Reference]:
+def references_of(case: SolvedCase) -> Iterator[Reference]:
     """Publications behind the equations of a case; of a drive, the publications of its bearings follow, each
     once.
     """
@@ -83,11 +84,14 @@ def _of_bearings(case: DriveCase, entries: tuple[T, ...]) -> Iterator[T]:
     )
 
 
-def conditions_of(case: SweptCase) -> dict[str, bool]:
+def conditions_of(case: SolvedCase) -> dict[str, bool]:
     """Conditions of the file by name, and whether each of them holds for a case."""
     if isinstance(case, DriveCase):
         return _of_drive(case)
-    conditions = _of_bearing(case) if isinstance(case, BearingCase) else _of_contact(case)
+    if isinstance(case, GearCase):
+        conditions = _of_gear(case)
+    else:
+        conditions = _of_bearing(case) if isinstance(case, BearingCase) else _of_contact(case)
     oil, discharge = case.lubricant, case.discharge
     replaced = case.user_laws.names if isinstance(case, Case) and case.user_laws is not None else {}
     laws = [
@@ -105,7 +109,7 @@ def conditions_of(case: SweptCase) -> dict[str, bool]:
     }
 
 
-def _holding(entries: tuple[T, ...], case: SweptCase) -> Iterator[T]:
+def _holding(entries: tuple[T, ...], case: SolvedCase) -> Iterator[T]:
     """Entries whose conditions all hold for a case."""
     holds = conditions_of(case)
     for entry in entries:
@@ -156,6 +160,21 @@ def _of_bearing(case: BearingCase) -> dict[str, bool]:
         "solved heat": solved_heat,
         f"rheology {'eyring' if thinning else 'newtonian'}": True,
         "viscosity across the film": solved_heat,
+    }
+
+
+def _of_gear(case: GearCase) -> dict[str, bool]:
+    operation = case.gear.operation
+    return {
+        "gear": True,
+        "formula": case.contacts == "formula",
+        "atlas": case.contacts == "atlas",
+        "summits": case.gear.summit_height > 0.0,
+        "inlet heat": case.lubricant.over_temperature,
+        "rheology newtonian": True,
+        f"sharing {operation.load_sharing}": True,
+        "estimated flanks": isinstance(operation.bulk_temperature, str),
+        "asperity contact": case.gear.contact.conduction == "by-film",
     }
 
 

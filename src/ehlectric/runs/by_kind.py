@@ -26,8 +26,10 @@ if TYPE_CHECKING:
     from ehlectric.cases.case import Case
     from ehlectric.cases.drive_case import DriveCase
     from ehlectric.cases.film_factors import FilmFactors
+    from ehlectric.cases.gear_case import GearCase
     from ehlectric.contact import PointResult, PreparedContact, Result, Solvers
     from ehlectric.drive import DriveResult
+    from ehlectric.gear import GearResult
     from ehlectric.runs.measured_film_factors import MeasuredFile
     from ehlectric.sweep import Sweep, SweepResults
 
@@ -101,6 +103,13 @@ def read_drive(file: InputFile) -> DriveCase:
     from ehlectric.cases.drive_case import DriveCase
 
     return DriveCase.of_file(file.table, file.path)
+
+
+def read_gear(file: InputFile) -> GearCase:
+    """Case of a gear pair."""
+    from ehlectric.cases.gear_case import GearCase
+
+    return GearCase.of_file(file.table, file.path)
 
 
 def read_sweep(file: InputFile) -> Sweep:
@@ -229,6 +238,18 @@ def run_drive(
         return solve_to_folder(case, folder, progress, workers=workers, others=files_of_results(folder))
 
 
+def run_gear(
+    case: GearCase, folder: str | Path, progress: Progress = silent, *, contacts: str = ""
+) -> RunOutcome[GearResult]:
+    """Solve a gear pair, and write its results; ``contacts``, "atlas" or "formula", replaces the key."""
+    from ehlectric.gear import solve_to_folder
+
+    case = case.replace({"contacts": contacts}) if contacts else case
+    with alone_in(folder, locks=[RESULT_LOCK]) as folder:
+        protect(folder)
+        return solve_to_folder(case, folder, progress, others=files_of_results(folder))
+
+
 def _with_factors(outcome: RunOutcome[R], factors: FilmFactors | None) -> RunOutcome[R]:
     """Outcome of a run, with the film factors of a measurement next to its result if there are any."""
     if factors is None:
@@ -268,6 +289,7 @@ RUNS: Mapping[FileKind, Kind] = MappingProxyType(
         "motion": Kind(read_case, run_motion),
         "bearing": Kind(read_bearing, run_bearing),
         "drive": Kind(read_drive, run_drive),
+        "gear": Kind(read_gear, run_gear),
         "sweep": Kind(read_sweep, run_sweep),
     }
 )

@@ -308,8 +308,9 @@ def export(result: Exported | str | Path, path: str | Path) -> Path:
 
     Parameters
     ----------
-    result : Result, PointResult, BearingResult, DriveResult, MotionResult, SweepResults, str or Path
-        Result; or the folder of a result of any kind, or its result.nc, bearing.nc, drive.nc or motion.nc.
+    result : any result, str or Path
+        Result; or the folder of a result of any kind, or its result.nc, bearing.nc, gear.nc, drive.nc or
+        motion.nc.
     path : str or Path
         File to write; an existing one is replaced. ``.mat`` for MATLAB and Octave has all arrays and the
         summary, ``.xlsx`` for spreadsheets the summary, the inputs and the table of the result, and

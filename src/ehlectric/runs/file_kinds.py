@@ -18,7 +18,7 @@ from ehlectric.cases.table import read_toml, tables_of_text
 from ehlectric.errors import InputError
 from ehlectric.runtime.reading import read_text
 
-FileKind = Literal["contact", "motion", "bearing", "drive", "sweep"]
+FileKind = Literal["contact", "motion", "bearing", "drive", "gear", "sweep"]
 
 # Tables and keys that only sweep files have.
 _OF_SWEEPS = ("case", "vary", "design")
@@ -33,6 +33,7 @@ _NAMES: Mapping[FileKind, tuple[str, str]] = MappingProxyType(
         "motion": ("a case of a contact", "run"),
         "bearing": ("a bearing file", "bearing"),
         "drive": ("a drive file", "drive"),
+        "gear": ("a gear file", "gear"),
         "sweep": ("a sweep file", "sweep"),
     }
 )
@@ -79,8 +80,8 @@ def expect(path: Path, *kinds: FileKind) -> InputFile:
 
 
 def command_of_file(path: str | Path) -> str:
-    """Command that solves a TOML file: "run", "bearing", "drive" or "sweep". Raises InputError if the file
-    cannot be read or is not TOML.
+    """Command that solves a TOML file, such as "run" or "bearing". Raises InputError if the file cannot be
+    read or is not TOML.
     """
     return _NAMES[read_input(path).kind][1]
 
@@ -100,6 +101,8 @@ def kind_of_tables(table: Mapping[str, Any]) -> FileKind | None:
         return "sweep"
     if any(key in table for key in _OF_DRIVES):
         return "drive"
+    if "gear" in table:
+        return "gear"
     if "bearing" in table:
         return "bearing"
     if "motion" in table:

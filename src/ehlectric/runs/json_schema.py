@@ -13,6 +13,7 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.discharge_inputs import BearingDischarge
 from ehlectric.cases.drive_case import DriveCase
+from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.input_keys import TABLES, descriptions, phrase
 from ehlectric.cases.table import Table, name_key
 from ehlectric.errors import InputError, shown
@@ -23,7 +24,7 @@ from ehlectric.sweep import Sweep
 
 # Tables of each kind of file; a case of a contact may have motion or not.
 SCHEMAS: Mapping[str, type[Table]] = MappingProxyType(
-    {"contact": Case, "bearing": BearingCase, "drive": DriveCase, "sweep": Sweep}
+    {"contact": Case, "bearing": BearingCase, "drive": DriveCase, "gear": GearCase, "sweep": Sweep}
 )
 
 # How pydantic names a schema of what is read.

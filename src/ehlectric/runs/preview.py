@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from ehlectric.cases.bearing_case import BearingCase
     from ehlectric.cases.case import Case
     from ehlectric.cases.drive_case import DriveCase
+    from ehlectric.cases.gear_case import GearCase
     from ehlectric.quantities.verdict import Verdict
     from ehlectric.sweep import Sweep
 
@@ -43,11 +44,12 @@ _MODULES = {
     "Case": "contact_preview",
     "BearingCase": "bearing_preview",
     "DriveCase": "drive_preview",
+    "GearCase": "gear_preview",
     "Sweep": "sweep_preview",
 }
 
 
-def preview_of(case: Case | BearingCase | DriveCase | Sweep) -> Preview:
+def preview_of(case: Case | BearingCase | DriveCase | GearCase | Sweep) -> Preview:
     """Preview of a case or of a sweep, at once: dry contact, groups, and what film formulas predict. Returns
     rows of a table, the same numbers as nested tables, and warnings. Raises InputError if the values
     contradict each other, a surface cannot be used, the grid fits into no memory or no point of a sweep is a

@@ -18,6 +18,7 @@ from ehlectric.figures.figure_names import (
     BEARING_FIGURE_FILES,
     DRIVE_FIGURE_FILES,
     FORMATS,
+    GEAR_FIGURE_FILES,
     MEASURED_FIGURE,
     MOTION_FIGURE_FILES,
     SENSITIVITY_FIGURE,
@@ -30,11 +31,13 @@ from ehlectric.runtime.result_names import (
     BEARING_NETCDF,
     CONTACT_NETCDF,
     DRIVE_NETCDF,
+    GEAR_NETCDF,
     MOTION,
     MOTION_JOURNAL,
     OF_BEARINGS,
     OF_CONTACTS,
     OF_DRIVES,
+    OF_GEARS,
     OF_MEASUREMENTS,
     OF_MOTION,
     OF_SWEEPS,
@@ -53,6 +56,7 @@ _FIGURES = (
     *MOTION_FIGURE_FILES,
     *BEARING_FIGURE_FILES,
     *DRIVE_FIGURE_FILES,
+    *GEAR_FIGURE_FILES,
     *SPEED_FIGURE_FILES,
     SENSITIVITY_FIGURE,
     MEASURED_FIGURE,
@@ -75,6 +79,7 @@ def files_of_results(folder: str | Path, *, keep: tuple[str, ...] = ()) -> tuple
         *OF_MOTION,
         *OF_BEARINGS,
         *OF_DRIVES,
+        *OF_GEARS,
         *OF_SWEEPS,
         *OF_MEASUREMENTS,
         SENSITIVITY,
@@ -133,7 +138,7 @@ def stored_result(path: str | Path) -> Path:
     NetCDF file, which need not exist where moving roughness has only a journal yet, or the database of a
     sweep. Raises InputError if the file cannot be read, or if the folder has no result or several.
     """
-    path, names = Path(path), (CONTACT_NETCDF, BEARING_NETCDF, DRIVE_NETCDF, MOTION, SWEEP)
+    path, names = Path(path), (CONTACT_NETCDF, BEARING_NETCDF, DRIVE_NETCDF, GEAR_NETCDF, MOTION, SWEEP)
     if not path.is_dir():
         if not _is_result(path):
             refuse_unreadable(path)

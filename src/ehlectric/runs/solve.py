@@ -11,11 +11,12 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeAlias, TypedDict, TypeVar, Unpack, overload
 
-from ehlectric import bearing, contact, drive
+from ehlectric import bearing, contact, drive, gear
 from ehlectric.bearing import BearingResult, solve_bearing
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case, LineCase, PointCase
 from ehlectric.cases.drive_case import DriveCase, case_of_dict
+from ehlectric.cases.gear_case import GearCase, SolvedCase
 from ehlectric.contact import (
     DEFAULT_SOLVERS,
     FilmProgress,
@@ -31,6 +32,7 @@ from ehlectric.contact import solve as solve_stationary
 from ehlectric.drive import DriveResult, solve_drive
 from ehlectric.errors import ConvergenceError, InputError, LostError, printable, shown
 from ehlectric.film import Mesh
+from ehlectric.gear import GearResult, solve_gear
 from ehlectric.lubricant.python_laws import Laws
 from ehlectric.motion.result import MotionResult
 from ehlectric.motion.run import run_motion
@@ -52,7 +54,9 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-AnyResult: TypeAlias = Result | PointResult | BearingResult | DriveResult | MotionResult
+# Results of ``solve``, and of ``load``.
+SolvedResult: TypeAlias = Result | PointResult | BearingResult | DriveResult | GearResult
+AnyResult: TypeAlias = SolvedResult | MotionResult
 
 
 def _moving(dataset: xr.Dataset, path: Path) -> MotionResult:
@@ -67,22 +71,23 @@ _OF_KINDS: Mapping[str, Callable[[xr.Dataset, Path], AnyResult]] = {
         (contact.SCHEMA, contact.result_of),
         (bearing.SCHEMA, bearing.result_of),
         (drive.SCHEMA, drive.result_of),
+        (gear.SCHEMA, gear.result_of),
         (MOVING, _moving),
     )
 }
 
 
 def load(path: str | Path) -> AnyResult:
-    """Load the result of a contact, a bearing, a drive or a contact with moving roughness.
+    """Load the result of a contact, a bearing, a gear pair, a drive or a contact with moving roughness.
 
     Parameters
     ----------
     path : str or Path
-        A result.nc, bearing.nc, drive.nc or motion.nc, or the folder with this file.
+        A result.nc, bearing.nc, gear.nc, drive.nc or motion.nc, or the folder with this file.
 
     Returns
     -------
-    Result, PointResult, BearingResult, DriveResult or MotionResult
+    Result, PointResult, BearingResult, GearResult, DriveResult or MotionResult
         Result, equal to the one that was saved. The result of a drive does not contain its solved bearings.
 
     Raises
@@ -112,15 +117,16 @@ def load(path: str | Path) -> AnyResult:
     return _OF_KINDS[kind](dataset, path)
 
 
-def save(result: Result | PointResult | BearingResult | DriveResult, folder: str | Path) -> list[Path]:
-    """Save the result of a contact, of a bearing or of a drive.
+def save(result: SolvedResult, folder: str | Path) -> list[Path]:
+    """Save the result of a contact, bearing, gear pair or drive.
 
     Parameters
     ----------
-    result : Result, PointResult, BearingResult or DriveResult
+    result : Result, PointResult, BearingResult, GearResult or DriveResult
         Result of ``solve``. A contact writes summary.json, result.nc and film.csv; a bearing writes
-        summary.json, contacts.csv, bearing.nc and, where it has one, impedance.csv; a drive writes
-        summary.json, events.csv, spectrum.csv and drive.nc.
+        summary.json, contacts.csv, bearing.nc and, where it has one, impedance.csv; a gear pair writes
+        summary.json, path.csv, mesh.csv and gear.nc; a drive writes summary.json, events.csv, spectrum.csv
+        and drive.nc.
     folder : str or Path
         Folder of the files; it is made if it does not exist.
 
@@ -139,17 +145,21 @@ def save(result: Result | PointResult | BearingResult | DriveResult, folder: str
     """
     if isinstance(result, BearingResult):
         return bearing.save(result, folder)
+    if isinstance(result, GearResult):
+        return gear.save(result, folder)
     if isinstance(result, DriveResult):
         return drive.save(result, folder)
     if isinstance(result, Result | PointResult):
         return contact.save(result, folder)
     raise InputError(
-        "result", got=shown(type(result).__name__), takes="a result of a contact, a bearing or a drive"
+        "result",
+        got=shown(type(result).__name__),
+        takes="a result of a contact, a bearing, a gear pair or a drive",
     )
 
 
 # A case, its tables, or the path of its file.
-Solvable: TypeAlias = Case | BearingCase | DriveCase | Mapping[str, Any] | str | PathLike[str]
+Solvable: TypeAlias = SolvedCase | Mapping[str, Any] | str | PathLike[str]
 
 
 class _Options(TypedDict, total=False):
@@ -182,6 +192,8 @@ def solve(case: BearingCase, **options: Unpack[_BearingOptions]) -> BearingResul
 @overload
 def solve(case: DriveCase, **options: Unpack[_BearingOptions]) -> DriveResult: ...
 @overload
+def solve(case: GearCase, **options: Unpack[_Options]) -> GearResult: ...
+@overload
 def solve(case: Mapping[str, Any] | str | PathLike[str], **options: Unpack[_AnyOptions]) -> Any: ...
 
 
@@ -194,19 +206,19 @@ def solve(
     beside_smooth: bool = True,
     laws: Laws | None = None,
     workers: int | None = None,
-) -> Result | PointResult | BearingResult | DriveResult:
-    """Solve a contact, a bearing or a drive.
+) -> SolvedResult:
+    """Solve a contact, a bearing, a gear pair or a drive.
 
     Parameters
     ----------
-    case : Case, BearingCase, DriveCase, mapping, str or Path
-        Case of a stationary contact, of a bearing or of a drive, its nested tables, or the path of its TOML
-        file.
+    case : Case, BearingCase, GearCase, DriveCase, mapping, str or Path
+        Case of a stationary contact, of a bearing, of a gear pair or of a drive, its nested tables, or the
+        path of its TOML file.
     progress : callable, optional
         Called with a number of parts done, the number of all parts, and a text. The parts of a contact are
         percent of the expected work; they never decrease, and reach 100 at the end. If a grid is refined,
         their text has its grid, the error so far and about the time that is left. The parts of a bearing are
-        its contacts, and the parts of a drive percent of the simulated time.
+        its contacts, and the parts of a drive percent of the simulated time. A gear pair has no parts.
     require_convergence : bool
         Whether to raise a ConvergenceError if a film does not converge, instead of returning the result with
         ``converged`` false.
@@ -222,8 +234,9 @@ def solve(
 
     Returns
     -------
-    Result, PointResult, BearingResult or DriveResult
-        Result of a line contact, a point contact, a bearing or a drive. Its warnings are also logged.
+    Result, PointResult, BearingResult, GearResult or DriveResult
+        Result of a line contact, a point contact, a bearing, a gear pair or a drive. Its warnings are also
+        logged.
 
     Raises
     ------
@@ -249,6 +262,8 @@ def solve(
     progress_or_silent(progress)
     if laws is not None:
         valid_case = case_with_laws(valid_case, laws)
+    if isinstance(valid_case, GearCase):
+        return _of_gears(valid_case, progress or silent, solvers)
     if isinstance(valid_case, BearingCase | DriveCase):
         return _of_bearings(valid_case, progress, workers, solvers, require_convergence=require_convergence)
     if valid_case.motion is not None:
@@ -269,6 +284,16 @@ def solve(
     if progress is not None:
         progress(100, 100, "solved")
     log_warnings(valid_case.title, result.warnings)
+    return result
+
+
+def _of_gears(case: GearCase, progress: Progress, solvers: str | Solvers) -> GearResult:
+    """Result of a gear pair; its warnings are logged."""
+    if solvers_of(solvers) is not DEFAULT_SOLVERS:
+        raise InputError("solvers", got=shown(solvers), takes="'ehlectric' for a gear pair")
+    progress(0, 0, "solving films")
+    result = solve_gear(case)
+    log_warnings(case.title, result.warnings)
     return result
 
 
@@ -294,22 +319,24 @@ def _of_bearings(
     return result
 
 
-def case_of(given: object) -> Case | BearingCase | DriveCase:
+def case_of(given: object) -> SolvedCase:
     """Case that is given as itself, as its nested tables, or by the path of its file. Raises InputError if it
     is none of these, or not valid.
     """
-    if isinstance(given, Case | BearingCase | DriveCase):
+    if isinstance(given, SolvedCase):
         return given
     if isinstance(given, Mapping):
         kind = kind_of_tables(given)
         _refuse_sweep("case", kind)
+        if kind == "gear":
+            return GearCase.from_dict(given)
         return DriveCase.from_dict(given) if kind == "drive" else case_of_dict(given)
     if isinstance(given, str | PathLike):
         file = read_input(Path(given))
         _refuse_sweep(file.path, file.kind)
-        case: Case | BearingCase | DriveCase = RUNS[file.kind].read(file)
+        case: SolvedCase = RUNS[file.kind].read(file)
         return case
-    takes = "a Case, a BearingCase, a DriveCase, a dict, or the path of a TOML file"
+    takes = "a Case, a BearingCase, a GearCase, a DriveCase, a dict, or the path of a TOML file"
     sweep = "; run_sweep solves a Sweep" if type(given).__name__ == "Sweep" else ""
     raise InputError("case", got=shown(type(given).__name__), takes=takes + sweep)
 
@@ -396,7 +423,7 @@ def solve_motion(case: Case, *, progress: Progress = silent) -> MotionResult:
 R = TypeVar("R")
 
 # Result of a case, or the error instead.
-_Outcome = Result | PointResult | BearingResult | DriveResult | Exception
+_Outcome = SolvedResult | Exception
 
 
 class Solved(NamedTuple, Generic[R]):
@@ -406,7 +433,7 @@ class Solved(NamedTuple, Generic[R]):
     ----------
     number : int
         Number of the case in the order in which the cases were given, from 0.
-    result : Result, PointResult, BearingResult, DriveResult or None
+    result : Result, PointResult, BearingResult, GearResult, DriveResult or None
         Result of the case, which may not be converged; None if there is an error.
     error : Exception or None
         Error that ``solve`` would have raised, or a ``LostError`` if the process of the case was killed.
@@ -451,12 +478,16 @@ def solve_many(
 ) -> Iterator[Solved[DriveResult]]: ...
 @overload
 def solve_many(
+    cases: Iterable[GearCase], workers: int | None = None, *, progress: Progress | None = None
+) -> Iterator[Solved[GearResult]]: ...
+@overload
+def solve_many(
     cases: Iterable[Solvable],
     workers: int | None = None,
     *,
     progress: Progress | None = None,
     laws: Laws | None = None,
-) -> Iterator[Solved[Result | PointResult | BearingResult | DriveResult]]: ...
+) -> Iterator[Solved[SolvedResult]]: ...
 
 
 def solve_many(
@@ -466,11 +497,11 @@ def solve_many(
     progress: Progress | None = None,
     laws: Laws | None = None,
 ) -> Iterator[Solved[Any]]:
-    """Solve many contacts, bearings and drives in parallel, and yield each as it finishes.
+    """Solve many contacts, bearings, gear pairs and drives in parallel, and yield each as it finishes.
 
     Parameters
     ----------
-    cases : iterable of Case, BearingCase, DriveCase, mapping, str or Path
+    cases : iterable of Case, BearingCase, GearCase, DriveCase, mapping, str or Path
         Whatever ``solve`` takes. The iterable is read as the processes get free, so it may be endless.
     workers : int, optional
         Number of processes of this machine; by default the number of cores. With 1, the cases are solved in
@@ -514,7 +545,7 @@ def solve_many(
     """
     if isinstance(workers, bool) or not (workers is None or (isinstance(workers, int) and workers >= 1)):
         raise InputError("workers", got=shown(workers), takes="a whole number of at least 1")
-    single = isinstance(cases, Case | BearingCase | DriveCase | Mapping | str | PathLike)
+    single = isinstance(cases, SolvedCase | Mapping | str | PathLike)
     if single or not isinstance(cases, Iterable):
         raise InputError(
             "cases", got=shown(type(cases).__name__), takes="a list of cases; solve takes one case"
@@ -611,6 +642,8 @@ def solve_case(given: Solvable | InputError) -> _Outcome:
             return solve_drive(case, workers=1)
         if isinstance(case, BearingCase):
             return solve_bearing(case, workers=1)
+        if isinstance(case, GearCase):
+            return solve_gear(case)
         return solve_stationary(case)
     except Exception as error:
         return error

@@ -15,10 +15,11 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.contact import Setup
 from ehlectric.drive import DriveResult
 from ehlectric.errors import InputError, printable
+from ehlectric.gear import GearResult
 from ehlectric.quantities.formats import UNITS, USUAL, Scale, scale_for, scale_of
 from ehlectric.quantities.inputs import SPEED, end_and_key
 from ehlectric.quantities.quantity import key_of
-from ehlectric.quantities.results import ELEMENT_KEYS, EVENT_KEYS
+from ehlectric.quantities.results import ELEMENT_KEYS, EVENT_KEYS, POINT_KEYS
 from ehlectric.quantities.units import printed
 from ehlectric.runs.solve import AnyResult
 from ehlectric.runtime.display import is_number
@@ -27,7 +28,7 @@ from ehlectric.sweep import SweepResults, flat, flat_summary, label_of, result_k
 if TYPE_CHECKING:
     import pandas as pd
 
-    from ehlectric.cases.drive_case import SweptCase
+    from ehlectric.cases.gear_case import SolvedCase
 
 # Rows and columns of a sheet, and characters of a cell, at most.
 _ROWS, _COLUMNS, _TEXT = 1_048_576, 16_384, 32_767
@@ -80,7 +81,7 @@ def workbook(result: AnyResult | SweepResults) -> bytes:
     return file.getvalue()
 
 
-def _keys(values: dict[str, Any], case: SweptCase) -> Iterator[Iterable[Any]]:
+def _keys(values: dict[str, Any], case: SolvedCase) -> Iterator[Iterable[Any]]:
     """Rows of keys: dotted key, name, value in its usual unit, and value in its SI unit."""
     yield "key", "name", "value", "unit", "SI value", "SI unit"
     for key, value in values.items():
@@ -140,7 +141,9 @@ def _unit(unit: str) -> str:
     return unit.replace("**", "^").replace("*", " ")
 
 
-def _table(frame: pd.DataFrame, result: AnyResult | SweepResults, case: SweptCase) -> Iterator[Iterable[Any]]:
+def _table(
+    frame: pd.DataFrame, result: AnyResult | SweepResults, case: SolvedCase
+) -> Iterator[Iterable[Any]]:
     """Rows of the table of a result, below heads with units."""
     units = frame.attrs.get("units", {})
     columns = {}
@@ -150,6 +153,8 @@ def _table(frame: pd.DataFrame, result: AnyResult | SweepResults, case: SweptCas
                 shown = ELEMENT_KEYS[name].shown if name in ELEMENT_KEYS else ""
             case DriveResult():
                 shown = EVENT_KEYS[name].shown if name in EVENT_KEYS else ""
+            case GearResult():
+                shown = POINT_KEYS[name].shown if name in POINT_KEYS else ""
             case _:
                 shown = label_of(name, case).shown if name in units else ""
         columns[name] = (units.get(name), shown, frame[name].to_numpy())

@@ -32,7 +32,7 @@ T = TypeVar("T")
 R = TypeVar("R")
 
 # Kinds of results. The functions that draw a result are in a table by its kind.
-ResultKind = Literal["contact", "bearing", "drive", "motion", "sweep", "measurement"]
+ResultKind = Literal["contact", "bearing", "drive", "gear", "motion", "sweep", "measurement"]
 
 # Longest representation [characters].
 WIDTH = 200

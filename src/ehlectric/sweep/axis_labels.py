@@ -8,13 +8,21 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.drive_case import DriveCase, SweptCase
+from ehlectric.cases.drive_case import DriveCase
+from ehlectric.cases.gear_case import GearCase, SolvedCase
 from ehlectric.cases.input_keys import input_of, kind_of, unit_of
 from ehlectric.quantities.formats import CELSIUS, Scale, scale_for
 from ehlectric.quantities.former_keys import successors
 from ehlectric.quantities.inputs import end_and_key
 from ehlectric.quantities.quantity import Bound, Keys, key_of
-from ehlectric.quantities.results import BEARING_KEYS, CONTACT_KEYS, DRIVE_KEYS, MOTION_KEYS, NAMES_OF_ENDS
+from ehlectric.quantities.results import (
+    BEARING_KEYS,
+    CONTACT_KEYS,
+    DRIVE_KEYS,
+    GEAR_KEYS,
+    MOTION_KEYS,
+    NAMES_OF_ENDS,
+)
 
 
 @dataclass(frozen=True)
@@ -58,7 +66,7 @@ class Label:
         return f"{self.with_symbol} [{scale.unit}]" if scale.unit else self.with_symbol
 
 
-def label_of(key: str, case: SweptCase) -> Label:
+def label_of(key: str, case: SolvedCase) -> Label:
     """Name, symbol and unit of a varied key or of a value of the summary."""
     inner = _counted_from_1(key.removeprefix("inputs.")) if key.startswith("inputs.") else key
     result, entry = key_of(result_keys(case), key), input_of(inner) or input_of(_list_of(inner))
@@ -80,13 +88,15 @@ def _list_of(key: str) -> str:
     return head if number.isdecimal() else key
 
 
-def _bounds(case: SweptCase) -> bool:
+def _bounds(case: SolvedCase) -> bool:
     """Whether the films of a case are upper bounds; films of a bearing with heat are best estimates."""
     match case:
         case BearingCase():
             return case.bearing.bounding
         case DriveCase():
             return any(at.bearing.bounding for at in case.bearings)
+        case GearCase():
+            return False
         case _:
             return True
 
@@ -98,12 +108,14 @@ def _counted_from_1(key: str) -> str:
     return f"{table}.{int(number) + 1}.{name}" if table == "roughness" and dot and number.isdecimal() else key
 
 
-def result_keys(case: SweptCase) -> Keys:
+def result_keys(case: SolvedCase) -> Keys:
     """Documented keys of the summary of a case. Returns keys of a line or point contact, stationary or
-    transient, of a bearing or of a drive.
+    transient, of a bearing, of a drive or of a gear pair.
     """
     if isinstance(case, BearingCase):
         return BEARING_KEYS
     if isinstance(case, DriveCase):
         return DRIVE_KEYS
+    if isinstance(case, GearCase):
+        return GEAR_KEYS
     return (CONTACT_KEYS if case.motion is None else MOTION_KEYS)[case.contact.geometry]

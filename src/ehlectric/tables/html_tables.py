@@ -10,14 +10,16 @@ from typing import Any
 from ehlectric.bearing import BearingResult
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
-from ehlectric.cases.drive_case import DriveCase, SweptCase
+from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.film_factors import FilmFactors
+from ehlectric.cases.gear_case import GearCase, SolvedCase
 from ehlectric.cases.table_edits import flattened
 from ehlectric.contact import ContactResult
 from ehlectric.drive import DriveResult
 from ehlectric.errors import printable
+from ehlectric.gear import GearResult
 from ehlectric.motion.result import MotionResult
-from ehlectric.quantities.formats import CELSIUS, Scale, scale_for, suited
+from ehlectric.quantities.formats import CELSIUS, Scale, scale_for, scale_of, suited
 from ehlectric.quantities.palette import LIGHTS
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.rows import Row
@@ -27,6 +29,7 @@ from ehlectric.sweep import Range, Sweep, SweepResults, label_of, sweep_warnings
 from ehlectric.tables.bearing_tables import total_rows
 from ehlectric.tables.contact_tables import result_rows
 from ehlectric.tables.drive_tables import drive_rows
+from ehlectric.tables.gear_tables import gear_rows
 from ehlectric.tables.measured_tables import factor_rows
 from ehlectric.tables.motion_tables import run_rows
 from ehlectric.tables.sweep_summary import sweep_rows
@@ -87,7 +90,7 @@ def _warnings(shown: Any) -> Iterable[ResultWarning]:
     return warnings
 
 
-def input_rows(case: Case | BearingCase | DriveCase) -> Iterator[Row]:
+def input_rows(case: SolvedCase) -> Iterator[Row]:
     """Rows of the inputs of a case that are given, without defaults."""
     given = flattened(case.model_dump(mode="json", exclude_none=True, exclude_unset=True))
     for key, value in given.items():
@@ -98,20 +101,26 @@ def input_rows(case: Case | BearingCase | DriveCase) -> Iterator[Row]:
             yield Row(f"laws.{key}", name)
 
 
-def input_row(case: Case | BearingCase | DriveCase, key: str, value: Any) -> Row:
+def input_row(case: SolvedCase, key: str, value: Any) -> Row:
     """Row of an input: its dotted key, and its value in a unit that suits it."""
+    listed = value if isinstance(value, list) else []
+    if listed and all(map(is_number, listed)) and label_of(key, case).unit:
+        scale = _scale(key, case, [min(filter(None, map(abs, listed)), default=1.0)])
+        return Row(key, ", ".join(readable(scale.of(number), 6) for number in listed), scale.unit)
     if not is_number(value):
         return Row(key, value if isinstance(value, str) else json.dumps(value))
     scale = _scale(key, case, [float(value)])
     return Row(key, readable(scale.of(value), 6), scale.unit)
 
 
-def _scale(key: str, case: SweptCase, values: Sequence[float]) -> Scale:
+def _scale(key: str, case: SolvedCase, values: Sequence[float]) -> Scale:
     """Unit that suits all of some values of an input: °C, rpm, per GPa, or with a prefix that it lacks."""
     label, largest = label_of(key, case), max(map(abs, values))
     unit = label.unit
     if label.absolute:
         return CELSIUS
+    if unit == "rad" and label.shown == "deg":
+        return scale_of("deg")
     if unit in ("rad/s", "A/m**2", "m**2/s", "1/Pa", "m**2", "m**3"):
         return scale_for(largest or 1.0, unit)
     return Scale(*suited(largest or 1.0, unit))
@@ -137,11 +146,13 @@ _ROWS: Mapping[type, Callable[[Any], Iterable[Row]]] = {
     ContactResult: result_rows,
     BearingResult: lambda result: total_rows(result.summary()),
     DriveResult: lambda result: drive_rows(result.summary()),
+    GearResult: lambda result: gear_rows(result.summary()),
     MotionResult: lambda result: run_rows(result.summary()),
     SweepResults: sweep_rows,
     FilmFactors: factor_rows,
     Case: input_rows,
     BearingCase: input_rows,
     DriveCase: input_rows,
+    GearCase: input_rows,
     Sweep: _sweep_rows,
 }

@@ -1,0 +1,127 @@
+"""Case of a gear pair, read from TOML, written back, and changed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Self
+
+from pydantic import model_validator
+
+from ehlectric.cases.case_oil import Lubricant
+from ehlectric.cases.defaults import Contacts
+from ehlectric.cases.discharge_inputs import Discharge
+from ehlectric.cases.drive_case import SweptCase
+from ehlectric.cases.gear_inputs import Gear
+from ehlectric.cases.key_names import refuse_deep
+from ehlectric.cases.oil_inputs import displace_oil
+from ehlectric.cases.table import CaseFile, Title, with_name_keys
+from ehlectric.cases.table_edits import displace, flattened, nested, set_keys
+from ehlectric.errors import InputError
+from ehlectric.quantities.alternatives import ALTERNATIVES
+from ehlectric.quantities.formats import amount, operating_point
+from ehlectric.runtime.display import headline
+
+# Keys of [discharge] that a gear file may not have.
+_NOT_OF_GEARS = ("weibull", "external_capacitance", "length", "peak_current", "pit")
+
+
+class GearCase(CaseFile, book="gear_file"):
+    """Pair of cylindrical gears at an operating point: all inputs on which its film and its field depend.
+
+    A case is made from a file by ``from_toml``, or from nested tables by ``from_dict``. Wrong inputs raise an
+    ``InputError`` that names their keys. A case is frozen; ``replace`` returns a changed copy. Numbers are in
+    SI units.
+
+    Parameters
+    ----------
+    gear : mapping
+        Drawing of the gear pair, with the tables ``operation`` and ``contact``.
+    lubricant : Lubricant or mapping
+        Laws of the oil, or ``base``, the name of a lubricant of the library.
+    title : str, optional
+        Title of tables and figures.
+    contacts : str, optional
+        "atlas" for films from the atlas, "formula" for a film-thickness formula, or "solved" for films that
+        are solved at the points of the path of contact and at the smallest film.
+    discharge : mapping, optional
+        Dielectric strength and conductivity of the oil.
+    """
+
+    if TYPE_CHECKING:
+
+        def __init__(self, **tables: Any) -> None: ...
+
+    title: Title = ""
+    contacts: Contacts = "atlas"
+    gear: Gear
+    lubricant: Lubricant
+    discharge: Discharge = Discharge()
+
+    @classmethod
+    def of_file(cls, table: dict[str, Any], path: Path) -> Self:  # noqa: ARG003
+        """Make a gear case from the tables of the file at a path."""
+        return cls.from_written(table)
+
+    @classmethod
+    def unused_keys(cls, given: Mapping[str, Any]) -> set[str]:
+        """Return the dotted keys that a gear pair does not have."""
+        return super().unused_keys(given) | {f"discharge.{key}" for key in (*_NOT_OF_GEARS, "outlet")}
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        for key in _NOT_OF_GEARS:
+            if getattr(self.discharge, key) is not None:
+                raise InputError.worded(f"discharge.{key}", "is not used by a gear pair")
+        if self.discharge.outlet != "full":
+            raise InputError(
+                "discharge.outlet",
+                got=f"{self.discharge.outlet!r}",
+                takes="'full': oil fills all gaps",
+            )
+        table = self.discharge.strength_table
+        if table is not None and table.over == "pressure":
+            raise InputError(
+                "discharge.strength_table",
+                got="a strength over pressure",
+                takes="dielectric_strength, or a table over temperature: the field in the film is not solved",
+            )
+        return self
+
+    def _speeds(self, table: dict[str, Any]) -> Iterator[tuple[dict[str, Any], str]]:
+        yield table["gear"]["operation"], "pinion_speed"
+
+    def _headline(self) -> str:
+        """Title, teeth, torque and speed on one line."""
+        operation, teeth = self.gear.operation, "/".join(map(str, self.gear.teeth))
+        return headline(
+            self.title,
+            f"{teeth} teeth",
+            amount(operation.pinion_torque, "N m"),
+            *operating_point(operation.pinion_speed, operation.oil_temperature, "degC"),
+        )
+
+    def replace(self, changes: Mapping[str, Any] | None = None, /, **tables: Any) -> Self:
+        """Return a changed copy of the case.
+
+        Parameters
+        ----------
+        changes : mapping, optional
+            New values by dotted key, as in ``{"gear.operation.pinion_torque": "100 N m"}``. A new
+            ``lubricant.base`` replaces all values of the lubricant.
+        **tables
+            New values by table, as in ``gear={"helix_angle": 0.0}``.
+        """
+        refuse_deep({**tables, "changes": changes})
+        changes = with_name_keys(flattened(tables) | dict(changes or {}), GearCase)
+        table = self.to_dict()
+        if "lubricant.base" in changes:
+            table["lubricant"] = {}
+        displace_oil(table["lubricant"], nested(changes, "lubricant"))
+        displace(table, changes, {name: ALTERNATIVES[name] for name in ("gear", "lubricant", "discharge")})
+        set_keys(table, changes)
+        return self.from_dict(table)
+
+
+# Case of anything that is solved.
+SolvedCase = SweptCase | GearCase

@@ -1,0 +1,12 @@
+"""Names of gear that other packages may import."""
+
+from .gear_verdict import CONDUCTS as CONDUCTS
+from .gear_verdict import state_of as state_of
+from .points import name_of_place as name_of_place
+from .points import weakest as weakest
+from .result import GearResult as GearResult
+from .result import solve_gear as solve_gear
+from .run import result_of as result_of
+from .run import save as save
+from .run import solve_to_folder as solve_to_folder
+from .stored import SCHEMA as SCHEMA

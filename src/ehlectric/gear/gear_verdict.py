@@ -1,0 +1,125 @@
+"""Verdict on a gear mesh: whether its film breaks down, and what the answer rests on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from ehlectric.discharge.breakdown_rule import (
+    TOUCHING_AT_TIMES,
+    code_of,
+    level_of,
+    strength_interval,
+    touching_rule,
+)
+from ehlectric.discharge.film_verdict import no_verdict, strength_clause, strength_doubt
+from ehlectric.gear.solution import GearSolution
+from ehlectric.quantities.statement import Fact, Statement
+from ehlectric.quantities.verdict import Verdict
+
+# Shares of time up to which a mesh is called insulating, and from which it is called conducting.
+_INSULATING, _CONDUCTING = 0.01, 0.99
+
+# States of a mesh.
+CONDUCTS, AT_TIMES, INSULATES = "conducts", "conducts at times", "insulates"
+
+
+def state_of(solution: GearSolution) -> str:
+    """State of the mesh: what its conduction is set to, or by the share of time in which it conducts."""
+    conduction = solution.case.gear.contact.conduction
+    if conduction != "by-film":
+        return CONDUCTS if conduction == "always" else INSULATES
+    share = float(np.mean(solution.contact_time_share()))
+    return CONDUCTS if share >= _CONDUCTING else INSULATES if share <= _INSULATING else AT_TIMES
+
+
+def breakdown_margin(solution: GearSolution) -> float | None:
+    """Smallest breakdown voltage over the voltage between both gears; None without one of them, and where
+    summits touch.
+    """
+    voltage, breakdown = solution.case.gear.contact.voltage, solution.breakdown_voltage
+    if voltage is None or breakdown is None or not np.min(breakdown):
+        return None
+    return float(np.min(breakdown)) / voltage
+
+
+def gear_verdict(solution: GearSolution) -> Verdict:
+    """Verdict on a solved gear pair.
+
+    Grey without a strength or a voltage between both gears. A mesh that conducts has no voltage to break
+    down. Without a range of the strength, a margin that a change by 20 % or the error of the film takes
+    across 1 is yellow. A mesh that conducts at times is not green, because contacts discharge as they open.
+    """
+    at = _operating_point(solution)
+    state = state_of(solution)
+    breakdown = solution.breakdown_voltage
+    share = float(np.mean(solution.contact_time_share()))
+    ratio = float(np.nanmin(solution.films.minimum)) / solution.rq
+    assumed = tuple(_assumptions(solution))
+    given = solution.case.gear.contact.conduction != "by-film"
+    of_state = Statement.of(
+        "mesh-state-given" if given else "mesh-state", state=state, share=share, lambda_ratio=ratio
+    )
+    if state == CONDUCTS:
+        values = {} if given else {"share": share, "lambda_ratio": ratio}
+        answer = Statement.of("mesh-conducts-given" if given else "mesh-conducts", **values)
+        facts = (Fact("mesh.contact_time_share", share),)
+        return replace(no_verdict(answer, code="mesh-conducts"), at=at, assumptions=assumed, facts=facts)
+    if breakdown is None:
+        return replace(
+            no_verdict(Statement.of("no-strength")), at=at, reasons=(of_state,), assumptions=assumed
+        )
+    first = float(np.min(breakdown))
+    if not first:
+        return _touching(solution, of_state, assumed)
+    margin, voltage = breakdown_margin(solution), solution.case.gear.contact.voltage
+    if margin is None or voltage is None:
+        answer = Statement.of("mesh-breakdown", breakdown=first)
+        return replace(no_verdict(answer), at=at, reasons=(of_state,), assumptions=assumed)
+    error = solution.film_error
+    weakest, strongest = strength_interval(margin)
+    interval = min(weakest, margin * (1.0 - error)), max(strongest, margin * (1.0 + error))
+    level = level_of(*interval)
+    code = code_of(level, likely=margin < 1.0)
+    if level == "green" and state == AT_TIMES:
+        level, code = "yellow", TOUCHING_AT_TIMES
+    return Verdict(
+        level,
+        code,
+        Statement.of("mesh-voltages", voltage=voltage, breakdown=first, margin=margin),
+        at,
+        facts=(Fact("mesh.breakdown_voltage", first), Fact("mesh.margin", margin, interval)),
+        reasons=(of_state, *strength_doubt(solution.case.discharge, margin)),
+        assumptions=assumed,
+        bound="best",
+    )
+
+
+def _touching(solution: GearSolution, of_state: Statement, assumed: tuple[Statement, ...]) -> Verdict:
+    """Verdict on a mesh whose summits touch, for which no voltage is computed."""
+    level, code = touching_rule(None, driven=solution.case.gear.contact.voltage is not None)
+    answer = Statement.of("mesh-touching", height=solution.case.gear.summit_height)
+    return Verdict(level, code, answer, _operating_point(solution), reasons=(of_state,), assumptions=assumed)
+
+
+def _operating_point(solution: GearSolution) -> Statement:
+    """Torque, speed and temperature of the flanks."""
+    operation = solution.case.gear.operation
+    return Statement.of(
+        "at-mesh",
+        torque=operation.pinion_torque,
+        speed=operation.pinion_speed,
+        temperature=solution.bulk_temperature,
+    )
+
+
+def _assumptions(solution: GearSolution) -> Iterator[Statement]:
+    """Clauses on what is assumed."""
+    operation = solution.case.gear.operation
+    yield Statement.of("mesh-film", law=operation.load_sharing, factor=operation.load_factor)
+    if solution.case.discharge.has_strength:
+        yield strength_clause(solution.case.discharge)
+    if isinstance(operation.bulk_temperature, str):
+        yield Statement.of("mesh-bulk", temperature=solution.bulk_temperature)

@@ -1,0 +1,42 @@
+"""Warnings about where the result of a gear pair is unreliable."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ehlectric.gear.solution import GearSolution
+from ehlectric.quantities.result_warnings import ResultWarning
+
+# Share of the capacitance above which films outside the atlas are worth a warning.
+_OUTSIDE = 0.1
+
+
+def gear_warnings(solution: GearSolution) -> Iterator[ResultWarning]:
+    """Warnings about a gear pair, each once."""
+    gear, operation = solution.case.gear, solution.case.gear.operation
+    ratio = float(np.nanmin(solution.films.minimum)) / solution.rq
+    if isinstance(operation.bulk_temperature, str):
+        yield ResultWarning.of("flank-temperature-estimated", celsius=solution.bulk_temperature - 273.15)
+    if operation.load_factor == 1.0:
+        yield ResultWarning.of("load-factors-1")
+    if gear.tip_relief is None and operation.load_sharing == "stiffness":
+        yield ResultWarning.of("relief-unknown")
+    if ratio <= gear.summit_height:
+        yield ResultWarning.of("flanks-touch", ratio=ratio, height=gear.summit_height)
+    if solution.pair.normal_backlash is None:
+        yield ResultWarning.of("backlash-unknown")
+    yield from _outside_atlas(solution)
+
+
+def _outside_atlas(solution: GearSolution) -> Iterator[ResultWarning]:
+    """Warning about films outside the atlas that matter: the smallest one, or lines with much of the
+    capacitance. Lines that relief nearly unloads have thick films outside the atlas.
+    """
+    outside = solution.outside_atlas
+    capacitance = solution.capacitance_of_lines
+    share = float(np.sum(capacitance[outside]) / np.nansum(capacitance))
+    if outside[solution.thinnest] or share > _OUTSIDE:
+        error = 100.0 * min(1.0, float(np.max(solution.films.error[outside])))
+        yield ResultWarning.of("flank-outside-atlas", percent=error)

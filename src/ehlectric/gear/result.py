@@ -1,0 +1,151 @@
+"""Result of a gear pair, as ``solve_gear`` returns it."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from ehlectric.cases.gear_case import GearCase
+from ehlectric.gear.gear_verdict import gear_verdict
+from ehlectric.gear.gear_warnings import gear_warnings
+from ehlectric.gear.points import path_points
+from ehlectric.gear.solution import GearSolution, solve_gear_pair
+from ehlectric.gear.stored import layout_of
+from ehlectric.gear.summary import gear_summary, point_summary
+from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
+from ehlectric.quantities.results import POINT_KEYS
+from ehlectric.quantities.verdict import Verdict
+from ehlectric.readable import readable
+from ehlectric.runtime.display import ResultKind, Shown, headline, read_only_property
+from ehlectric.version import __version__
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+
+SCHEMA = "ehlectric.gear/1"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class GearResult(Shown):
+    """Result of a gear pair: films, capacitance and breakdown voltage of its mesh.
+
+    Attributes
+    ----------
+    solution : GearSolution
+        Geometry, loads and films on the lines of contact over a phase of the mesh.
+    seconds : float
+        Computing time [s].
+    version : str
+        Version of ehlectric that solved it.
+    """
+
+    result_kind: ClassVar[ResultKind] = "gear"
+
+    solution: GearSolution
+    seconds: float = field(default=0.0, compare=False)
+    version: str = __version__
+
+    @property
+    def case(self) -> GearCase:
+        """Case of the gear pair."""
+        return self.solution.case
+
+    @read_only_property
+    def warnings(self) -> tuple[ResultWarning, ...]:
+        """Warnings about where the result is unreliable, each once."""
+        return tuple(gear_warnings(self.solution))
+
+    @read_only_property
+    def verdict(self) -> Verdict:
+        """Verdict: the state of the mesh, and whether its film breaks down at the voltage of the case."""
+        return gear_verdict(self.solution)
+
+    @property
+    def margin(self) -> float | None:
+        """Breakdown voltage over the voltage between both gears; None without one of them."""
+        margin: float | None = self.summary()["mesh"]["margin"]
+        return margin
+
+    def summary(self) -> dict[str, Any]:
+        """Return the results nested as in summary.json, SI units."""
+        return {
+            "schema": SCHEMA,
+            "version": self.version,
+            "title": self.case.title,
+            **texts_and_codes(self.warnings),
+            **self.verdict.as_data(),
+            "inputs": self.case.to_dict(),
+            **gear_summary(self.solution),
+            "seconds": self.seconds,
+        }
+
+    def points(self) -> list[dict[str, Any]]:
+        """Table of the points A, B, C, D and E of the path of contact, SI units."""
+        return [
+            {"point": point.name, **point_summary(self.solution, point)}
+            for point in path_points(self.solution)
+        ]
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Return the points A to E as a table of pandas; ``attrs["units"]`` contains the units."""
+        import pandas as pd
+
+        frame = pd.DataFrame(self.points())
+        frame.attrs["units"] = {name: about.unit for name, about in POINT_KEYS.items()}
+        return frame
+
+    def over_phase(self) -> dict[str, np.ndarray]:
+        """Return capacitance [F], breakdown voltage [V] and share of time with metallic contact over the
+        phase of the mesh, each of shape (p,); the voltage is NaN without a dielectric strength.
+        """
+        solution = self.solution
+        voltage = solution.breakdown_voltage
+        return {
+            "phase": solution.loads.phases,
+            "capacitance": solution.capacitance,
+            "breakdown_voltage": np.full_like(solution.capacitance, np.nan) if voltage is None else voltage,
+            "contact_time_share": solution.contact_time_share(),
+        }
+
+    def to_xarray(self) -> xr.Dataset:
+        """Return the dataset of the result, as gear.nc contains it; SI units."""
+        return layout_of(self.solution, self.seconds, self.version).dataset()
+
+    def key_numbers(self) -> tuple[str, ...]:
+        """Return teeth, capacitance and lambda ratio as texts."""
+        mesh = gear_summary(self.solution)["mesh"]
+        return (
+            "/".join(map(str, self.case.gear.teeth)) + " teeth",
+            f"capacitance {readable(1e9 * mesh['capacitance'])} nF",
+            f"lambda {readable(mesh['lambda_ratio'])}",
+        )
+
+    def _headline(self) -> str:
+        return headline(self.case.title, *self.key_numbers(), verdict=self.verdict)
+
+
+def solve_gear(case: GearCase) -> GearResult:
+    """Solve a gear pair at its operating point.
+
+    Parameters
+    ----------
+    case : GearCase
+        Drawing, load, oil and dielectric strength.
+
+    Returns
+    -------
+    GearResult
+        Films on all lines of contact over a phase of the mesh, its capacitance and breakdown voltage.
+
+    Raises
+    ------
+    InputError
+        If the gears cannot run together, or the oil has no value at the temperature of the flanks.
+    """
+    start = time.perf_counter()
+    solution = solve_gear_pair(case)
+    return GearResult(solution, seconds=time.perf_counter() - start)

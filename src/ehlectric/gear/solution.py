@@ -1,0 +1,340 @@
+"""Solution of a gear pair: geometry, load, film, capacitance and breakdown over a phase of its mesh."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from ehlectric.arrays import Array, Mask
+from ehlectric.cases import library
+from ehlectric.cases.case_oil import temperature_coefficient
+from ehlectric.cases.gear_case import GearCase
+from ehlectric.cases.gear_inputs import Gear, both
+from ehlectric.discharge.discharge_laws import Leakage, leakage
+from ehlectric.discharge.film_breakdown import dielectric_strength
+from ehlectric.errors import InputError
+from ehlectric.formulas.asperities import contact_probability
+from ehlectric.formulas.hertz import body_compliance, reduced_modulus
+from ehlectric.gear.contact_lines import PlaneOfAction
+from ehlectric.gear.contact_path import ContactPath, contact_path
+from ehlectric.gear.flank_films import FlankFilms, Flanks, flank_films
+from ehlectric.gear.geometry import Drawing, GearPair, gear_pair
+from ehlectric.gear.load_sharing import SIDES, LineLoads, Modification, line_loads, load_at
+from ehlectric.gear.losses import bulk_temperature, loss_factor, sliding_power
+from ehlectric.gear.mesh_capacitance import back_capacitance, capacitance_per_length
+from ehlectric.gear.tooth_stiffness import mesh_stiffness, pair_stiffness
+from ehlectric.lubricant.heat_laws import ASSUMED_CONDUCTIVITY
+from ehlectric.quantities.field_metadata import stored
+from ehlectric.quantities.units import to_si
+
+# Area of the contact of the disc machine on which the share of time was measured, if it is not given, and the
+# factor by which it may be wrong either way.
+REFERENCE_AREA, AREA_FACTOR = 1e-6, 3.0
+
+# Phases and slices of a helical face, and of a spur face without crowning.
+_PHASES, _SLICES = 48, 48
+
+
+@dataclass(frozen=True)
+class GearSolution:
+    """Mesh of a gear pair at its operating point.
+
+    Arrays over the lines of contact have the shape (p, k, s) of phases, lines and slices of the face; NaN
+    where there is no contact.
+    """
+
+    case: GearCase
+    pair: GearPair
+    plane: PlaneOfAction
+    flanks: Flanks
+    loads: LineLoads
+    films: FlankFilms
+    # Films at the points A to E under the mean load that passes them, shape (5,).
+    point_films: FlankFilms
+    bulk_temperature: float  # temperature of the flanks [K]
+    stiffness: float  # c' of a pair of teeth per face width [N/m^2]
+    # Capacitance per length of the lines.
+    capacitance_of_lines: Array = field(metadata=stored("phase line slice", "F/m", "not negative or NaN"))
+
+    @property
+    def path(self) -> ContactPath:
+        """Path of contact."""
+        return self.plane.path
+
+    @property
+    def normal_force(self) -> float:
+        """Normal force F_bn with all load factors [N]."""
+        return _normal_force(self.case.gear, self.pair)
+
+    @property
+    def rq(self) -> float:
+        """Composite roughness of the flanks [m]."""
+        return self.case.gear.rq
+
+    @property
+    def summits(self) -> float:
+        """Height of the highest summits [m]."""
+        return self.case.gear.summit_height * self.rq
+
+    @property
+    def strength(self) -> float | None:
+        """Dielectric strength of the oil at ambient pressure [V/m]; None without one."""
+        discharge = self.case.discharge
+        if not discharge.has_strength:
+            return None
+        return float(np.asarray(dielectric_strength(discharge, np.zeros(()))))
+
+    @property
+    def thinnest(self) -> tuple[int, ...]:
+        """Index (p, k, s) of the smallest film of all lines."""
+        films = self.films.minimum
+        return tuple(int(i) for i in np.unravel_index(int(np.nanargmin(films)), films.shape))
+
+    @property
+    def film_error(self) -> float:
+        """Relative error of the smallest film."""
+        return float(self.films.error[self.thinnest])
+
+    @property
+    def outside_atlas(self) -> Mask:
+        """Places on lines of contact whose films are outside the atlas, of the shape of the films."""
+        return np.asarray(~self.films.known & ~np.isnan(self.films.minimum))
+
+    @property
+    def leakage(self) -> Leakage:
+        """Leakage of charge through the oil at the temperature of the flanks."""
+        return leakage(self.case.discharge, self.flanks.oil)
+
+    @property
+    def gap(self) -> Array:
+        """Gap under the highest summits on all lines [m]; 0 where they touch, NaN without contact."""
+        return np.maximum(self.films.minimum - self.summits, 0.0)
+
+    @property
+    def breakdown_voltage(self) -> Array | None:
+        """Smallest breakdown voltage of all lines at each phase, shape (p,) [V]; 0 where summits touch."""
+        strength = self.strength
+        return None if strength is None else strength * np.nanmin(self.gap, axis=(1, 2))
+
+    @property
+    def capacitance(self) -> Array:
+        """Capacitance of the mesh at each phase, shape (p,) [F], with the flanks behind the working ones."""
+        lines: Array = self.loads.slice_length * np.nansum(self.capacitance_of_lines, axis=(1, 2))
+        return np.asarray(lines + self.back_capacitance)
+
+    @property
+    def back_capacitance(self) -> float:
+        """Mean capacitance of the flanks behind the working ones [F]; 0 where the backlash is not known."""
+        if self.pair.normal_backlash is None:
+            return 0.0
+        radius = float(np.asarray(self.path.reduced_radius(self.path.pitch_point)))
+        length = self.pair.face_width / math.cos(self.pair.base_helix_angle)
+        permittivity = self.flanks.oil.relative_permittivity
+        pair = back_capacitance(radius, self.pair.normal_backlash, length, float(permittivity))
+        return self.path.contact_ratio * pair
+
+    def contact_time_share(self, area_factor: float = 1.0) -> Array:
+        """Share of time in which the mesh conducts by metallic contact at each phase, shape (p,).
+
+        Patches of the reference area conduct independently of each other, each with the share of time of its
+        lambda: ln(1 - p) is the integral of ln(1 - p(lambda)) over the Hertz area over the reference area.
+        ``area_factor``, factor on the reference area.
+        """
+        given = self.case.gear.contact.reference_area
+        area = area_factor * (REFERENCE_AREA if given is None else given)
+        ratio = np.nan_to_num(self.films.central / self.rq, nan=math.inf)
+        share = contact_probability(ratio)
+        with np.errstate(divide="ignore"):
+            closed = np.log1p(-share)
+        patch = 2.0 * np.nan_to_num(self.films.half_width) * self.loads.slice_length / area
+        exponent = np.where(patch > 0.0, patch * closed, 0.0)
+        return np.asarray(-np.expm1(np.sum(exponent, axis=(1, 2))))
+
+    @property
+    def sliding_power(self) -> float:
+        """Mean over the phases of the integral of w abs(v_g) over all lines [W]."""
+        films = self.films
+        return float(np.mean(sliding_power(films.load, films.sliding_speed, self.loads.slice_length)))
+
+
+@dataclass(frozen=True)
+class OperatingPair:
+    """Gear pair of a case at its operating point, before its load and films are solved."""
+
+    pair: GearPair
+    plane: PlaneOfAction
+    flanks: Flanks
+    bulk_temperature: float  # temperature of the flanks [K]
+    stiffness: float  # c' of a pair of teeth per face width [N/m^2]
+
+    @classmethod
+    def of(cls, case: GearCase) -> OperatingPair:
+        """Gear pair of a case. Raises InputError for drawings that cannot run, and for an oil without a value
+        at the temperature of the flanks.
+        """
+        gear, operation = case.gear, case.gear.operation
+        pair = gear_pair(drawing_of(gear))
+        path = contact_path(pair)
+        temperature = _bulk_temperature(gear, pair, path)
+        load_per_width = 2.0 * abs(operation.pinion_torque) / pair.reference_diameter[0] / pair.face_width
+        steel = pair_stiffness(pair, load_per_width * operation.application_factor)
+        return cls(
+            pair,
+            PlaneOfAction(path, pair.face_width),
+            _flanks(case, pair, path, temperature),
+            temperature,
+            steel * _youngs_modulus(gear.material) / _youngs_modulus("steel"),
+        )
+
+
+def solve_gear_pair(case: GearCase) -> GearSolution:
+    """Mesh of a gear pair at its operating point. Raises InputError for drawings that cannot run, and for an
+    oil without a value at the temperature of the flanks.
+    """
+    gear, at = case.gear, OperatingPair.of(case)
+    uniform = at.pair.helix_angle == 0.0 and gear.lead_crowning == 0.0
+    loads = line_loads(
+        at.plane,
+        _normal_force(gear, at.pair),
+        gear.operation.load_sharing,
+        stiffness=mesh_stiffness(at.stiffness, at.plane.path.contact_ratio),
+        modification=modification_of(gear),
+        phases=_PHASES * (4 if uniform else 1),
+        slices=1 if uniform else _SLICES,
+    )
+    films = _films(case, at.flanks, loads)
+    return GearSolution(
+        case=case,
+        pair=at.pair,
+        plane=at.plane,
+        flanks=at.flanks,
+        loads=loads,
+        films=replace(films, atlas=None),
+        point_films=replace(_point_films(case, at.flanks, loads, films), atlas=None),
+        bulk_temperature=at.bulk_temperature,
+        stiffness=at.stiffness,
+        capacitance_of_lines=capacitance_per_length(at.flanks, films),
+    )
+
+
+def _films(case: GearCase, flanks: Flanks, loads: LineLoads) -> FlankFilms:
+    """Films on all lines in the way that the file asks for."""
+    if case.contacts != "solved":
+        return flank_films(flanks, loads.places, loads.load, by_formula=case.contacts == "formula")
+    from ehlectric.gear.solved_points import corrected, solve_points  # late: the atlas needs no solver
+
+    films = flank_films(flanks, loads.places, loads.load)
+    places, load = _places_to_solve(flanks.path, loads, films)
+    points = list(solve_points(flanks, places, load))
+    return corrected(films, flank_films(flanks, places, load), points)
+
+
+def _places_to_solve(path: ContactPath, loads: LineLoads, films: FlankFilms) -> tuple[Array, Array]:
+    """Places of the points of the path that carry load, and of the smallest film, with their loads."""
+    weakest = np.unravel_index(int(np.nanargmin(films.minimum)), films.minimum.shape)
+    places, load = [float(loads.places[weakest])], [float(loads.load[weakest])]
+    for name, place in path.points.items():
+        mean = load_at(path, loads, place, SIDES[name])
+        if mean > 0.0:
+            places.append(place)
+            load.append(mean)
+    return np.array(places), np.array(load)
+
+
+def drawing_of(gear: Gear) -> Drawing:
+    """Numbers of the drawing of a gear table."""
+    shifts = gear.profile_shift or (None, None)
+    return Drawing(
+        normal_module=gear.normal_module,
+        teeth=gear.teeth,
+        normal_pressure_angle=gear.normal_pressure_angle,
+        helix_angle=gear.helix_angle,
+        face_width=gear.face_width,
+        centre_distance=gear.centre_distance,
+        profile_shift=(shifts[0], shifts[1] if len(shifts) > 1 else None),
+        tip_diameter=(None, None) if gear.tip_diameter is None else both(gear.tip_diameter),
+        normal_backlash=gear.normal_backlash,
+    )
+
+
+def modification_of(gear: Gear) -> Modification:
+    """Relief and crowning of a gear table."""
+    first, second = (0.0, 0.0) if gear.tip_relief is None else both(gear.tip_relief)
+    return Modification(second, first, gear.tip_relief_length or 0.0, gear.lead_crowning)
+
+
+def _normal_force(gear: Gear, pair: GearPair) -> float:
+    """Normal force F_bn with all load factors [N]."""
+    operation = gear.operation
+    tangential = 2.0 * abs(operation.pinion_torque) / pair.base_diameter[0]
+    return operation.load_factor * tangential / math.cos(pair.base_helix_angle)
+
+
+def _bulk_temperature(gear: Gear, pair: GearPair, path: ContactPath) -> float:
+    """Temperature of the flanks [K]: the given one, or the estimate of ISO/TS 6336-22."""
+    operation = gear.operation
+    given = operation.bulk_temperature
+    if not isinstance(given, str):
+        return given
+    assert operation.friction_coefficient is not None
+    power = operation.pinion_torque * operation.pinion_speed
+    factor = loss_factor(pair, path)
+    return bulk_temperature(
+        operation.oil_temperature,
+        power,
+        operation.friction_coefficient,
+        factor,
+        pair.centre_distance,
+        pair.face_width,
+    )
+
+
+def _youngs_modulus(material: str) -> float:
+    """Young's modulus of a solid of the library [Pa]."""
+    return float(to_si(library.solid(material)["youngs_modulus"], "Pa"))
+
+
+def _flanks(case: GearCase, pair: GearPair, path: ContactPath, temperature: float) -> Flanks:
+    """Flanks with the oil at their temperature [K]."""
+    table = library.solid(case.gear.material)
+    compliance = body_compliance(to_si(table["youngs_modulus"], "Pa"), table["poissons_ratio"])
+    oil = case.lubricant.at(temperature, "gear.operation.bulk_temperature")
+    if not np.any(oil.alpha):
+        raise InputError(
+            "lubricant.viscosity_law",
+            got=f"{oil.laws['viscosity']!r} with gears, whose films are those of piezoviscous oils;",
+            takes="another law",
+        )
+    known = oil.thermal_conductivity
+    slope = temperature_coefficient(case.lubricant, temperature)
+    return Flanks(
+        path=path,
+        ratio=pair.ratio,
+        pinion_speed=case.gear.operation.pinion_speed,
+        modulus=reduced_modulus(compliance, compliance),
+        oil=oil,
+        slope=None if slope is None else float(slope),
+        conductivity=float(ASSUMED_CONDUCTIVITY if known is None else known),
+    )
+
+
+def _point_films(case: GearCase, flanks: Flanks, loads: LineLoads, films: FlankFilms) -> FlankFilms:
+    """Films at the points A to E under the mean over the phases of the load there, arrays of shape (5,).
+
+    Where films are solved, the ratio of solved film and film of the atlas on the nearest line corrects them.
+    """
+    points = flanks.path.points
+    places = np.array(list(points.values()))
+    load = np.array([load_at(flanks.path, loads, place, SIDES[name]) for name, place in points.items()])
+    at = flank_films(flanks, places, load, by_formula=case.contacts == "formula")
+    if case.contacts != "solved":
+        return at
+    assert films.atlas is not None
+    known = np.flatnonzero(~np.isnan(films.minimum))
+    nearest = known[np.argmin(np.abs(films.places.flat[known] - places[:, None]), axis=1)]
+    heat = films.heat_factor.flat[nearest]
+    central = films.central.flat[nearest] / np.ravel(films.atlas.central_thickness)[nearest] / heat
+    minimum = films.minimum.flat[nearest] / np.ravel(films.atlas.minimum_thickness)[nearest] / heat
+    return replace(at, central=at.central * central, minimum=at.minimum * minimum)

@@ -1,0 +1,96 @@
+"""Stored form of a gear pair's result, gear.nc: its variables in SI units, and the solution of such a file.
+
+A file contains the case, the loads and films on the lines of contact, and the films at the points A to E. The
+geometry follows from the case in closed form.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ehlectric.cases.gear_case import GearCase
+from ehlectric.gear.contact_path import POINTS
+from ehlectric.gear.flank_films import FlankFilms
+from ehlectric.gear.load_sharing import LineLoads
+from ehlectric.gear.solution import GearSolution, OperatingPair
+from ehlectric.runtime.file_rules import UnfitError, case_of, number_of, text_of
+from ehlectric.runtime.netcdf import Layout
+from ehlectric.runtime.stored import Part, check_parts, values_of
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+# Name and version of the layout of gear.nc.
+SCHEMA = "ehlectric.gear.result/1"
+
+_LINES, _POINT = ("phase", "line", "slice"), "point"
+_SOLUTION, _LOADS = Part(GearSolution), Part(LineLoads)
+# Places of the films are the places of the loads.
+_FILMS = Part(FlankFilms, prefix="film_", axes={"place": _LINES})
+_POINT_FILMS = Part(FlankFilms, prefix="point_", axes={"place": (_POINT,)})
+_PARTS = (_SOLUTION, _LOADS, _FILMS, _POINT_FILMS)
+
+# Rounding of places that are computed again from the case [m].
+_ROUNDING = 1e-9
+
+
+def layout_of(solution: GearSolution, seconds: float, version: str) -> Layout:
+    """Variables and attributes of a gear.nc, SI units, from which ``solution_of`` makes an equal solution."""
+    return Layout(
+        {
+            **_SOLUTION.written(solution),
+            **_LOADS.written(solution.loads),
+            **_FILMS.written(solution.films),
+            **_POINT_FILMS.written(solution.point_films),
+            _POINT: (_POINT, list(POINTS)),
+        },
+        {"schema": SCHEMA, "version": version, "case": solution.case.to_toml(), "seconds": seconds},
+        storage={name: {"compression": "gzip"} for name in (*_FILMS.rules, "capacitance_of_lines")},
+    )
+
+
+def solution_of(dataset: xr.Dataset) -> tuple[GearSolution, float, str]:
+    """Solution, computing time [s] and version of a dataset of ``layout_of``. Raises UnfitError where a
+    variable or an attribute is missing, or is not as it was written.
+    """
+    attributes = dataset.attrs
+    case = case_of(attributes, GearCase.from_dict)
+    check_parts(dataset, _PARTS)
+    if dataset.sizes[_POINT] != len(POINTS):
+        raise UnfitError(f"it has {dataset.sizes[_POINT]} values along {_POINT}, not {len(POINTS)}")
+    values, at = values_of(dataset), OperatingPair.of(case)
+    width = at.pair.face_width / dataset.sizes["slice"]
+    loads = LineLoads(
+        **_LOADS.read(values), slice_length=width / float(np.cos(at.plane.path.base_helix_angle))
+    )
+    _check_places(at, loads)
+    solution = GearSolution(
+        case=case,
+        pair=at.pair,
+        plane=at.plane,
+        flanks=at.flanks,
+        loads=loads,
+        films=FlankFilms(**_FILMS.read(values)),
+        point_films=FlankFilms(**_POINT_FILMS.read(values)),
+        bulk_temperature=at.bulk_temperature,
+        stiffness=at.stiffness,
+        **_SOLUTION.read(values),
+    )
+    return solution, number_of(attributes, "seconds"), text_of(attributes, "version")
+
+
+def _check_places(at: OperatingPair, loads: LineLoads) -> None:
+    """Check that slices and lines of contact belong to the gear pair, and thus its films."""
+    slices = loads.across.size
+    middles = (np.arange(slices) + 0.5) / slices * at.pair.face_width
+    if not np.allclose(middles, loads.across, rtol=0.0, atol=_ROUNDING):
+        raise UnfitError("slice does not belong to the face width of its case")
+    places = at.plane.places(loads.phases, loads.across)
+    if places.shape != loads.places.shape or not np.allclose(
+        places, loads.places, rtol=0.0, atol=_ROUNDING, equal_nan=True
+    ):
+        raise UnfitError("place does not belong to the gear pair of its case")
+    if np.all(np.isnan(loads.load)):
+        raise UnfitError("load has no number")

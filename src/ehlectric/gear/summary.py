@@ -1,0 +1,126 @@
+"""Key figures of a gear pair, nested as in summary.json."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ehlectric.discharge.discharge_laws import stored_energy
+from ehlectric.gear.gear_verdict import breakdown_margin, state_of
+from ehlectric.gear.iso_film import lambda_gf
+from ehlectric.gear.losses import loss_factor
+from ehlectric.gear.points import PathPoint, name_of_place, path_points, weakest
+from ehlectric.gear.solution import AREA_FACTOR, GearSolution
+
+
+def gear_summary(solution: GearSolution) -> dict[str, Any]:
+    """Tables ``gear``, ``mesh`` and ``points`` of summary.json, SI units; None for what is not known."""
+    return {
+        "gear": _gear(solution),
+        "mesh": _mesh(solution),
+        "points": {point.name: point_summary(solution, point) for point in path_points(solution)},
+    }
+
+
+def _gear(solution: GearSolution) -> dict[str, Any]:
+    """Geometry, load and loss of the pair."""
+    pair, path, plane = solution.pair, solution.path, solution.plane
+    operation = solution.case.gear.operation
+    friction, power = operation.friction_coefficient, abs(operation.pinion_torque) * operation.pinion_speed
+    factor = loss_factor(pair, path)
+    least, most = plane.extreme_lengths
+    return {
+        "ratio": pair.ratio,
+        "centre_distance": abs(pair.centre_distance),
+        "working_pressure_angle": pair.working_pressure_angle,
+        "base_helix_angle": pair.base_helix_angle,
+        "profile_shift_1": pair.profile_shift[0],
+        "profile_shift_2": pair.profile_shift[1],
+        "tip_diameter_1": pair.tip_diameter[0],
+        "tip_diameter_2": abs(pair.tip_diameter[1]),
+        "normal_backlash": pair.normal_backlash,
+        "transverse_contact_ratio": path.contact_ratio,
+        "overlap_ratio": plane.overlap_ratio,
+        "total_contact_ratio": path.contact_ratio + plane.overlap_ratio,
+        "contact_length": plane.mean_length,
+        "contact_length_low": least,
+        "contact_length_high": most,
+        "pitch_line_speed": 0.5 * pair.working_diameter[0] * operation.pinion_speed,
+        "mesh_frequency": pair.teeth[0] * operation.pinion_speed / (2.0 * math.pi),
+        "power": power,
+        "normal_force": solution.normal_force,
+        "load_factor": operation.load_factor,
+        "pair_stiffness": solution.stiffness,
+        "bulk_temperature": solution.bulk_temperature,
+        "loss_factor": factor,
+        "loss": None if friction is None else friction * solution.sliding_power,
+    }
+
+
+def _mesh(solution: GearSolution) -> dict[str, Any]:
+    """Film, contact, capacitance and breakdown of the mesh."""
+    films, capacitance = solution.films, solution.capacitance
+    voltage, strength = solution.breakdown_voltage, solution.strength
+    thinnest = float(np.nanmin(films.minimum))
+    place, across = weakest(solution)
+    mean = float(np.mean(capacitance))
+    # Summits that touch leave no film to break down.
+    first = None if voltage is None else float(np.min(voltage)) or None
+    relaxation = solution.leakage.relaxation_time
+    area = solution.loads.slice_length * np.nansum(2.0 * films.half_width, axis=(1, 2))
+    shares = [float(np.mean(solution.contact_time_share(f))) for f in (1.0, AREA_FACTOR, 1.0 / AREA_FACTOR)]
+    return {
+        "state": state_of(solution),
+        "minimum_thickness": thinnest,
+        "minimum_at": name_of_place(solution, place),
+        "minimum_place": place,
+        "minimum_across": across,
+        "heat_factor": float(films.heat_factor[solution.thinnest]),
+        "film_error": solution.film_error,
+        "composite_rq": solution.rq,
+        "lambda_ratio": thinnest / solution.rq,
+        "lambda_gf": lambda_gf(solution),
+        "max_pressure": float(np.nanmax(films.max_pressure)),
+        "contact_area": float(np.mean(area)),
+        "contact_time_share": shares[0],
+        "contact_time_share_low": shares[1],
+        "contact_time_share_high": shares[2],
+        "capacitance": mean,
+        "capacitance_low": float(np.min(capacitance)),
+        "capacitance_high": float(np.max(capacitance)),
+        "back_capacitance": None if solution.pair.normal_backlash is None else solution.back_capacitance,
+        "breakdown_voltage": first,
+        "breakdown_voltage_high": None if voltage is None else float(np.max(voltage)) or None,
+        "smooth_breakdown_voltage": None if strength is None else strength * thinnest,
+        "voltage": solution.case.gear.contact.voltage,
+        "margin": breakdown_margin(solution),
+        "relaxation_time": None if relaxation is None else float(relaxation),
+        "discharge_energy": None if first is None else float(stored_energy(mean, first)),
+    }
+
+
+def point_summary(solution: GearSolution, point: PathPoint) -> dict[str, float | None]:
+    """Radii, speeds, load and film of a point of the path of contact; None for what needs a load where none
+    passes the point.
+    """
+    films = point.films
+    first, second = solution.path.transverse_radii(point.place)
+    speeds = solution.path.speeds(point.place, solution.flanks.pinion_speed, solution.pair.ratio)
+    numbers = {
+        "place": point.place,
+        "radius_1": first,
+        "radius_2": second,
+        "reduced_radius": films.reduced_radius,
+        "speed_1": speeds[0],
+        "speed_2": speeds[1],
+        "slide_to_roll_ratio": films.slide_to_roll_ratio,
+        "load_per_length": np.nan_to_num(films.load),
+        "max_pressure": films.max_pressure,
+        "central_thickness": films.central,
+        "minimum_thickness": films.minimum,
+        "lambda_ratio": films.minimum / solution.rq,
+    }
+    values = {name: float(np.ravel(value)[0]) for name, value in numbers.items()}
+    return {name: None if math.isnan(value) else value for name, value in values.items()}

@@ -1,0 +1,33 @@
+"""Tables of a gear pair: its key figures, and the points of its path of contact."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from ehlectric.quantities.results import GEAR_BOOK, PATH_POINTS, POINT_KEYS
+from ehlectric.quantities.rows import Row, Summary, row_of, sheet_rows
+from ehlectric.quantities.sheets import GEAR
+from ehlectric.tables.measured_tables import columns_table
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+
+def gear_rows(summary: Summary) -> list[Row]:
+    """Rows of the key figures of a gear pair."""
+    return list(sheet_rows(GEAR, GEAR_BOOK, summary))
+
+
+def point_rows(summary: Summary) -> Iterator[tuple[str, ...]]:
+    """Yield the heads of the table of points, then a row for each quantity with its value at each point."""
+    yield "path of contact", *PATH_POINTS, ""
+    for name, about in POINT_KEYS.items():
+        rows = [row_of(f"point.{name}", about, summary["points"][point][name]) for point in PATH_POINTS]
+        yield about.label, *(row.shown for row in rows), rows[0].unit
+
+
+def points_table(summary: Summary) -> Table:
+    """Table of the points of the path of contact, for the terminal."""
+    heads, *rows = point_rows(summary)
+    return columns_table(heads, rows, left=(0, len(heads) - 1), wrapped=(0,))

@@ -1,0 +1,73 @@
+"""The command ehlectric gear: files, tables, and files that it refuses."""
+
+import csv
+import json
+import re
+
+import pytest
+
+from ehlectric.quantities.results import PATH_POINTS, PHASE_COLUMNS
+from tests.helpers.each import each
+from tests.helpers.places import EXAMPLES
+
+EXAMPLE = EXAMPLES / "gear_pair.toml"
+
+
+@each("name", sorted(path.name for path in EXAMPLES.glob("gear_*.toml")))
+def test_examples_are_solved(typed, tmp_path, name):
+    done = typed("gear", EXAMPLES / name, "-o", name, "--no-plots")
+    assert done.returncode == 0
+    assert {"summary.json", "path.csv", "mesh.csv"} <= {path.name for path in (tmp_path / name).iterdir()}
+    summary = json.loads((tmp_path / name / "summary.json").read_text("utf-8"))
+    assert summary["mesh"]["state"] in done.stdout
+    with (tmp_path / name / "path.csv").open(encoding="utf-8", newline="") as file:
+        heads, *rows = csv.reader(file)
+    assert tuple(row[0] for row in rows) == PATH_POINTS
+    place = heads.index("place [m]")
+    assert float(rows[2][place]) == pytest.approx(summary["points"]["C"]["place"])
+    with (tmp_path / name / "mesh.csv").open(encoding="utf-8", newline="") as file:
+        heads, *rows = csv.reader(file)
+    assert len(heads) == len(PHASE_COLUMNS)
+    capacitance = [float(row[1]) for row in rows]
+    assert sum(capacitance) / len(capacitance) == pytest.approx(summary["mesh"]["capacitance"])
+
+
+def test_json_is_the_summary(typed, tmp_path):
+    done = typed("gear", EXAMPLE, "-o", "out", "--no-plots", "--json")
+    printed = json.loads(done.stdout)
+    written = json.loads((tmp_path / "out" / "summary.json").read_text("utf-8"))
+    assert printed["mesh"] == written["mesh"]
+    assert printed["verdict_level"] == "red"
+
+
+def test_check_shows_the_verdict_and_writes_nothing(typed, tmp_path):
+    done = typed("check", EXAMPLE)
+    assert done.returncode == 0
+    assert "Breakdown expected" in done.stdout
+    assert list(tmp_path.iterdir()) == []
+
+
+BAD = {
+    "torque": ('pinion_torque = "30 N m"', 'pinion_torque = "30 N"'),
+    "teeth": ("teeth = [23, 67]", "teeth = [23]"),
+    "distance": ('centre_distance = "87 mm"', 'centre_distance = "60 mm"'),
+    "pointed": ('"48.96 mm", "132.04 mm"', '"60 mm", "132.04 mm"'),
+    "contact ratio": ('"48.96 mm", "132.04 mm"', '"44 mm", "126 mm"'),
+    "unknown": ("face_width =", "facewidth ="),
+    "oil": ('base = "e-axle-fluid"', 'base = "honey"'),
+    "hot": ('bulk_temperature = "65 degC"', 'bulk_temperature = "250 degC"'),
+    "overlap": ("profile_shift = [0.30]", "profile_shift = [0.30, 0.1]"),
+}
+
+
+@each("name", BAD)
+def test_bad_files_end_in_one_line_and_write_nothing(typed, tmp_path, name):
+    before, after = BAD[name]
+    text = EXAMPLE.read_text("utf-8")
+    assert before in text
+    (tmp_path / "gear.toml").write_text(text.replace(before, after), "utf-8")
+    done = typed("gear", "gear.toml", "-o", "out")
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert re.fullmatch(r"error: [^\n]+\n", done.stderr)
+    assert [path.name for path in tmp_path.iterdir()] == ["gear.toml"]

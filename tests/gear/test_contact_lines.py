@@ -1,0 +1,96 @@
+"""Lengths of the lines of contact: closed forms against sums over lines, and their limits."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from ehlectric.gear.contact_lines import PlaneOfAction
+from ehlectric.gear.contact_path import ContactPath
+from tests.gear.pairs import FIRST_STAGE, FZG_C, SECOND_STAGE
+from tests.gear.pairs import plane_of as pair_plane
+
+PITCH, WIDTH = 5e-3, 25e-3
+
+
+def plane_of(alpha, beta):
+    """Plane of action with a transverse contact ratio alpha and an overlap ratio beta."""
+    start = 4e-3
+    end = start + alpha * PITCH
+    path = ContactPath(start, 0.5 * (start + end), end, PITCH, 40e-3, math.atan(beta * PITCH / WIDTH))
+    return PlaneOfAction(path, WIDTH)
+
+
+def kinks(plane):
+    """Phases at which a line passes a corner of the plane; between them the length is linear."""
+    alpha, beta = plane.path.contact_ratio, plane.overlap_ratio
+    return sorted(phase % 1.0 for phase in (0.0, alpha, -beta, alpha - beta))
+
+
+RATIOS = st.floats(1.0, 3.5), st.floats(0.05, 4.5)
+
+
+@given(*RATIOS)
+def test_extreme_lengths_are_those_of_the_sum_over_lines(alpha, beta):
+    plane = plane_of(alpha, beta)
+    lengths = [plane.length(phase) for phase in kinks(plane)]
+    least, most = plane.extreme_lengths
+    assert min(lengths) == pytest.approx(least, rel=1e-10)
+    assert max(lengths) == pytest.approx(most, rel=1e-10)
+
+
+@given(*RATIOS)
+def test_the_mean_length_is_the_area_over_the_distance_of_lines(alpha, beta):
+    plane = plane_of(alpha, beta)
+    phases = np.array([*kinks(plane), 1.0 + kinks(plane)[0]])
+    lengths = np.array([plane.length(phase) for phase in phases])
+    # The length is linear between the kinks, so that the trapezoidal rule is exact.
+    mean = np.sum(0.5 * (lengths[1:] + lengths[:-1]) * np.diff(phases))
+    assert mean == pytest.approx(plane.mean_length, rel=1e-10)
+
+
+@pytest.mark.parametrize(
+    ("drawing", "lengths"),
+    [
+        (FIRST_STAGE, (38.85959, 38.22367, 39.33262)),
+        (SECOND_STAGE, (59.33838, 52.83866, 65.96621)),
+    ],
+)
+def test_lengths_of_two_stages_of_an_e_axle(drawing, lengths):
+    """Mean, minimum and maximum, which a separate program computed as sums over lines."""
+    plane = pair_plane(drawing)
+    assert [1e3 * length for length in (plane.mean_length, *plane.extreme_lengths)] == pytest.approx(
+        lengths, abs=1e-5
+    )
+
+
+def test_a_spur_pair_has_one_and_two_lines():
+    plane = pair_plane(FZG_C)
+    assert plane.extreme_lengths == (14e-3, 28e-3)
+    assert {plane.length(phase) for phase in np.linspace(0.01, 0.99, 99)} == {14e-3, 28e-3}
+    # The mean holds 1.43754 lines of the face width.
+    assert plane.mean_length == pytest.approx(1.43754 * 14e-3, rel=1e-5)
+
+
+@pytest.mark.parametrize("alpha", [1.2, 1.5, 1.9, 2.3])
+def test_a_small_helix_has_the_lengths_of_a_spur_pair(alpha):
+    spur, helical = plane_of(alpha, 0.0), plane_of(alpha, 1e-7)
+    assert helical.extreme_lengths == pytest.approx(spur.extreme_lengths, rel=1e-6)
+
+
+def test_whole_overlap_ratios_make_the_length_constant():
+    """With a whole number of axial pitches on the face, one line enters where another one leaves."""
+    least, most = plane_of(1.43, 2.0).extreme_lengths
+    assert least == pytest.approx(most, rel=1e-12)
+
+
+@given(*RATIOS, st.floats(0.0, 1.0, exclude_max=True))
+def test_slices_of_the_face_add_up_to_the_length(alpha, beta, phase):
+    plane, slices = plane_of(alpha, beta), 4000
+    across = (np.arange(slices) + 0.5) * WIDTH / slices
+    touching = np.count_nonzero(~np.isnan(plane.places(np.array([phase]), across)))
+    length = touching * WIDTH / slices / math.cos(plane.path.base_helix_angle)
+    # Each end of a line is on one slice or the next one.
+    assert length == pytest.approx(plane.length(phase), abs=20.0 * WIDTH / slices)

@@ -1,0 +1,183 @@
+"""Gear files: round trips, changed copies, keys of results, and refused drawings."""
+
+import math
+import tomllib
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import ehlectric
+from ehlectric.cases.gear_case import GearCase
+from ehlectric.errors import InputError
+from ehlectric.gear.solution import solve_gear_pair
+from ehlectric.quantities.results import GEAR_KEYS
+from tests.gear.pairs import FZG_C_CASE, case_of
+from tests.helpers.places import EXAMPLES
+
+FILES = sorted(EXAMPLES.glob("gear_*.toml"))
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+def test_a_case_is_written_and_read_again(path, tmp_path):
+    case = GearCase.from_toml(path)
+    again = GearCase.from_dict(case.to_dict())
+    assert again == case
+    (tmp_path / "again.toml").write_text(case.to_toml(), "utf-8")
+    assert GearCase.from_toml(tmp_path / "again.toml").to_dict() == case.to_dict()
+    assert GearCase.from_dict(tomllib.loads(path.read_text("utf-8"))) == case
+
+
+def test_replace_returns_a_changed_copy():
+    case = case_of()
+    changed = case.replace({"gear.operation.pinion_torque": "100 N m"}, gear={"helix_angle": 0.1})
+    assert (changed.gear.operation.pinion_torque, changed.gear.helix_angle) == (100.0, 0.1)
+    assert (case.gear.operation.pinion_torque, case.gear.helix_angle) == (215.6, 0.0)
+    assert changed.gear.teeth == (16, 24)
+
+
+def test_a_composite_rq_replaces_the_ra_of_the_flanks():
+    changed = case_of(composite_rq="0.1 um")
+    assert changed.gear.rq == pytest.approx(0.1e-6)
+    assert changed.gear.flank_ra is None
+
+
+@pytest.mark.parametrize("ra", ["0.3 um", ["0.3 um"], ["0.3 um", "0.3 um"]])
+def test_one_value_holds_for_both_gears(ra):
+    """Rq of two flanks is sqrt(2) sqrt(pi/2) Ra for Gaussian heights."""
+    assert case_of(flank_ra=ra).gear.rq == pytest.approx(math.sqrt(math.pi) * 0.3e-6, rel=1e-3)
+
+
+def keys_of(table, before=""):
+    """Dotted keys of nested tables, with the inputs as a single key."""
+    for name, value in table.items():
+        key = f"{before}{name}"
+        if isinstance(value, dict) and key != "inputs":
+            yield from keys_of(value, f"{key}.")
+        else:
+            yield key
+
+
+def test_the_summary_has_the_keys_of_the_book():
+    summary = ehlectric.solve_gear(case_of()).summary()
+    keys = {key for key in keys_of(summary) if not key.startswith("inputs.")}
+    described = {key for key in GEAR_KEYS if not key.startswith(("lubricant.", "summary."))}
+    assert keys - {"inputs"} <= described | {key.removeprefix("summary.") for key in GEAR_KEYS}
+    assert {key for key in described if "." in key} <= keys
+
+
+REFUSED = {
+    "torque": ({"gear.operation.pinion_torque": 0.0}, "gear.operation.pinion_torque"),
+    "no temperature": ({"gear.operation.bulk_temperature": "iso"}, "gear.operation.bulk_temperature"),
+    "three values": ({"gear.flank_ra": ["0.3 um"] * 3}, "gear.flank_ra"),
+    "one tip": ({"gear.tip_diameter": ["82.46 mm"]}, "gear.tip_diameter"),
+    "no length": ({"gear.tip_relief": "5 um"}, "gear.tip_relief_length"),
+    "no relief": ({"gear.tip_relief_length": "1 mm"}, "gear.tip_relief"),
+    "relief of shares": (
+        {"gear.lead_crowning": "5 um", "gear.operation.load_sharing": "iso"},
+        "gear.operation.load_sharing",
+    ),
+    "one gear": ({"gear.teeth": [16]}, "gear.teeth"),
+    "no teeth": ({"gear.teeth": [3, 24]}, "gear.teeth"),
+    "ring first": ({"gear.teeth": [-24, 16]}, "gear.teeth"),
+    "parts of teeth": ({"gear.teeth": [16, 24.5]}, "gear.teeth"),
+    "material": ({"gear.material": "cheese"}, "gear.material"),
+    "law": ({"gear.operation.load_sharing": "equal"}, "gear.operation.load_sharing"),
+    "unknown": ({"gear.modul": "2 mm"}, "gear.modul"),
+    "weibull": (
+        {
+            "discharge.weibull": {"scale": "15 V/um", "shape": 5, "reference_area": "1 mm^2"},
+            "discharge.dielectric_strength": None,
+        },
+        "discharge.weibull",
+    ),
+    "connected": ({"discharge.external_capacitance": "1 nF"}, "discharge.external_capacitance"),
+    "outlet": ({"discharge.outlet": "fingers"}, "discharge.outlet"),
+    "over pressure": (
+        {
+            "discharge.dielectric_strength": None,
+            "discharge.strength_table": {"pressure": ["0 GPa", "2 GPa"], "strength": ["15 V/um", "60 V/um"]},
+        },
+        "discharge.strength_table",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_wrong_keys_are_refused_by_name(name):
+    changes, key = REFUSED[name]
+    with pytest.raises(InputError) as refused:
+        solve_gear_pair(case_of().replace(changes))
+    assert str(refused.value).startswith(key)
+    assert "\n" not in str(refused.value)
+
+
+DRAWINGS = st.fixed_dictionaries(
+    {
+        "normal_module": st.floats(0.3e-3, 20e-3),
+        "teeth": st.tuples(st.integers(4, 80), st.integers(-120, 200).filter(lambda z: abs(z) >= 4)),
+        "normal_pressure_angle": st.floats(0.1, 0.75),
+        "helix_angle": st.floats(0.0, 0.9),
+        "face_width": st.floats(1e-3, 0.2),
+        "centre_distance": st.none() | st.floats(2e-3, 0.8),
+        "profile_shift": st.lists(st.floats(-2.0, 2.0), min_size=1, max_size=2),
+        "tip_diameter": st.none() | st.lists(st.floats(2e-3, 1.5), min_size=2, max_size=2),
+    }
+)
+
+
+LAWS = st.sampled_from(["stiffness", "rigid", "iso", "tip-relief"])
+
+
+def solved_or_refused(drawing, law):
+    """Summary of a drawing, or the text with which it is refused."""
+    numbers = {key: value for key, value in drawing.items() if value is not None}
+    operation = {**FZG_C_CASE["gear"]["operation"], "load_sharing": law}
+    gear = {"flank_ra": "0.3 um", "material": "steel", "operation": operation, **numbers}
+    try:
+        return ehlectric.solve_gear(GearCase.from_dict({**FZG_C_CASE, "gear": gear})).summary()
+    except InputError as error:
+        return str(error)
+
+
+@settings(max_examples=200, deadline=None)
+@given(DRAWINGS, LAWS)
+def test_any_drawing_runs_or_is_refused_in_one_line(drawing, law):
+    """What is refused names its key; what runs has finite numbers."""
+    answer = solved_or_refused(drawing, law)
+    if isinstance(answer, str):
+        assert "\n" not in answer
+        assert answer.startswith("gear.")
+        return
+    for key in ("minimum_thickness", "max_pressure", "capacitance"):
+        assert 0.0 < answer["mesh"][key] < math.inf
+    assert answer["gear"]["transverse_contact_ratio"] >= 1.0
+
+
+USUAL = st.fixed_dictionaries(
+    {
+        "normal_module": st.floats(1e-3, 8e-3),
+        "teeth": st.tuples(st.integers(18, 40), st.integers(20, 120)),
+        "normal_pressure_angle": st.floats(0.33, 0.44),
+        "helix_angle": st.just(0.0) | st.floats(1e-9, 0.6),
+        "face_width": st.floats(5e-3, 60e-3),
+        "profile_shift": st.lists(st.floats(0.0, 0.3), min_size=2, max_size=2),
+    }
+)
+
+
+@settings(max_examples=100, deadline=None)
+@given(USUAL, LAWS)
+def test_usual_drawings_run(drawing, law):
+    """Standard gears without undercut are not refused, except helical ones by the shares of spur gears."""
+    answer = solved_or_refused(drawing, law)
+    if law == "tip-relief" and drawing["helix_angle"] > 0.0:
+        assert answer.startswith("gear.operation.load_sharing")
+        return
+    ratio = answer["gear"]["transverse_contact_ratio"]
+    assert 1.0 < ratio < 2.0
+    low, mean, high = (answer["gear"][f"contact_length{end}"] for end in ("_low", "", "_high"))
+    assert low <= mean * (1.0 + 1e-12)
+    assert mean <= high * (1.0 + 1e-12)
+    assert answer["mesh"]["capacitance_low"] <= answer["mesh"]["capacitance"]
+    assert answer["points"]["C"]["slide_to_roll_ratio"] == pytest.approx(0.0, abs=1e-9)

@@ -1,0 +1,187 @@
+"""Loads on the lines of contact: shares of published laws, equilibrium, relief and limits."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from ehlectric.errors import InputError
+from ehlectric.gear.load_sharing import Modification, line_loads
+from tests.gear.pairs import FIRST_STAGE, FZG_A, FZG_C, SECOND_STAGE, plane_of
+
+FORCE = 5000.0
+STIFF = 17e9
+PLAIN = Modification()
+HELICAL = [FIRST_STAGE, SECOND_STAGE]
+
+
+def loads_of(drawing, law="stiffness", *, stiffness=STIFF, modification=PLAIN, **numbers):
+    plane = plane_of(drawing)
+    return plane, line_loads(plane, FORCE, law, stiffness=stiffness, modification=modification, **numbers)
+
+
+def shares(drawing, law="stiffness", **options):
+    """Places g of a spur pair in increasing order, and the share of the force that a pair carries there."""
+    plane, loads = loads_of(drawing, law, phases=20_000, slices=1, **options)
+    touching = ~np.isnan(loads.places)
+    places, load = loads.places[touching], loads.load[touching]
+    order = np.argsort(places)
+    return plane, places[order], load[order] * plane.face_width / FORCE
+
+
+def energy_share(ratio, xi):
+    """Share of least elastic energy of a pair at xi base pitches behind A, by hand.
+
+    The stiffness of a pair is cos(b0 (xi - eps/2)); a second pair is a base pitch before or behind.
+    """
+    b0 = 1.0 / math.sqrt((1.0 + 0.5 * ratio) ** 2 / 2.0 - 1.0)
+    stiffness = [math.cos(b0 * (x - 0.5 * ratio)) for x in (xi - 1.0, xi, xi + 1.0) if 0.0 <= x <= ratio]
+    return math.cos(b0 * (xi - 0.5 * ratio)) / sum(stiffness)
+
+
+def test_springs_share_by_the_least_energy():
+    """FZG C has the shares 0.35513 at A and 0.64487 at B in double contact."""
+    ratio = plane_of(FZG_C).path.contact_ratio
+    at_b = ratio - 1.0 - 1e-12
+    assert energy_share(ratio, 0.0) == pytest.approx(0.35513, abs=1e-5)
+    assert energy_share(ratio, at_b) == pytest.approx(0.64487, abs=1e-5)
+    plane, places, share = shares(FZG_C)
+    expected = [energy_share(ratio, xi) for xi in (places - plane.path.start) / plane.path.base_pitch]
+    assert share == pytest.approx(expected, rel=1e-10)
+    assert share[0] == pytest.approx(0.35513, abs=3e-5)
+    assert share[-1] == pytest.approx(0.35513, abs=3e-5)
+
+
+@pytest.mark.parametrize("law", ["stiffness", "rigid"])
+@pytest.mark.parametrize("drawing", [FZG_A, FZG_C, *HELICAL])
+def test_loads_add_up_to_the_force_at_each_phase(drawing, law):
+    _, loads = loads_of(drawing, law)
+    assert loads.normal_force == pytest.approx(FORCE, rel=1e-12)
+
+
+@pytest.mark.parametrize("drawing", [FZG_A, FZG_C])
+@pytest.mark.parametrize("law", ["iso", "tip-relief"])
+def test_shares_of_a_spur_pair_add_up_to_the_force(drawing, law):
+    _, loads = loads_of(drawing, law)
+    assert loads.normal_force == pytest.approx(FORCE, rel=1e-12)
+
+
+MODIFICATIONS = st.builds(
+    Modification, *[st.floats(0.0, 60e-6)] * 2, st.floats(1e-4, 6e-3), st.floats(0.0, 60e-6)
+)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.sampled_from([FZG_A, FZG_C, *HELICAL]), st.floats(1e8, 1e12), MODIFICATIONS)
+def test_slices_have_one_approach_and_carry_the_force(drawing, stiffness, modification):
+    """Loaded slices have w/c + f in common, and unloaded ones a larger opening f."""
+    plane, loads = loads_of(drawing, stiffness=stiffness, modification=modification, phases=7, slices=9)
+    assert loads.normal_force == pytest.approx(FORCE, rel=1e-9)
+    opening = modification.opening(plane, loads.places, loads.across)
+    ratio = plane.path.contact_ratio
+    xi = (loads.places - plane.path.start) / plane.path.base_pitch
+    b0 = 1.0 / math.sqrt((1.0 + 0.5 * ratio) ** 2 / 2.0 - 1.0)
+    shape = np.cos(b0 * (xi - 0.5 * ratio))
+    stiffness_of = stiffness * b0 / (2.0 * math.sin(0.5 * b0 * ratio)) * shape
+    for load, gap, c in zip(loads.load, opening, stiffness_of, strict=True):
+        pressed = load > 1e-6 * np.nanmax(load)
+        approach = load / c + gap
+        delta = approach[pressed]
+        assert delta == pytest.approx(delta[0], rel=1e-6)
+        assert np.all(gap[load == 0.0] >= delta[0] * (1.0 - 1e-6))
+
+
+def test_the_mean_stiffness_over_a_phase_is_that_of_the_mesh():
+    """The force over the approach, averaged over a phase, is c_gamma b for equal slices."""
+    plane, loads = loads_of(FZG_C, phases=20_000, slices=1)
+    ratio = plane.path.contact_ratio
+    b0 = 1.0 / math.sqrt((1.0 + 0.5 * ratio) ** 2 / 2.0 - 1.0)
+    xi = (loads.places - plane.path.start) / plane.path.base_pitch
+    shape = np.nansum(np.cos(b0 * (xi - 0.5 * ratio)), axis=(1, 2))
+    assert np.mean(shape) * b0 / (2.0 * math.sin(0.5 * b0 * ratio)) == pytest.approx(1.0, rel=1e-4)
+
+
+@pytest.mark.parametrize("drawing", [FZG_C, *HELICAL])
+def test_no_relief_and_no_crowning_is_the_plain_pair(drawing):
+    plain = loads_of(drawing)[1].load
+    relieved = loads_of(drawing, modification=Modification(0.0, 0.0, 1e-3, 0.0))[1].load
+    assert relieved == pytest.approx(plain, rel=1e-12, nan_ok=True)
+
+
+@pytest.mark.parametrize("drawing", [FZG_C, *HELICAL])
+def test_soft_teeth_do_not_feel_relief(drawing):
+    """A deflection far above the relief closes all openings."""
+    modification = Modification(5e-6, 5e-6, 1e-3, 5e-6)
+    soft = loads_of(drawing, stiffness=1e3, modification=modification)[1].load
+    assert soft == pytest.approx(loads_of(drawing)[1].load, rel=1e-3, nan_ok=True)
+
+
+def test_stiff_teeth_do_not_touch_where_they_are_relieved():
+    """Relief over the double contact leaves the whole force to the pair without relief."""
+    modification = Modification(10e-6, 10e-6, 2e-3, 0.0)
+    plane, places, share = shares(FZG_C, stiffness=1e16, modification=modification)
+    path = plane.path
+    relieved = (places < path.start + 1.99e-3) | (places > path.end - 1.99e-3)
+    assert np.all(share[relieved] == 0.0)
+    # Its partner, a base pitch away, carries everything.
+    lone = (places > path.start + path.base_pitch) & (places < path.start + path.base_pitch + 1.99e-3)
+    assert share[lone] == pytest.approx(1.0, rel=1e-12)
+
+
+def test_tip_relief_thickens_films_at_both_ends():
+    """The load at A and E is smaller with relief, and it is carried by the middle."""
+    plain = shares(FZG_C)[2]
+    relieved = shares(FZG_C, modification=Modification(20e-6, 20e-6, 2e-3, 0.0))[2]
+    assert relieved[0] < 0.5 * plain[0]
+    assert relieved[-1] < 0.5 * plain[-1]
+    assert np.max(relieved) == pytest.approx(1.0)
+
+
+def test_crowning_moves_load_to_the_middle_of_the_face():
+    _, loads = loads_of(FZG_C, modification=Modification(crowning=5e-6), slices=11)
+    line = loads.load[24, :, :]
+    line = line[~np.all(np.isnan(line), axis=1)][0]
+    assert np.all(np.diff(line[:6]) > 0.0)
+    assert line == pytest.approx(line[::-1], rel=1e-9)
+
+
+def test_shares_of_the_standard():
+    """A third at A and E, two thirds at B and D in double contact, everything in single contact."""
+    plane, places, share = shares(FZG_C, "iso")
+    points = plane.path.points
+    assert share[0] == pytest.approx(1.0 / 3.0, abs=1e-4)
+    assert share[-1] == pytest.approx(1.0 / 3.0, abs=1e-4)
+    assert share[places < points["B"]][-1] == pytest.approx(2.0 / 3.0, abs=1e-4)
+    assert share[places > points["D"]][0] == pytest.approx(2.0 / 3.0, abs=1e-4)
+    single = (places > points["B"]) & (places < points["D"])
+    assert np.all(share[single] == 1.0)
+
+
+def test_shares_with_as_much_relief_as_deflection():
+    """No load at A and E, all load at B and D, linear between."""
+    plane, places, share = shares(FZG_C, "tip-relief")
+    points = plane.path.points
+    entering = places < points["B"]
+    expected = (places[entering] - points["A"]) / (points["B"] - points["A"])
+    assert share[entering] == pytest.approx(expected, rel=1e-10)
+    assert np.all(share[(places > points["B"]) & (places < points["D"])] == 1.0)
+    with pytest.raises(InputError, match="for helical gears"):
+        loads_of(FIRST_STAGE, "tip-relief")
+
+
+def test_helical_shares_of_the_standard_are_the_mean_load_but_at_the_ends():
+    plane, loads = loads_of(FIRST_STAGE, "iso", slices=400)
+    mean = FORCE / plane.mean_length
+    inside = (loads.places > plane.path.start + 0.2e-3) & (loads.places < plane.path.end - 0.2e-3)
+    assert loads.load[inside] == pytest.approx(mean, rel=1e-9)
+    assert np.nanmax(loads.load) == pytest.approx(1.3 * mean, rel=0.05)
+
+
+@pytest.mark.parametrize("drawing", HELICAL)
+def test_rigid_lines_have_one_load(drawing):
+    plane, loads = loads_of(drawing, "rigid", slices=2000)
+    for phase, load in zip(loads.phases, loads.load, strict=True):
+        assert np.nanmax(load) == np.nanmin(load)
+        assert np.nanmax(load) == pytest.approx(FORCE / plane.length(phase), rel=2e-3)
