@@ -31,6 +31,7 @@ from ehlectric import Case, solve
 from ehlectric.cases import contact_inputs, library, roughness_inputs
 from ehlectric.cases import table as validation
 from ehlectric.cases.amounts import Amount, Amounts, Count
+from ehlectric.cases.gear_inputs import OfBothGears
 from ehlectric.cases.input_keys import TABLES, descriptions
 from ehlectric.cases.library.bearing_catalogue import CatalogueBearing, bearing_catalogue
 from ehlectric.cases.library.library_oils import Grade, Source
@@ -113,12 +114,17 @@ def _takes(name: str, found: Any, *, pair: bool) -> str:
         return ", ".join(f'`"{name}"`' for name in _NAMES[name])
     if name == "film_factor":
         return '`"none"`, `"inlet-shear"`, `"solved"`, or a number above 0 and at most 1'
+    if name == "bulk_temperature":
+        return '`"iso"`, or 200 to 600 K'
+    if name == "teeth":
+        return "two whole numbers from 4; the second one negative for a ring"
     if name in ("column", "time_column"):
         return "a string, or a whole number from 1"
     if isinstance(found, Grade):
         return f'{found.takes}, as `46` or `"ISO VG 46"`'
     if isinstance(found, Amounts):
-        return f"a list of {found.least} or more, each {_takes(name, found.each, pair=False)}"
+        several = found.several if isinstance(found, OfBothGears) else f"a list of {found.least} or more"
+        return f"{several}, each {_takes(name, found.each, pair=False)}"
     if isinstance(found, Amount | Count):
         unit = f" {printed(found.unit)}" if isinstance(found, Amount) and found.unit else ""
         kind = "whole, " if isinstance(found, Count) else "two, each " if pair else ""
@@ -420,6 +426,7 @@ _GROUPS = {
     "Figures": ("figure", "figure_names", "save_figures"),
     "Reports": ("write_report", "export"),
     "Drives": ("solve_drive", "DriveCase", "DriveResult", "write_netlist", "write_drive_netlist"),
+    "Gears": ("solve_gear", "GearCase", "GearResult"),
     "Errors": ("InputError", "ConvergenceError", "LostError"),
 }
 

@@ -5,11 +5,20 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from ehlectric.quantities.quantity import Keys
-from ehlectric.quantities.results import BEARING_KEYS, CONTACT_KEYS, DRIVE_KEYS, MOTION_KEYS
+from ehlectric.quantities.results import (
+    BEARING_KEYS,
+    CONTACT_KEYS,
+    DRIVE_KEYS,
+    GEAR_KEYS,
+    MOTION_KEYS,
+    PATH_POINTS,
+)
 
 _DISCHARGE, _METER, _SURFACES = "discharge", "meter", "rough"
 # Tables of a drive that repeat the keys of its drive end.
 _OTHER_END, _REMEDIES = "non_drive_end", "remedies"
+# Points of the path of contact of a gear pair that repeat the keys of point A.
+_OTHER_POINTS = tuple(f"points.{point}." for point in PATH_POINTS[1:])
 
 
 def summary_pages() -> dict[str, str]:
@@ -26,8 +35,15 @@ def summary_pages() -> dict[str, str]:
         "summary_meter": _table(_within(CONTACT_KEYS["point"], _METER)),
         "summary_bearing": _table(BEARING_KEYS),
         "summary_drive": _table(_without(_without(DRIVE_KEYS, _OTHER_END), _REMEDIES)),
+        "summary_gear": _table(_gear()),
         "summary_motion": _table(*motions),
     }
+
+
+def _gear() -> Keys:
+    """Keys of a gear pair; those of point A stand for all points of the path of contact."""
+    keys = {name: key for name, key in GEAR_KEYS.items() if not name.startswith(_OTHER_POINTS)}
+    return {name.replace("points.A.", "points.<point>."): key for name, key in keys.items()}
 
 
 def _within(keys: Keys, table: str) -> Keys:
