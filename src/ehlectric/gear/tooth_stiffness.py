@@ -3,7 +3,7 @@
 With z_n = z/(cos^2 beta_b cos beta), the flexibility of a pair of teeth at the pitch point is
 
     q' = 0.04723 + 0.15551/z_n1 + 0.25791/z_n2 - 0.00635 x_1 - 0.11654 x_1/z_n1 - 0.00193 x_2
-         - 0.24188 x_2/z_n2 + 0.00529 x_1^2 + 0.00182 x_2^2        [mm um/N]
+    - 0.24188 x_2/z_n2 + 0.00529 x_1^2 + 0.00182 x_2^2        [mm um/N]
     c' = 0.8 C_B cos beta/q'        c_gamma = c' (0.75 eps_alpha + 0.25)        [N/(mm um)]
 
 C_B = 0.975 for a dedendum of 1.25 modules of the basic rack, and steel gears of solid discs. Below 100 N/mm
