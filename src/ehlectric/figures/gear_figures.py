@@ -60,9 +60,9 @@ _FAR = 4.0
 # Ratio of the voltage between both gears to the breakdown voltage up to which it is drawn.
 _NEAR = 4.0
 
-# Room around the curves of a panel, in parts of its largest value, and part of the largest curve up to which
-# the range of films is drawn: where the load ends, films are thick.
-_ROOM, _CUT = 1.08, 1.6
+# Room around the curves of a panel, in parts of its largest value, and multiple of the thinnest film up to
+# which films are drawn: where the load ends, they are as thick as gaps.
+_ROOM, _CUT = 1.08, 4.0
 
 
 # Rows and columns of the map of a flank.
@@ -178,11 +178,14 @@ def _along_path(
 ) -> Panel:
     """Panel of curves, from zero on a linear axis, with lines at the points A to E.
 
-    Areas are drawn up to ``cut`` times the largest curve.
+    A linear axis ends at ``cut`` times the smallest value of the first curve, and contains constant curves.
     """
     values = np.concatenate([curve.y for curve in curves])
     highest = [float(np.max(area.ends[1])) for area in areas if area.ends is not None]
-    most = max(float(np.max(values)), min(max(highest, default=0.0), cut * float(np.max(values))))
+    most = max(float(np.max(values)), max(highest, default=0.0))
+    if math.isfinite(cut) and not log:
+        constant = [float(curve.y[0]) for curve in curves if np.ptp(curve.y) == 0.0]
+        most = min(most, max(cut * float(np.min(curves[0].y)), *constant, 0.0))
     top = (1.25 if log else _ROOM) * most
     bottom = 0.8 * float(np.min(values)) if log else 0.0
     return Panel(title, unit, curves, top, bottom, areas, _points(result), log=log)
