@@ -9,7 +9,6 @@ from ehlectric.bearing.ball_gaps import parts_around_ellipse
 from ehlectric.bearing.bearing_discharges import breakdown_of
 from ehlectric.bearing.quick_contacts import (
     QUICK_METHODS,
-    _around_roller,
     quick_case,
     quick_curve,
 )
@@ -20,6 +19,7 @@ from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.cases.defaults import quick_way
 from ehlectric.errors import InputError
 from ehlectric.film.atlas.atlas_films import contact_film, groups_of
+from ehlectric.formulas.dry_means import wedge_integral
 from ehlectric.formulas.hertz import dry_contact, line_gap, point_deflection
 from tests.helpers.bearings import (
     BALLS,
@@ -103,10 +103,10 @@ def test_the_capacitance_of_the_hertz_zone_is_that_of_the_film():
 
 @pytest.mark.parametrize("middle", [1e-3, 0.1])
 def test_the_gap_around_a_roller_is_that_of_quadrature(middle):
-    ends = ((-4.0, -1.0), (1.0, 2.0))
-    for part, end in zip(_around_roller(), ends, strict=True):
+    for end in ((-4.0, -1.0), (1.0, 2.0)):
         expected = quad(lambda x: 1.0 / (middle + float(line_gap(x))), *end, points=[], limit=400)[0]
-        assert integral(part, middle) == pytest.approx(expected, rel=1e-4)
+        found = wedge_integral(np.array(middle), max(end, key=abs))
+        assert float(found) == pytest.approx(expected, rel=1e-4)
 
 
 @pytest.mark.parametrize("ratio", [1.1, 30.0])

@@ -62,6 +62,7 @@ from .preparation import resolve_bearing as resolve_bearing
 from .quick_contacts import formula_factor as formula_factor
 from .quick_contacts import heat_by_formula as heat_by_formula
 from .quick_contacts import is_quick as is_quick
+from .quick_contacts import permittivity_of_mass as permittivity_of_mass
 from .quick_contacts import quick_case as quick_case
 from .quick_contacts import required_quick_case as required_quick_case
 from .rating_life import KEYS as KEYS

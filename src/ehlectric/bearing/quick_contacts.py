@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from functools import lru_cache, partial
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -34,6 +34,7 @@ from ehlectric.constants import EPSILON_0
 from ehlectric.contact import Setup, case_warnings
 from ehlectric.errors import InputError
 from ehlectric.film import contact_film
+from ehlectric.formulas.dry_means import ELLIPSE, STRIP, pressure_mean, wedge_integral
 from ehlectric.formulas.film_line import LineContact, martin, pan_hamrock
 from ehlectric.formulas.film_point import PointContact, brewe_hamrock_taylor, chittenden
 from ehlectric.formulas.hertz import line_gap
@@ -140,33 +141,16 @@ _NODES = 97, 65
 _AT, _PART = (0.5 * values for values in np.polynomial.legendre.leggauss(12))
 _AT = _AT + 0.5
 
-# Pressures of a dry contact over its maximum, and the parts of its area that have them. Over an ellipse the
-# part with ratios up to t is t^2; over a strip the ratio is the cosine of an angle whose sine is the place.
-_RATIO, _WEIGHT = np.polynomial.legendre.leggauss(24)
-_ELLIPSE = 0.5 * (_RATIO + 1.0), 0.5 * (_RATIO + 1.0) * _WEIGHT
-_STRIP = np.sqrt(1.0 - _RATIO**2), 0.5 * _WEIGHT
-
 
 def permittivity(oil: Oil, pressure: Array) -> Array:
     """Relative permittivity of the oil under pressure [Pa], dimensionless."""
     return oil.permittivity(pressure, oil.density_ratio(pressure)[0])
 
 
-# Numbers that are computed together: few enough for the processor's cache.
-_TOGETHER = 32768
-
-
 def hertz_mean(contact: Contact, law: Callable[[Array], Array], share: Numbers = 1.0) -> Array:
     """Mean over the Hertz area of a number that depends on the Hertz pressure [Pa], times ``share``."""
-    ratio, weights = _ELLIPSE if isinstance(contact, BallContact) else _STRIP
-    pressure = np.asarray(share * contact.conditions.max_pressure)
-    step = max(1, _TOGETHER // max(1, pressure.size))
-    total = np.zeros_like(pressure)
-    for start in range(0, ratio.size, step):
-        part = slice(start, start + step)
-        # A product of matrices would start threads.
-        total += np.einsum("k,k...->...", weights[part], law(np.multiply.outer(ratio[part], pressure)))
-    return total
+    area = ELLIPSE if isinstance(contact, BallContact) else STRIP
+    return pressure_mean(area, law, np.asarray(share * contact.conditions.max_pressure))
 
 
 @dataclass(frozen=True)
@@ -405,18 +389,7 @@ def _around_hertz(contact: Contact, central: Array) -> tuple[Array, Array]:
         inlet, outlet = around_ellipses(contact.ring.raceway, middle, contact.domains)
         return radius * inlet, radius * outlet
     unit = contact.length * radius / b
-    gaps = middle[..., np.newaxis]
-    inlet, outlet = (np.sum(weights / (gaps + gap), axis=-1) for weights, gap in _around_roller())
-    return unit * inlet, unit * outlet
-
-
-# Nodes and weights on 0 to 1 with which the gap outside the Hertz area is integrated. The integrals are
-# within 1e-4 of the integrals with three times as many nodes.
-_ATLAS_NODES, _WEIGHTS = (0.5 * values for values in np.polynomial.legendre.leggauss(32))
-_ATLAS_NODES = _ATLAS_NODES + 0.5
-
-# Integral over a part of the dry gap outside the Hertz area: weights and gaps, both dimensionless.
-_Part = tuple[Array, Array]
+    return unit * wedge_integral(middle, LINE[0]), unit * wedge_integral(middle, LINE[1])
 
 
 def by_atlas(contact: Contact) -> QuickContact:
@@ -446,7 +419,7 @@ def by_atlas(contact: Contact) -> QuickContact:
     # the middle, its pressure is not the pressure of the zone.
     share = np.minimum(1.0, numbers.central_pressure)
     hertz = (
-        numbers.zone * hertz_mean(contact, partial(_permittivity_of_mass, oil), share) * contact.area / mass
+        numbers.zone * hertz_mean(contact, partial(permittivity_of_mass, oil), share) * contact.area / mass
     )
     quick = quick_contact(
         contact, (least, central), inside=hertz + outside, hertz=hertz, refused=refused, wide=True
@@ -459,21 +432,7 @@ def by_atlas(contact: Contact) -> QuickContact:
 QUICK_METHODS: Mapping[str, Callable[[Contact], QuickContact]] = {"atlas": by_atlas, "formula": by_formula}
 
 
-def _permittivity_of_mass(oil: Oil, pressure: Array) -> Array:
+def permittivity_of_mass(oil: Oil, pressure: Array) -> Array:
     """Relative permittivity times density ratio of an oil under pressure [Pa]."""
     density = oil.density_ratio(pressure)[0]
     return np.asarray(oil.permittivity(pressure, density) * density)
-
-
-@lru_cache(maxsize=1)
-def _around_roller() -> tuple[_Part, _Part]:
-    """Gap before and behind the Hertz zone of a roller, with lengths in b and gaps in b^2/R.
-
-    Nodes are dense at the edge of the zone, where the gap begins with a power of 1.5.
-    """
-    parts = []
-    for end in LINE:
-        length = abs(end) - 1.0
-        x = 1.0 + length * _ATLAS_NODES**3
-        parts.append((length * 3.0 * _ATLAS_NODES**2 * _WEIGHTS, line_gap(x)))
-    return parts[0], parts[1]

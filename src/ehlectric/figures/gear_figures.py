@@ -356,7 +356,7 @@ def _draw_lines(result: GearResult, ax: Axes) -> Iterator[Line2D]:
     solution = result.solution
     place, across = weakest(solution)
     films = solution.films.minimum
-    phase = int(np.unravel_index(int(np.nanargmin(films)), films.shape)[0])
+    phase = solution.thinnest[0]
     y = np.linspace(0.0, solution.pair.face_width, _COLUMNS)
     slices = np.minimum((y / solution.pair.face_width * films.shape[2]).astype(int), films.shape[2] - 1)
     slope = math.tan(solution.path.base_helix_angle)

@@ -75,6 +75,11 @@ class FlankFilms:
     atlas: ContactFilm | None = None
 
     @property
+    def thinnest(self) -> tuple[int, ...]:
+        """Index of the smallest film."""
+        return tuple(int(i) for i in np.unravel_index(int(np.nanargmin(self.minimum)), self.minimum.shape))
+
+    @property
     def slide_to_roll_ratio(self) -> Array:
         """Sliding speed divided by the mean speed, dimensionless."""
         return self.sliding_speed / self.mean_speed

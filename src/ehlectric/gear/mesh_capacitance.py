@@ -17,20 +17,17 @@ All other gaps between the teeth add less than 5 eps0 b (boundary elements of tw
 from __future__ import annotations
 
 import math
-from functools import lru_cache
+from functools import partial
 
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.bearing import RollerRaceway, roller_tails
+from ehlectric.bearing import RollerRaceway, permittivity_of_mass, roller_tails
 from ehlectric.cases.grid_inputs import DEFAULT_ENDS
 from ehlectric.constants import EPSILON_0
+from ehlectric.formulas.dry_means import STRIP, pressure_mean, wedge_integral
 from ehlectric.formulas.hertz import line_gap
 from ehlectric.gear.flank_films import FlankFilms, Flanks
-from ehlectric.lubricant.oil import Oil
-
-# Sines of an angle on which the Hertz pressure over its maximum is the cosine, with weights of their mean.
-_AT, _WEIGHTS = np.polynomial.legendre.leggauss(24)
 
 # Ends of the domain of the atlas before and behind the contact, over the half-width.
 _ENDS = DEFAULT_ENDS[False]
@@ -43,38 +40,14 @@ def capacitance_per_length(flanks: Flanks, films: FlankFilms) -> Array:
     # The atlas has the mean of 1/(rho h) over that in the middle, where the mass is most alike for all oils.
     mass = films.central * film.mass / film.central
     share = np.minimum(1.0, film.central_pressure)
-    zone = film.zone * _zone_mean(oil, share * films.max_pressure) * 2.0 * films.half_width / mass
+    permittivity = pressure_mean(STRIP, partial(permittivity_of_mass, oil), share * films.max_pressure)
+    zone = film.zone * permittivity * 2.0 * films.half_width / mass
     middle = films.central * films.reduced_radius / films.half_width**2
     unit = films.reduced_radius / films.half_width
-    inlet, outlet = (
-        unit * np.sum(weights / (middle[..., np.newaxis] + gap), axis=-1) for weights, gap in _wedges()
-    )
+    inlet, outlet = (unit * wedge_integral(middle, end) for end in _ENDS)
     near = oil.relative_permittivity * (film.inlet * inlet + film.outlet * outlet)
     total: Array = EPSILON_0 * (zone + near) + oil.relative_permittivity * _tails(flanks, films)
     return total
-
-
-def _zone_mean(oil: Oil, max_pressure: Array) -> Array:
-    """Mean of relative permittivity times density ratio over the Hertz zone."""
-    total = np.zeros_like(max_pressure)
-    for at, weight in zip(np.sqrt(1.0 - _AT**2), 0.5 * _WEIGHTS, strict=True):
-        pressure = at * max_pressure
-        density = oil.density_ratio(pressure)[0]
-        total += weight * oil.permittivity(pressure, density) * density
-    return total
-
-
-@lru_cache(maxsize=1)
-def _wedges() -> tuple[tuple[Array, Array], tuple[Array, Array]]:
-    """Weights and dry gaps before and behind the Hertz zone, lengths in b and gaps in b^2/R."""
-    at, weights = np.polynomial.legendre.leggauss(32)
-    at, weights = 0.5 * (at + 1.0), 0.5 * weights
-    parts = []
-    for end in _ENDS:
-        length = abs(end) - 1.0
-        # Nodes are dense at the edge of the zone, where the gap begins with a power of 1.5.
-        parts.append((length * 3.0 * at**2 * weights, line_gap(1.0 + length * at**3)))
-    return parts[0], parts[1]
 
 
 def _tails(flanks: Flanks, films: FlankFilms) -> Array:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from ehlectric.cases.gear_case import GearCase
-from ehlectric.gear.gear_verdict import gear_verdict
+from ehlectric.gear.gear_verdict import breakdown_margin, gear_verdict
 from ehlectric.gear.gear_warnings import gear_warnings
 from ehlectric.gear.points import path_points
 from ehlectric.gear.solution import GearSolution, solve_gear_pair
@@ -67,8 +67,7 @@ class GearResult(Shown):
     @property
     def margin(self) -> float | None:
         """Breakdown voltage over the voltage between both gears; None without one of them."""
-        margin: float | None = self.summary()["mesh"]["margin"]
-        return margin
+        return breakdown_margin(self.solution)
 
     def summary(self) -> dict[str, Any]:
         """Return the results nested as in summary.json, SI units."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.cases import library
+from ehlectric.bearing import Solid
 from ehlectric.cases.case_oil import temperature_coefficient
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.gear_inputs import Gear, both
@@ -16,7 +16,7 @@ from ehlectric.discharge.discharge_laws import Leakage, leakage
 from ehlectric.discharge.film_breakdown import dielectric_strength
 from ehlectric.errors import InputError
 from ehlectric.formulas.asperities import contact_probability
-from ehlectric.formulas.hertz import body_compliance, reduced_modulus
+from ehlectric.formulas.hertz import reduced_modulus
 from ehlectric.gear.contact_lines import PlaneOfAction
 from ehlectric.gear.contact_path import ContactPath, contact_path
 from ehlectric.gear.flank_films import FlankFilms, Flanks, flank_films
@@ -27,7 +27,6 @@ from ehlectric.gear.mesh_capacitance import back_capacitance, capacitance_per_le
 from ehlectric.gear.tooth_stiffness import mesh_stiffness, pair_stiffness
 from ehlectric.lubricant.heat_laws import ASSUMED_CONDUCTIVITY
 from ehlectric.quantities.field_metadata import stored
-from ehlectric.quantities.units import to_si
 
 # Area of the contact of the disc machine on which the share of time was measured, if it is not given, and the
 # factor by which it may be wrong either way.
@@ -89,8 +88,7 @@ class GearSolution:
     @property
     def thinnest(self) -> tuple[int, ...]:
         """Index (p, k, s) of the smallest film of all lines."""
-        films = self.films.minimum
-        return tuple(int(i) for i in np.unravel_index(int(np.nanargmin(films)), films.shape))
+        return self.films.thinnest
 
     @property
     def film_error(self) -> float:
@@ -185,7 +183,7 @@ class OperatingPair:
             PlaneOfAction(path, pair.face_width),
             _flanks(case, pair, path, temperature),
             temperature,
-            steel * _youngs_modulus(gear.material) / _youngs_modulus("steel"),
+            steel * Solid.of(gear.material).youngs_modulus / Solid.of("steel").youngs_modulus,
         )
 
 
@@ -233,8 +231,7 @@ def _films(case: GearCase, flanks: Flanks, loads: LineLoads) -> FlankFilms:
 
 def _places_to_solve(path: ContactPath, loads: LineLoads, films: FlankFilms) -> tuple[Array, Array]:
     """Places of the points of the path that carry load, and of the smallest film, with their loads."""
-    weakest = np.unravel_index(int(np.nanargmin(films.minimum)), films.minimum.shape)
-    places, load = [float(loads.places[weakest])], [float(loads.load[weakest])]
+    places, load = [float(loads.places[films.thinnest])], [float(loads.load[films.thinnest])]
     for name, place in path.points.items():
         mean = load_at(path, loads, place, SIDES[name])
         if mean > 0.0:
@@ -291,15 +288,9 @@ def _bulk_temperature(gear: Gear, pair: GearPair, path: ContactPath) -> float:
     )
 
 
-def _youngs_modulus(material: str) -> float:
-    """Young's modulus of a solid of the library [Pa]."""
-    return float(to_si(library.solid(material)["youngs_modulus"], "Pa"))
-
-
 def _flanks(case: GearCase, pair: GearPair, path: ContactPath, temperature: float) -> Flanks:
     """Flanks with the oil at their temperature [K]."""
-    table = library.solid(case.gear.material)
-    compliance = body_compliance(to_si(table["youngs_modulus"], "Pa"), table["poissons_ratio"])
+    compliance = Solid.of(case.gear.material).compliance
     oil = case.lubricant.at(temperature, "gear.operation.bulk_temperature")
     if not np.any(oil.alpha):
         raise InputError(
