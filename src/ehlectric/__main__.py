@@ -6,7 +6,7 @@ import gc
 import sys
 
 from ehlectric.runtime.memory import in_bytes, is_out_of_memory, left_of_process, out_of_memory
-from ehlectric.runtime.worker_processes import cores
+from ehlectric.runtime.worker_processes import cores, limit_blas
 
 # Memory that the libraries of every command take [bytes of address space], and memory of BLAS for each core.
 # With less they fail without a message: BLAS waits endlessly, or ends the process.
@@ -25,6 +25,8 @@ def main() -> None:
         message = f"memory: got {in_bytes(max(0.0, left))}, what ulimit leaves to this process"
         sys.exit(_end(f"{message}; expected at least {in_bytes(least)}"))
     gc.set_threshold(_NEW_OBJECTS)
+    # Films and fields are factorised on one thread. Idle threads of BLAS would take processor time.
+    limit_blas()
     try:
         from ehlectric.commands.command_line import exit_status, process
     except KeyboardInterrupt:

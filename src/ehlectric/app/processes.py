@@ -17,7 +17,7 @@ from typing import Any
 
 from ehlectric.errors import ConvergenceError, InputError, LostError
 from ehlectric.runtime.progress import Progress
-from ehlectric.runtime.worker_processes import end_with_parent
+from ehlectric.runtime.worker_processes import end_with_parent, limit_blas
 
 # Loaded before there is any work, in the process from which all others are forked.
 _PRELOADED = "ehlectric.app.compute.preload"
@@ -28,9 +28,6 @@ _OTHERS = tuple(
     f"ehlectric.app.compute.{name}_answers" for name in ("contact", "drive", "sweep", "remedy", "compare")
 )
 _IDLE = 5.0
-
-# Variables in which BLAS libraries look up the number of threads when they are loaded.
-_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
 @dataclass(frozen=True)
@@ -163,8 +160,7 @@ def new_context() -> Any:
     if "forkserver" not in multiprocessing.get_all_start_methods():
         return multiprocessing.get_context("spawn")
     # A fork must not inherit the threads of a BLAS library.
-    for name in _THREADS:
-        os.environ.setdefault(name, "1")
+    limit_blas()
     context = multiprocessing.get_context("forkserver")
     context.set_forkserver_preload([_PRELOADED])
     return context

@@ -34,6 +34,12 @@ _MOST = 61 if os.name == "nt" else sys.maxsize
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
+def limit_blas() -> None:
+    """Limit BLAS libraries that are loaded later to one thread, unless the environment has another number."""
+    for name in _THREADS:
+        os.environ.setdefault(name, "1")
+
+
 def cores() -> int:
     """Number of cores that this process may use."""
     affinity = getattr(os, "sched_getaffinity", None)
