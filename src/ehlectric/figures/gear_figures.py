@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import math
-import textwrap
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -16,11 +13,27 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from ehlectric.arrays import Array
-from ehlectric.cases.defaults import HOW
-from ehlectric.figures.bearing_figures import prefixed
-from ehlectric.figures.data import Along, Area, Curve, Panel, Upright, with_unit
+from ehlectric.figures.data import Along, Panel, with_unit
 from ehlectric.figures.draw import draw_panel
 from ehlectric.figures.figure_names import GEAR_FIGURE_FILES
+from ehlectric.figures.gear_panels import (
+    ENDS_OF_FLANK,
+    LAST_COLOUR,
+    PHASE_AXIS,
+    case_lines,
+    film_finding,
+    film_panels,
+    flank_finding,
+    flank_lines,
+    flank_map,
+    mesh_finding,
+    mesh_panels,
+    named_points,
+    path_axis,
+    path_finding,
+    path_panels,
+    summit_text,
+)
 from ehlectric.figures.style import (
     COLOURS,
     LENGTH_AXIS,
@@ -35,271 +48,9 @@ from ehlectric.figures.style import (
     style,
     titled,
 )
-from ehlectric.gear import CONDUCTS, GearResult, name_of_place, state_of, weakest
-from ehlectric.quantities.formats import amount, operating_point, time_share_text
-from ehlectric.quantities.palette import (
-    BLACK,
-    BLUE,
-    GREEN,
-    MAP_EDGE,
-    MIDDLE_GREY,
-    ON_MAP,
-    ORANGE,
-    OUT_OF_RANGE,
-    STRENGTH,
-)
+from ehlectric.gear import GearResult, weakest
+from ehlectric.quantities.palette import BLACK, MAP_EDGE, ON_MAP, ORANGE, OUT_OF_RANGE
 from ehlectric.quantities.units import unit_for
-from ehlectric.readable import ratio_text, readable
-
-# Part of the largest mean by which values at a place differ at least where their range is drawn.
-_VARIES = 0.05
-
-# Ratio of the height of the summits to the minimum film above which the axis of the film is logarithmic.
-_FAR = 4.0
-
-# Ratio of the voltage between both gears to the breakdown voltage up to which it is drawn.
-_NEAR = 4.0
-
-# Room around the curves of a panel, in parts of its largest value, and multiple of the thinnest film up to
-# which films are drawn: where the load ends, they are as thick as gaps.
-_ROOM, _CUT = 1.08, 4.0
-
-
-# Rows and columns of the map of a flank.
-_ROWS, _COLUMNS = 360, 240
-
-
-def over_flank(result: GearResult, values: Array) -> tuple[Array, Array]:
-    """Map values at lines of contact, shape (phases, lines, slices), on the flank. Returns places g, shape
-    (m,), and values there in each slice, shape (m, slices).
-
-    A line of contact passes each place of the flank at one phase, so that the value there is one number.
-    """
-    path, places = result.solution.path, result.solution.loads.places
-    g = path.start + (np.arange(_ROWS) + 0.5) / _ROWS * path.length
-    columns = []
-    for k in range(places.shape[-1]):
-        inside = ~np.isnan(places[:, :, k])
-        at, known = places[:, :, k][inside], values[:, :, k][inside]
-        order = np.argsort(at)
-        columns.append(np.interp(g, at[order], known[order]))
-    return g, np.column_stack(columns)
-
-
-@dataclass(frozen=True)
-class OverPath:
-    """Values over the places g of the path of contact: mean, least and greatest over phases and face."""
-
-    places: Array  # [m]
-    mean: Array
-    low: Array
-    high: Array
-
-    @classmethod
-    def of(cls, result: GearResult, values: Array) -> OverPath:
-        """Values of all lines of contact, shape (phases, lines, slices), by their places; NaN is no value."""
-        places, on_flank = over_flank(result, values)
-        some = ~np.all(np.isnan(on_flank), axis=1)
-        places, on_flank = places[some], on_flank[some]
-        return cls(places, *(part(on_flank, axis=1) for part in (np.nanmean, np.nanmin, np.nanmax)))
-
-    @property
-    def varies(self) -> bool:
-        """Whether values at a place differ between the phases or over the face."""
-        return bool(np.any(self.high - self.low > _VARIES * np.max(np.abs(self.mean), initial=0.0)))
-
-    def drawn(
-        self, name: str, factor: float, colour: str, dash: str = "solid"
-    ) -> tuple[Curve, tuple[Area, ...]]:
-        """Curve of the mean, and the area between the least and the greatest value where they differ."""
-        x = 1e3 * self.places
-        curve = Curve(name, x, factor * self.mean, colour, dash)
-        if not self.varies:
-            return curve, ()
-        ends = factor * self.low, factor * self.high
-        within = np.ones(x.size, dtype=bool)
-        return curve, (Area(_BAND, x, within, colour, 0.2, ends),)
-
-
-# Name of an area around a mean.
-_BAND = "range over phases and face"
-
-
-def path_axis(result: GearResult) -> Along:
-    """Axis along the path of contact."""
-    path = result.solution.path
-    room = 0.01 * path.length
-    ends = (1e3 * (path.start - room), 1e3 * (path.end + room))
-    return Along("place $g$ on the path of contact", "mm", ends)
-
-
-def _points(result: GearResult) -> list[Upright]:
-    """Upright lines at the points A to E."""
-    return [Upright("", 1e3 * place, MIDDLE_GREY, "dot") for place in result.solution.path.points.values()]
-
-
-def path_panels(result: GearResult) -> list[Panel]:
-    """Radii of curvature, speeds, line load and Hertzian pressure over the path of contact."""
-    solution = result.solution
-    path, films = solution.path, solution.films
-    g = np.linspace(path.start, path.end, 201)
-    first, second = (np.asarray(radius) for radius in path.transverse_radii(g))
-    speeds = path.speeds(g, solution.flanks.pinion_speed, solution.pair.ratio)
-    colours, names = (BLUE, ORANGE), ("gear 1", "ring, concave" if solution.pair.internal else "gear 2")
-    radii = [(names[0], first, BLUE), (names[1], np.abs(second), ORANGE)]
-    radii += [("reduced radius", np.asarray(path.reduced_radius(g)), BLACK)]
-    return [
-        _along_path(
-            result,
-            "radius of\ncurvature $ρ$",
-            "mm",
-            [Curve(name, 1e3 * g, 1e3 * radius, colour) for name, radius, colour in radii],
-        ),
-        _along_path(
-            result,
-            "speed of the\nflank $v$",
-            "m/s",
-            [Curve("", 1e3 * g, np.asarray(v), c) for v, c in zip(speeds, colours, strict=True)],
-        ),
-        _of_lines(result, "line load $w$", "N/m", solution.loads.load),
-        _of_lines(result, "Hertzian\npressure $p_H$", "Pa", films.max_pressure),
-    ]
-
-
-def _along_path(
-    result: GearResult,
-    title: str,
-    unit: str,
-    curves: Sequence[Curve],
-    areas: Sequence[Area] = (),
-    *,
-    cut: float = math.inf,
-    log: bool = False,
-) -> Panel:
-    """Panel of curves, from zero on a linear axis, with lines at the points A to E.
-
-    A linear axis ends at ``cut`` times the smallest value of the first curve, and contains constant curves.
-    """
-    values = np.concatenate([curve.y for curve in curves])
-    highest = [float(np.max(area.ends[1])) for area in areas if area.ends is not None]
-    most = max(float(np.max(values)), max(highest, default=0.0))
-    if math.isfinite(cut) and not log:
-        constant = [float(curve.y[0]) for curve in curves if np.ptp(curve.y) == 0.0]
-        most = min(most, max(cut * float(np.min(curves[0].y)), *constant, 0.0))
-    top = (1.25 if log else _ROOM) * most
-    bottom = 0.8 * float(np.min(values)) if log else 0.0
-    return Panel(title, unit, curves, top, bottom, areas, _points(result), log=log)
-
-
-def _of_lines(result: GearResult, title: str, unit: str, values: Array) -> Panel:
-    """Panel of a quantity of the lines of contact."""
-    over = OverPath.of(result, values)
-    factor, shown = unit_for(float(np.max(over.high)), unit, least=1.0)
-    if unit == "N/m":
-        factor, shown = 1e-3, "N/mm"
-    curve, areas = over.drawn("mean of all lines of contact", factor, GREEN)
-    return _along_path(result, title, shown, [curve], areas)
-
-
-def film_panels(result: GearResult) -> list[Panel]:
-    """Film thickness, with the height of the highest summits, and lambda ratio over the path of contact."""
-    solution = result.solution
-    films, ends = solution.films, np.array(path_axis(result).window)
-    central, minimum = (OverPath.of(result, values) for values in (films.central, films.minimum))
-    isothermal = OverPath.of(result, films.minimum / films.heat_factor)
-    factor, unit = unit_for(max(float(np.max(central.high)), solution.summits), "m", least=1.0)
-    upper, upper_areas = central.drawn("central film", factor, BLUE)
-    lower, lower_areas = minimum.drawn("minimum film", factor, ORANGE)
-    curves = [upper, lower]
-    if np.any(films.heat_factor[~np.isnan(films.minimum)] < 0.999):
-        curves.append(isothermal.drawn("minimum film, isothermal", factor, ORANGE, "dot")[0])
-    level = np.full(2, factor * solution.summits)
-    curves.append(Curve(f"highest summits, {_height(result)}", ends, level, BLACK, "dash"))
-    ratio = OverPath.of(result, films.minimum / solution.rq)
-    line, areas = ratio.drawn("", 1.0, ORANGE)
-    height = Curve("", ends, np.full(2, solution.case.gear.summit_height), BLACK, "dash")
-    log = solution.summits > _FAR * float(np.nanmin(films.minimum))
-    of_films = (*upper_areas, *lower_areas)
-    return [
-        _along_path(result, "film thickness $h$", unit, curves, of_films, cut=_CUT, log=log),
-        _along_path(result, "lambda ratio\n$λ = h_{min}/Rq$", "", [line, height], areas, cut=_CUT, log=log),
-    ]
-
-
-def _height(result: GearResult) -> str:
-    """Height of the highest summits as a multiple of Rq."""
-    return f"{readable(result.case.gear.summit_height)} Rq = {prefixed(result.solution.summits, 'm')}"
-
-
-# Part of the mean that the axis of a nearly constant capacitance or voltage reaches to either side.
-_LEAST_SPAN = 0.05
-
-
-def mesh_panels(result: GearResult) -> list[Panel]:
-    """Capacitance, breakdown voltage where there is one, and time share of contact over a phase."""
-    phase = result.over_phase()
-    capacitance, voltage = phase["capacitance"], phase["breakdown_voltage"]
-    factor, unit = unit_for(float(np.max(capacitance)), "F", least=1.0)
-    panels = [_over_phase("capacitance $C$", unit, [_phase_curve(result, "", factor * capacitance, BLUE)])]
-    if has_voltage(result):
-        most, applied = float(np.max(voltage)), result.case.gear.contact.voltage
-        near = applied is not None and applied <= _NEAR * most
-        scale, volts = unit_for(max(most, applied) if applied is not None and near else most, "V", least=1.0)
-        name = "breakdown voltage" if near else ""
-        curves = [_phase_curve(result, name, scale * voltage, STRENGTH)]
-        if applied is not None and near:
-            level = np.full(2, scale * applied)
-            curves.append(Curve("voltage between both gears", np.array([0.0, 1.0]), level, BLACK, "dash"))
-        panels.append(_over_phase("breakdown\nvoltage $V_b$", volts, curves))
-    share = 100.0 * phase["contact_time_share"]
-    curve = _phase_curve(result, "", share, ORANGE)
-    top = 100.0 if np.max(share) > 20.0 else max(float(np.max(share)), 1.0)
-    # The curve is seen at both ends of the axis.
-    return [*panels, Panel("time with\nmetallic contact", "%", [curve], 1.04 * top, -0.04 * top)]
-
-
-def has_voltage(result: GearResult) -> bool:
-    """Whether the mesh has a breakdown voltage at any phase: it has a strength, and summits do not touch."""
-    voltage = result.solution.breakdown_voltage
-    return voltage is not None and bool(np.max(voltage) > 0.0)
-
-
-def _phase_curve(result: GearResult, name: str, values: Array, colour: str) -> Curve:
-    """Values over the phase, which return to the first one after a pitch; of a spur pair in a step."""
-    phases = result.solution.loads.phases
-    if result.solution.pair.helix_angle == 0.0:
-        x, ends = np.concatenate([[0.0], phases, [1.0]]), (values[:1], values[-1:])
-    else:
-        x, ends = np.concatenate([[phases[-1] - 1.0], phases, [1.0 + phases[0]]]), (values[-1:], values[:1])
-    return Curve(name, x, np.concatenate([ends[0], values, ends[1]]), colour)
-
-
-def _over_phase(title: str, unit: str, curves: Sequence[Curve]) -> Panel:
-    """Panel whose axis extends beyond the values on both sides."""
-    values = np.concatenate([curve.y for curve in curves])
-    low, high = float(np.min(values)), float(np.max(values))
-    room = max(0.15 * (high - low), _LEAST_SPAN * 0.5 * (low + high))
-    return Panel(title, unit, curves, high + room, max(0.0, low - room))
-
-
-PHASE_AXIS = Along("phase of the mesh, 1 for each tooth", "", (0.0, 1.0))
-
-
-# Films above this multiple of the thinnest one have the last colour of the map: where the load begins, films
-# are as thick as in a gap, and would take all colours.
-_LAST_COLOUR = 3.0
-
-
-def flank_map(result: GearResult) -> tuple[Array, Array, Array]:
-    """Minimum film on the flank: places g on the path of contact, shape (m,), places y on the face, shape
-    (n,), and films [m], shape (m, n); NaN where the flanks carry no load.
-    """
-    g, of_slices = over_flank(result, result.solution.films.minimum)
-    across, width = result.solution.loads.across, result.solution.pair.face_width
-    y = (np.arange(_COLUMNS) + 0.5) / _COLUMNS * width
-    if across.size == 1:
-        return g, y, np.broadcast_to(of_slices, (_ROWS, _COLUMNS))
-    return g, y, np.array([np.interp(y, across, row) for row in of_slices])
 
 
 def flank(result: GearResult, ax: Axes) -> None:
@@ -308,7 +59,7 @@ def flank(result: GearResult, ax: Axes) -> None:
     """
     solution = result.solution
     g, y, films = flank_map(result)
-    most = _LAST_COLOUR * float(np.nanmin(films))
+    most = LAST_COLOUR * float(np.nanmin(films))
     capped = bool(np.nanmax(films) > most)
     films = np.minimum(films, most)
     factor, unit = unit_for(float(np.nanmax(films)), "m", least=1.0)
@@ -323,7 +74,7 @@ def flank(result: GearResult, ax: Axes) -> None:
         look: dict[str, Any] = {"linestyles": "--", "linewidths": 1.2, "colors": MAP_EDGE}
         lines = ax.contour(1e3 * y, 1e3 * g, factor * films, [level], **look)
         lines.set_path_effects(outlined(2.6, ON_MAP))
-        handles.append(Line2D([], [], color=BLACK, ls="--", lw=1.2, label=f"film of {_height(result)}"))
+        handles.append(Line2D([], [], color=BLACK, ls="--", lw=1.2, label=f"film of {summit_text(result)}"))
     if np.any(np.isnan(films)):
         _image(ax, np.where(np.isnan(films), 1.0, np.nan), ends, ListedColormap([OUT_OF_RANGE]), None)
         handles.append(Patch(color=OUT_OF_RANGE, label="no load"))
@@ -353,47 +104,14 @@ def _draw_lines(result: GearResult, ax: Axes) -> Iterator[Line2D]:
     """Draw the lines of contact at the phase with the minimum film, where they carry load, and a cross at its
     place; yields entries of the legend.
     """
-    solution = result.solution
-    place, across = weakest(solution)
-    films = solution.films.minimum
-    phase = solution.thinnest[0]
-    y = np.linspace(0.0, solution.pair.face_width, _COLUMNS)
-    slices = np.minimum((y / solution.pair.face_width * films.shape[2]).astype(int), films.shape[2] - 1)
-    slope = math.tan(solution.path.base_helix_angle)
+    place, across = weakest(result.solution)
     look: dict[str, Any] = {"color": ON_MAP, "lw": 1.4, "path_effects": outlined(2.6, MAP_EDGE)}
-    for line, places in enumerate(solution.loads.places[phase]):
-        if np.all(np.isnan(places)):
-            continue
-        k = int(np.flatnonzero(~np.isnan(places))[0])
-        g = places[k] + slope * (y - solution.loads.across[k])
-        without = (solution.loads.load[phase, line] == 0.0)[slices]
-        ax.plot(1e3 * y, 1e3 * np.where(without, np.nan, g), **look)
+    for y, g in flank_lines(result):
+        ax.plot(1e3 * y, 1e3 * g, **look)
     yield Line2D([], [], label="lines of contact at one phase", **look)
     cross: dict[str, Any] = {"ls": "none", "marker": "X", "ms": 8.0, "mfc": ORANGE, "mec": ON_MAP, "mew": 1.0}
     (mark,) = ax.plot(1e3 * across, 1e3 * place, label="minimum film", zorder=6.0, clip_on=False, **cross)
     yield mark
-
-
-# Parts of the flank of gear 1 at both ends of the path of contact.
-_ENDS = {"A": "root of gear 1", "E": "tip of gear 1"}
-
-# Part of the path of contact within which names of points share a place.
-_CLOSE = 0.05
-
-
-def _named_points(result: GearResult) -> list[tuple[float, str]]:
-    """Places g of the points A to E [mm] with their names; close ones share a name."""
-    path = result.solution.path
-    groups: list[list[tuple[float, str]]] = []
-    for name, place in sorted(path.points.items(), key=lambda item: item[1]):
-        if groups and place - groups[-1][-1][0] < _CLOSE * path.length:
-            groups[-1].append((place, name))
-        else:
-            groups.append([(place, name)])
-    return [
-        (1e3 * float(np.mean([place for place, _ in group])), ", ".join(name for _, name in group))
-        for group in groups
-    ]
 
 
 def _name_points(result: GearResult, ax: Axes) -> None:
@@ -402,9 +120,9 @@ def _name_points(result: GearResult, ax: Axes) -> None:
     for place in (path.points[name] for name in "BCD"):
         ax.axhline(1e3 * place, color=ON_MAP, lw=0.8, ls=":", path_effects=outlined(1.6, MAP_EDGE))
     low, high = 1e3 * path.start, 1e3 * path.end
-    for place, name in _named_points(result):
+    for place, name in named_points(result):
         inside = min(max(place, low + 0.035 * (high - low)), high - 0.035 * (high - low))
-        text = f"{name}, {_ENDS[name]}" if name in _ENDS else name
+        text = f"{name}, {ENDS_OF_FLANK[name]}" if name in ENDS_OF_FLANK else name
         ax.text(
             0.012, inside, text, transform=ax.get_yaxis_transform(), va="center", color=ON_MAP, size="small",
             weight="bold", path_effects=outlined(2.0, MAP_EDGE),
@@ -413,114 +131,10 @@ def _name_points(result: GearResult, ax: Axes) -> None:
 
 def _letters_above(result: GearResult, ax: Axes) -> None:
     """Write the names of the points A to E above the axes."""
-    places, names = zip(*_named_points(result), strict=True)
+    places, names = zip(*named_points(result), strict=True)
     top = ax.secondary_xaxis("top")
     top.set_xticks(list(places), labels=list(names))
     top.tick_params(length=0.0, pad=1.0)
-
-
-def path_finding(result: GearResult) -> str:
-    """Sentence: the largest Hertzian pressure and where it is, and the range of the sliding."""
-    films, solution = result.solution.films, result.solution
-    at = np.unravel_index(int(np.nanargmax(films.max_pressure)), films.max_pressure.shape)
-    pressure = prefixed(float(films.max_pressure[at]), "Pa")
-    where = _short(name_of_place(solution, float(films.places[at])))
-    points = {row["point"]: row["slide_to_roll_ratio"] for row in result.points()}
-    ends = [f"{readable(points[name])} at {name}".replace("-", "−") for name in ("A", "E")]
-    return f"Largest Hertzian pressure {pressure} {where}; slide-to-roll ratio {' to '.join(ends)}"
-
-
-def _short(place: str) -> str:
-    """Place of the path of contact in a sentence, from its name."""
-    return place if place.startswith("between") else f"at {place.partition(',')[0]}"
-
-
-def _thinnest(result: GearResult) -> str:
-    """Clause: the minimum film, and where on the path of contact it is."""
-    place = name_of_place(result.solution, weakest(result.solution)[0])
-    return f"Minimum film {prefixed(float(np.nanmin(result.solution.films.minimum)), 'm')} {_short(place)}"
-
-
-def film_finding(result: GearResult) -> str:
-    """Sentence: the minimum film with its place, its lambda, and whether summits touch there."""
-    solution = result.solution
-    thinnest = float(np.nanmin(solution.films.minimum))
-    against = "below" if thinnest <= solution.summits else "above"
-    height = f"{readable(solution.case.gear.summit_height)} Rq"
-    ratio = readable(thinnest / solution.rq)
-    return f"{_thinnest(result)}: λ {ratio}, {against} the highest summits of {height}"
-
-
-def flank_finding(result: GearResult) -> str:
-    """Sentence: the minimum film with its place, and the part of the flank on which summits touch."""
-    _, _, films = flank_map(result)
-    known = films[~np.isnan(films)]
-    share = float(np.mean(known <= result.solution.summits))
-    if share >= 1.0:
-        touching = "the highest summits touch on the whole flank"
-    elif share > 0.0:
-        touching = f"the highest summits touch on {readable(100.0 * share, 2)} % of the flank"
-    else:
-        touching = "no summits touch"
-    place = name_of_place(result.solution, weakest(result.solution)[0]).partition(",")[0]
-    where = f", the {_ENDS[place]}" if place in _ENDS else ""
-    return f"{_thinnest(result)}{where}; {touching}"
-
-
-def mesh_finding(result: GearResult) -> str:
-    """Sentence: breakdown voltage and capacitance over a phase, or why there is no voltage."""
-    phase, state = result.over_phase(), state_of(result.solution)
-    capacitance = f"capacitance {_range(phase['capacitance'], 'F')}"
-    share = f"metallic contact {time_share_text(float(np.mean(phase['contact_time_share'])))}"
-    if state == CONDUCTS:
-        return f"The mesh conducts: {share}; {capacitance}"
-    if result.solution.strength is None:
-        return f"The mesh {state}: {share}; {capacitance}; no dielectric strength is given"
-    voltage, applied = phase["breakdown_voltage"], result.case.gear.contact.voltage
-    lead = f"The mesh {state}"
-    if applied is not None:
-        lead = f"{result.verdict.lead} at {prefixed(applied, 'V')}"
-    touching = float(np.mean(voltage == 0.0))
-    if touching == 1.0:
-        return f"{lead}: the highest summits touch at all phases, no breakdown voltage; {capacitance}"
-    if touching:
-        at = f"{readable(100.0 * touching, 2)} % of the phases"
-        most = prefixed(float(np.max(voltage)), "V")
-        return f"{lead}: the highest summits touch at {at}; breakdown voltage elsewhere up to {most}"
-    breakdown = f"breakdown voltage {_range(voltage, 'V')}"
-    if result.margin is None:
-        return f"{lead}: {breakdown}, {capacitance}"
-    return f"{lead}: margin {ratio_text(result.margin)}; {breakdown}"
-
-
-def _range(values: Array, unit: str) -> str:
-    """Least and greatest value, or the one number that both are in three digits."""
-    factor, shown = unit_for(float(np.max(values)), unit, least=1.0)
-    low, high = (readable(factor * float(end)) for end in (np.min(values), np.max(values)))
-    return f"{high} {shown}" if low == high else f"{low} to {high} {shown}"
-
-
-def case_lines(result: GearResult) -> list[str]:
-    """Lines: title, torque, speed and temperature of the flanks; and how films and loads are computed."""
-    case, solution = result.case, result.solution
-    operation = case.gear.operation
-    speed, temperature = operating_point(operation.pinion_speed, solution.bulk_temperature)
-    parts = [
-        textwrap.shorten(case.title, 60, placeholder=" ..."),
-        f"{amount(operation.pinion_torque, 'N m')} on gear 1".replace("-", "−"),
-        speed,
-        f"flanks at {temperature}",
-    ]
-    films = f"films {HOW[case.contacts]}, load factor {readable(operation.load_factor)}"
-    return [", ".join(filter(None, parts)), f"load sharing by {_SHARING[operation.load_sharing]}; {films}"]
-
-
-_SHARING = {
-    "stiffness": "the stiffness of the teeth",
-    "rigid": "the length of rigid lines",
-    "iso": "ISO/TS 6336-22",
-    "tip-relief": "a relief equal to the deflection",
-}
 
 
 def _stacked(

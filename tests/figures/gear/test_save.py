@@ -8,7 +8,8 @@ import pytest
 
 from ehlectric import GearResult, InputError, figure, figure_names, save_figures, solve_gear
 from ehlectric.figures.figure_names import FORMATS, GEAR_FIGURE_FILES, STYLES, in_formats
-from ehlectric.figures.gear_figures import FIGURES, flank_map
+from ehlectric.figures.gear_figures import FIGURES
+from ehlectric.figures.gear_panels import flank_map
 from ehlectric.figures.result_figures import default_figure
 from ehlectric.runtime.display import ResultKind
 from tests.helpers.each import each
