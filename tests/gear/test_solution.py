@@ -7,6 +7,7 @@ import pytest
 
 import ehlectric
 from ehlectric.cases.gear_case import GearCase
+from ehlectric.cases.gear_inputs import both
 from ehlectric.errors import InputError
 from ehlectric.gear.contact_path import contact_path
 from ehlectric.gear.geometry import gear_pair
@@ -84,7 +85,7 @@ def swapped(case):
             "gear.operation.pinion_torque": -ratio * gear.operation.pinion_torque,
             "gear.operation.pinion_speed": gear.operation.pinion_speed / ratio,
         }
-        | ({"gear.tip_relief": list(gear.tip_relief[::-1])} if gear.tip_relief else {})
+        | ({"gear.tip_relief": list(both(gear.tip_relief)[::-1])} if gear.tip_relief else {})
     )
 
 

@@ -64,15 +64,17 @@ class Columns:
         columns = list(self.codes.items())
         return [tuple(code for code, mask in columns if mask[k]) for k in range(self.size)]
 
-    def add(self, part: SolvedPart) -> None:
-        """Take the numbers and codes of solved points."""
-        for key, value in flattened(tables_of(part.solution)).items():
+    def add(
+        self, points: IntArray, tables: Mapping[str, Any], codes: Iterable[tuple[str, Mask | bool]]
+    ) -> None:
+        """Take the numbers and codes of solved points, shape (m,) or the same at all points."""
+        for key, value in flattened(tables).items():
             array = isinstance(value, np.ndarray) and value.dtype.kind in "fiub"
             if key in TEXTS_OF_POINTS or is_number(value) or array:
-                self._column(key)[part.points] = value
-        for code, where in codes_of(part.solution):
+                self._column(key)[points] = value
+        for code, where in codes:
             if np.any(where):
-                self._mask(code)[part.points] |= where
+                self._mask(code)[points] |= where
 
     def take(self, points: IntArray, columns: Columns) -> None:
         """Take the columns of some of the points."""
@@ -95,7 +97,7 @@ def columns_of(case: BearingCase, *, positions: int = POSITIONS) -> Columns:
     """Numbers, texts and warning codes of all points of a case with arrays; see ``solved_parts``."""
     columns = Columns(case.shape[0])
     for part in solved_parts(case, positions=positions, reasons=columns.reasons):
-        columns.add(part)
+        columns.add(part.points, tables_of(part.solution), codes_of(part.solution))
     return columns
 
 

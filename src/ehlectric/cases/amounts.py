@@ -200,6 +200,7 @@ class Amounts:
 
     each: Amount
     least: int = 1
+    single: bool = False  # whether a number that is in no list is allowed, too, and holds for all
 
     def __get_pydantic_core_schema__(self, _: Any, __: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.with_info_plain_validator_function(_with_context(self.parse))
@@ -213,7 +214,7 @@ class Amounts:
         """Description of the values that are allowed, for messages."""
         return f"a list of {self.least} or more, each {self.each.takes}"
 
-    def parse(self, entry: object, *, written: bool = False) -> tuple[float, ...]:
+    def parse(self, entry: object, *, written: bool = False) -> float | tuple[float, ...]:
         """Convert an entry of a case to values in SI units. Raises InputError if the entry is not a list, is
         too short, or a value is not valid.
         """
@@ -221,6 +222,32 @@ class Amounts:
         if not (row or isinstance(entry, list | tuple)) or len(entry) < self.least:  # type: ignore[arg-type]
             raise InputError(got=shown(entry), takes=self.takes)
         return tuple(self.each.parse(item, written=written) for item in entry)  # type: ignore[attr-defined]
+
+
+@dataclass(frozen=True)
+class AmountOrWord:
+    """Pydantic annotation of a physical quantity that a word may replace."""
+
+    each: Amount
+    word: str
+
+    def __get_pydantic_core_schema__(self, _: Any, __: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.with_info_plain_validator_function(_with_context(self.parse))
+
+    def __get_pydantic_json_schema__(self, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        each = self.each.__get_pydantic_json_schema__(core, handler)
+        return {"anyOf": [each, {"const": self.word}]}
+
+    @property
+    def takes(self) -> str:
+        """Description of the values that are allowed, for messages."""
+        return f"{self.word!r}, or {self.each.takes}"
+
+    def parse(self, entry: object, *, written: bool = False) -> float | str:
+        """Convert an entry of a case to a value in SI units, or to the word. Raises InputError if the entry
+        is neither.
+        """
+        return self.word if entry == self.word else self.each.parse(entry, written=written)
 
 
 @dataclass(frozen=True)

@@ -171,7 +171,7 @@ def _array_of(key: str, values: Any, model: type[Table]) -> Array:
             return array
     numbers = np.empty(len(given))
     for index, value in enumerate(given):
-        with _at_index(key, index):
+        with at_index(key, index):
             numbers[index] = quantity.parse(value)
     numbers.flags.writeable = False
     return numbers
@@ -186,7 +186,7 @@ def _parsed(quantity: Amount, value: object) -> float | None:
 
 
 @contextmanager
-def _at_index(key: str, index: int) -> Iterator[None]:
+def at_index(key: str, index: int) -> Iterator[None]:
     """Context in which an error names the place of its value in the arrays of many points."""
     try:
         yield
@@ -428,11 +428,11 @@ class BearingCase(CaseFile, book="bearing_file"):
                 raise InputError(key, got=f"{array.size} values", takes=takes)
         if not arrays:
             raise InputError(got="no arrays", takes="at least one key with an array")
-        with _at_index("", 0):
+        with at_index("", 0):
             case = self.replace({key: float(array[0]) for key, array in arrays.items()})
         _check_together(case, arrays)
         for index in _far_points(arrays):
-            with _at_index("", index):
+            with at_index("", index):
                 self.replace({key: float(array[index]) for key, array in arrays.items()})
         return case.with_values(arrays)
 
@@ -554,7 +554,7 @@ def _check_together(case: BearingCase, arrays: Mapping[str, Array]) -> None:
     loads = [arrays.get(key, getattr(case.bearing, key.partition(".")[2])) for key in keys]
     idle = np.broadcast_to((loads[0] == 0.0) & (loads[1] == 0.0), next(iter(arrays.values())).shape)
     if np.any(idle):
-        with _at_index(keys[0], int(np.argmax(idle))):
+        with at_index(keys[0], int(np.argmax(idle))):
             raise InputError.missing(keys[0], "a load, radial or axial")
 
 

@@ -16,7 +16,7 @@ from ehlectric.cases.duty_inputs import Duty
 from ehlectric.cases.key_names import refuse_deep
 from ehlectric.cases.keywords import with_keys
 from ehlectric.cases.roughness_inputs import find_files
-from ehlectric.cases.table import CaseFile, Table, Title, read_toml
+from ehlectric.cases.table import CaseFile, Table, Title
 from ehlectric.cases.table_edits import displace, flattened, set_keys
 from ehlectric.errors import InputError, shown, within
 from ehlectric.quantities.alternatives import ALTERNATIVES
@@ -258,25 +258,6 @@ def case_of_dict(table: Mapping[str, Any], *, written: bool = False) -> AnyCase:
     """
     model = BearingCase if "bearing" in table or bearing_key(table) is not None else Case
     return model.from_written(table) if written else model.from_dict(table)
-
-
-SweptCase = AnyCase | DriveCase
-
-
-def swept_case_of_dict(table: Mapping[str, Any], *, written: bool = False) -> SweptCase:
-    """Make a drive case from tables with the key of one of its bearings, else a case of a bearing or contact.
-    Raises InputError if the tables are not valid; the message names the key, its value, and what is allowed.
-    """
-    if not any(end in table for end in ENDS):
-        return case_of_dict(table, written=written)
-    return DriveCase.from_written(table) if written else DriveCase.from_dict(table)
-
-
-def swept_case_of_file(path: str | Path) -> SweptCase:
-    """Read a case of a contact, of a bearing or of a drive from a TOML file. Raises InputError if the file
-    cannot be read, is not TOML, or is not a valid case.
-    """
-    return swept_case_of_dict(with_absolute_files(read_toml(path), Path(path).parent), written=True)
 
 
 def with_absolute_files(table: dict[str, Any], folder: Path) -> dict[str, Any]:

@@ -11,7 +11,6 @@ from pydantic import model_validator
 from ehlectric.cases.case_oil import Lubricant
 from ehlectric.cases.defaults import Contacts
 from ehlectric.cases.discharge_inputs import Discharge
-from ehlectric.cases.drive_case import SweptCase
 from ehlectric.cases.gear_inputs import Gear
 from ehlectric.cases.key_names import refuse_deep
 from ehlectric.cases.oil_inputs import displace_oil
@@ -121,7 +120,3 @@ class GearCase(CaseFile, book="gear_file"):
         displace(table, changes, {name: ALTERNATIVES[name] for name in ("gear", "lubricant", "discharge")})
         set_keys(table, changes)
         return self.from_dict(table)
-
-
-# Case of anything that is solved.
-SolvedCase = SweptCase | GearCase

@@ -10,7 +10,7 @@ from pydantic import BeforeValidator, GetJsonSchemaHandler, model_validator
 from pydantic_core import CoreSchema
 
 from ehlectric.cases import library
-from ehlectric.cases.amounts import Amount, Amounts, Count, with_bounds
+from ehlectric.cases.amounts import Amount, AmountOrWord, Amounts, Count, amount_at, with_bounds
 from ehlectric.cases.mean_heights import rq_of
 from ehlectric.cases.oil_inputs import library_choice
 from ehlectric.cases.table import Table
@@ -26,9 +26,9 @@ _LEAST_TEETH, _MOST_TEETH = 4, 2000
 
 @dataclass(frozen=True)
 class OfBothGears(Amounts):
-    """Pydantic annotation for numbers of gear 1 and of gear 2, parsed to a tuple of one or two floats."""
-
-    single: bool = False  # whether one number, which is in no list, holds for both gears
+    """Pydantic annotation for numbers of gear 1 and of gear 2, parsed to a tuple of one or two floats, or to
+    a float that holds for both.
+    """
 
     def __get_pydantic_json_schema__(self, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         both = {**super().__get_pydantic_json_schema__(core, handler), "maxItems": 2}
@@ -47,13 +47,13 @@ class OfBothGears(Amounts):
         """Description of the values that are allowed, for messages."""
         return f"{self.several}, each {self.each.takes}"
 
-    def parse(self, entry: object, *, written: bool = False) -> tuple[float, ...]:
+    def parse(self, entry: object, *, written: bool = False) -> float | tuple[float, ...]:
         """Convert an entry of a case to values in SI units. Raises InputError for another number of values,
         and for a value that is not valid.
         """
         several = isinstance(entry, list | tuple) or getattr(entry, "ndim", 0) == 1
         if self.single and not several:
-            return (self.each.parse(entry, written=written),)
+            return self.each.parse(entry, written=written)
         if several and len(entry) > 2:  # type: ignore[arg-type]
             raise InputError(got=shown(entry), takes=self.takes)
         return super().parse(entry, written=written)
@@ -75,16 +75,12 @@ def _teeth(entry: object) -> tuple[int, int]:
     return first, -second if ring else second
 
 
-def _bulk(entry: object) -> float | str:
-    """Temperature of the flanks [K], or the word for the estimate of the standard."""
-    if entry == "iso":
-        return "iso"
-    return with_bounds(Amount, inputs()["gear.operation"]["bulk_temperature"]).parse(entry)
-
-
 def conducting_solids() -> list[str]:
     """Names of the solids of the library that conduct: the film is the only insulation of a mesh."""
     return [name for name in library.solid_names() if library.solid(name)["conducting"]]
+
+
+_BULK = amount_at("gear.operation.bulk_temperature")
 
 
 class GearOperation(Table, book="gear.operation"):
@@ -93,7 +89,7 @@ class GearOperation(Table, book="gear.operation"):
     pinion_torque: float
     pinion_speed: float
     oil_temperature: float
-    bulk_temperature: Annotated[float | str, BeforeValidator(_bulk)] = "iso"
+    bulk_temperature: Annotated[float | str, AmountOrWord(_BULK, "iso")] = "iso"
     friction_coefficient: float | None = None
     load_sharing: Sharing = "stiffness"
     application_factor: float = 1.0
@@ -146,12 +142,12 @@ class Gear(Table, book="gear"):
     face_width: float
     tip_diameter: Annotated[tuple[float, ...], _both("tip_diameter", 2)] | None = None
     normal_backlash: float | None = None
-    flank_ra: Annotated[tuple[float, ...], _both("flank_ra", single=True)] | None = None
+    flank_ra: Annotated[float | tuple[float, ...], _both("flank_ra", single=True)] | None = None
     composite_rq: float | None = None
     rq_over_ra: float | None = None
     summit_height: float = 2.0
     material: Annotated[str, library_choice(conducting_solids)]
-    tip_relief: Annotated[tuple[float, ...], _both("tip_relief", single=True)] | None = None
+    tip_relief: Annotated[float | tuple[float, ...], _both("tip_relief", single=True)] | None = None
     tip_relief_length: float | None = None
     lead_crowning: float = 0.0
     operation: GearOperation
@@ -188,6 +184,6 @@ class Gear(Table, book="gear"):
         return self
 
 
-def both(values: tuple[float, ...]) -> tuple[float, float]:
+def both(values: float | tuple[float, ...]) -> tuple[float, float]:
     """Values of both gears; a single one holds for both."""
-    return values[0], values[-1]
+    return (values[0], values[-1]) if isinstance(values, tuple) else (values, values)

@@ -9,7 +9,7 @@ from typing import Any
 
 from pydantic.fields import FieldInfo
 
-from ehlectric.cases.amounts import Amount, Amounts, Count
+from ehlectric.cases.amounts import Amount, AmountOrWord, Amounts, Count
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.drive_case import DriveCase
@@ -259,7 +259,7 @@ def unit_of(key: str) -> str:
         annotation = annotation_of(input_field(name))
     except InputError:
         return ""
-    each = annotation.each if isinstance(annotation, Amounts) else annotation
+    each = annotation.each if isinstance(annotation, Amounts | AmountOrWord) else annotation
     return each.unit if isinstance(each, Amount) else ""
 
 

@@ -26,7 +26,7 @@ from pydantic import (
 from pydantic.fields import FieldInfo
 from pydantic_core import CoreSchema, ErrorDetails, InitErrorDetails
 
-from ehlectric.cases.amounts import WRITTEN, Amount, Amounts, Count, with_bounds
+from ehlectric.cases.amounts import WRITTEN, Amount, AmountOrWord, Amounts, Count, with_bounds
 from ehlectric.cases.key_names import ADVICE, refuse_deep, refuse_long_keys
 from ehlectric.errors import InputError, printable, short, shown, unseen
 from ehlectric.quantities.inputs import aliases, inputs
@@ -699,7 +699,7 @@ def table_of(annotation: Any) -> type[Table] | None:
 
 
 def number_of(field: FieldInfo) -> Amount | Count | None:
-    """Quantity or count of a field that is a number; None for a text, a list or a choice.
+    """Quantity or count of a field that is, or may be, one number; None for a text, a list or a choice.
 
     Examples
     --------
@@ -708,15 +708,17 @@ def number_of(field: FieldInfo) -> Amount | Count | None:
     'm/s'
     """
     annotation = None if get_origin(field.annotation) is tuple else annotation_of(field)
-    return None if isinstance(annotation, Amounts) else annotation
+    if isinstance(annotation, Amounts):
+        return annotation.each if annotation.single else None
+    return annotation.each if isinstance(annotation, AmountOrWord) else annotation
 
 
-def annotation_of(field: FieldInfo) -> Amount | Amounts | Count | None:
-    """Annotation of a field that is a number or a list of numbers; None for other fields."""
+def annotation_of(field: FieldInfo) -> Amount | Amounts | AmountOrWord | Count | None:
+    """Annotation of a field that is or may be a number or a list of numbers; None for other fields."""
     parts = [field, *(part for part in get_args(field.annotation) if hasattr(part, "__metadata__"))]
     for part in parts:
         for item in getattr(part, "__metadata__", ()) or getattr(part, "metadata", ()):
-            if isinstance(item, Amount | Amounts | Count):
+            if isinstance(item, Amount | Amounts | AmountOrWord | Count):
                 return item
     return None
 

@@ -2,6 +2,7 @@
 
 from .gear_verdict import CONDUCTS as CONDUCTS
 from .gear_verdict import state_of as state_of
+from .gear_warnings import gear_warnings as gear_warnings
 from .points import name_of_place as name_of_place
 from .points import weakest as weakest
 from .result import GearResult as GearResult
@@ -9,4 +10,6 @@ from .result import solve_gear as solve_gear
 from .run import result_of as result_of
 from .run import save as save
 from .run import solve_to_folder as solve_to_folder
+from .solution import solve_gear_pair as solve_gear_pair
 from .stored import SCHEMA as SCHEMA
+from .summary import gear_summary as gear_summary

@@ -18,6 +18,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.cases import library
+from ehlectric.cases.gear_inputs import both
 from ehlectric.gear.flank_films import FlankFilms
 from ehlectric.gear.solution import GearSolution
 from ehlectric.quantities.units import to_si
@@ -78,5 +79,5 @@ def lambda_gf(solution: GearSolution) -> float | None:
     thickness = iso_thickness(
         solution.films, float(oil.viscosity), float(oil.alpha_star), solution.flanks.modulus, local
     )
-    mean_ra = 0.5 * (gear.flank_ra[0] + gear.flank_ra[-1])
+    mean_ra = 0.5 * sum(both(gear.flank_ra))
     return float(np.nanmin(thickness)) / mean_ra

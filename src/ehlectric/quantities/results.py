@@ -23,13 +23,15 @@ NAMES_OF_ENDS: Mapping[str, str] = MappingProxyType(
     dict(zip(ENDS, ("drive end", "non-drive end"), strict=True))
 )
 
-# Results of bearings that are texts and may differ between the points of a sweep.
+# Results of bearings and gears that are texts and may differ between the points of a sweep.
 TEXTS_OF_POINTS = (
     "bearing.lubrication_state",
     "bearing.lubrication",
     "bearing.electrical_behaviour",
     "bearing.regime",
     "bearing.first_break_at",
+    "mesh.state",
+    "mesh.minimum_at",
 )
 
 # Statistics of the discharges of a bearing, by the ends of their keys.

@@ -18,11 +18,12 @@ from ehlectric.cases.amounts import INFINITE, Amount
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.drive_case import DriveCase
-from ehlectric.cases.gear_case import GearCase, SolvedCase
+from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.input_keys import describe, input_field, input_of, kind_of, of_both_ends
 from ehlectric.cases.library.estimated_bearings import estimated_file, is_estimated
 from ehlectric.cases.library.library_oils import KINDS, Source, sources_of
 from ehlectric.cases.oil_inputs import Properties
+from ehlectric.cases.solved_case import SolvedCase
 from ehlectric.cases.table_edits import flattened
 from ehlectric.errors import InputError, printable, shown
 from ehlectric.figures.figure_names import with_units_kept

@@ -13,8 +13,9 @@ from typing import TypeVar
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.drive_case import DriveCase
-from ehlectric.cases.gear_case import GearCase, SolvedCase
+from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.library.estimated_bearings import is_estimated
+from ehlectric.cases.solved_case import SolvedCase
 from ehlectric.quantities.quantity import data_file
 
 TEXTS = data_file("ehlectric.report", "report_texts.toml")

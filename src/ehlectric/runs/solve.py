@@ -16,7 +16,8 @@ from ehlectric.bearing import BearingResult, solve_bearing
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case, LineCase, PointCase
 from ehlectric.cases.drive_case import DriveCase, case_of_dict
-from ehlectric.cases.gear_case import GearCase, SolvedCase
+from ehlectric.cases.gear_case import GearCase
+from ehlectric.cases.solved_case import SolvedCase
 from ehlectric.contact import (
     DEFAULT_SOLVERS,
     FilmProgress,

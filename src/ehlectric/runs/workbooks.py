@@ -12,6 +12,7 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.bearing import ON_SHAFT, BearingResult, scaled_curves
 from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.solved_case import SolvedCase
 from ehlectric.contact import Setup
 from ehlectric.drive import DriveResult
 from ehlectric.errors import InputError, printable
@@ -28,7 +29,6 @@ from ehlectric.sweep import SweepResults, flat, flat_summary, label_of, result_k
 if TYPE_CHECKING:
     import pandas as pd
 
-    from ehlectric.cases.gear_case import SolvedCase
 
 # Rows and columns of a sheet, and characters of a cell, at most.
 _ROWS, _COLUMNS, _TEXT = 1_048_576, 16_384, 32_767

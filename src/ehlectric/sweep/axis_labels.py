@@ -9,8 +9,9 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.drive_case import DriveCase
-from ehlectric.cases.gear_case import GearCase, SolvedCase
+from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.input_keys import input_of, kind_of, unit_of
+from ehlectric.cases.solved_case import SolvedCase
 from ehlectric.quantities.formats import CELSIUS, Scale, scale_for
 from ehlectric.quantities.former_keys import successors
 from ehlectric.quantities.inputs import end_and_key

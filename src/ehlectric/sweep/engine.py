@@ -33,7 +33,8 @@ from ehlectric.bearing import (
 )
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
-from ehlectric.cases.drive_case import DriveCase, SweptCase, swept_case_of_dict
+from ehlectric.cases.drive_case import DriveCase
+from ehlectric.cases.solved_case import SolvedCase, solved_case_of_dict
 from ehlectric.contact import portable, solve
 from ehlectric.drive import quick_drive
 from ehlectric.errors import ConvergenceError, InputError, LostError, MemoryLimitError, shown
@@ -58,7 +59,7 @@ _TABLES_KEPT = 2000
 PointCase: TypeAlias = Mapping[str, Any] | Case
 
 
-def task_of(case: SweptCase) -> PointCase:
+def task_of(case: SolvedCase) -> PointCase:
     """Case of a point as data for any process."""
     if isinstance(case, Case) and case.user_laws is not None:
         return portable(case)
@@ -90,7 +91,7 @@ class Outcome:
     date: str = ""
 
 
-def case_key(case: SweptCase, uncertainty_samples: int | None = None) -> str:
+def case_key(case: SolvedCase, uncertainty_samples: int | None = None) -> str:
     """Hash of everything that the result of a case depends on.
 
     The hash covers all inputs, with their defaults, and the contents of files, but not the title and the
@@ -236,7 +237,7 @@ def _attempt(table: PointCase, samples: int | None) -> tuple[Status, str, bool, 
 
 def _solved(table: PointCase, samples: int | None) -> tuple[bool, dict[str, Any], str]:
     """Whether a case converged, its summary, and the reason if it did not."""
-    case = table if isinstance(table, Case) else swept_case_of_dict(table)
+    case = table if isinstance(table, Case) else solved_case_of_dict(table)
     kind = Case if isinstance(case, Case) else type(case)
     return _SOLVERS[kind](case, samples)
 

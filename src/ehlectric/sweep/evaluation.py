@@ -1,4 +1,4 @@
-"""Numbers of bearings at many points of operation, computed together."""
+"""Numbers of bearings and gear pairs at many points of operation, computed together."""
 
 from __future__ import annotations
 
@@ -11,30 +11,35 @@ from ehlectric.arrays import IntArray
 from ehlectric.bearing import Columns, columns_of, many_of, required_quick_case
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.drive_case import DriveCase
+from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.input_keys import is_quantity, key_of_names
 from ehlectric.contact import case_with_laws
 from ehlectric.errors import InputError, shown
 from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED, end_and_replaced
 from ehlectric.quantities.results import TEXTS_OF_POINTS
 from ehlectric.sweep.axis_labels import label_of
+from ehlectric.sweep.gear_points import gear_columns
 from ehlectric.version import __version__
 
 if TYPE_CHECKING:
     import xarray as xr
 
 
-def evaluate(case: BearingCase | DriveCase, inputs: Mapping[str, Any], *, laws: object = None) -> xr.Dataset:
-    """Evaluate a bearing, or both of a drive, at many points of operation: a thousand a second on one core.
+def evaluate(
+    case: BearingCase | DriveCase | GearCase, inputs: Mapping[str, Any], *, laws: object = None
+) -> xr.Dataset:
+    """Evaluate a bearing, both bearings of a drive, or a gear pair at many points of operation: a thousand
+    bearings a second on one core.
 
     Contacts are from the atlas of films, or from formulas if the case requests them; contacts of a case with
-    solved contacts are from the atlas here. Every point has the numbers that ``solve_bearing`` gives for it
-    when called by itself, to 1e-8.
+    solved contacts are from the atlas here. Every point has the numbers that ``solve_bearing`` or
+    ``solve_gear`` gives for it when called by itself, to 1e-8.
 
     Parameters
     ----------
-    case : BearingCase or DriveCase
-        Bearing file, or drive file, of which both bearings are evaluated; its inputs hold at every point
-        unless they are given anew.
+    case : BearingCase, DriveCase or GearCase
+        Bearing file, drive file, of which both bearings are evaluated, or gear file; its inputs hold at every
+        point unless they are given anew.
     inputs : mapping
         Arrays or lists of equal length n by dotted key of the case: numbers in SI units, texts with units, or
         names. Points that share their names and whole numbers are computed together. Keys of a drive are
@@ -46,8 +51,9 @@ def evaluate(case: BearingCase | DriveCase, inputs: Mapping[str, Any], *, laws: 
     -------
     xarray.Dataset
         Dataset over ``point`` in SI units. Its coordinates are the inputs; its variables are the numbers of
-        the tables ``bearing``, ``lubricant``, ``mechanics`` and ``life`` of summary.json by dotted key, NaN
-        where a point has none, but not results with the key of an input. ``converged`` is whether a point
+        the tables ``bearing``, ``lubricant``, ``mechanics`` and ``life``, or ``gear``, ``mesh`` and
+        ``points``, of summary.json by dotted key, NaN where a point has none, but not results with the key of
+        an input. ``converged`` is whether a point
         has a result, ``reason`` why it has none, and ``warning_codes`` has the codes of its warnings, joined
         by "; ". Variables of a drive begin with the end of their bearing, as in
         ``drive_end.bearing.capacitance``.
@@ -90,6 +96,8 @@ def evaluate(case: BearingCase | DriveCase, inputs: Mapping[str, Any], *, laws: 
             raise InputError(key, got=f"{length} values", takes=f"{number}, as many as {first}")
     if isinstance(case, DriveCase):
         return _of_drive(case, given, number)
+    if isinstance(case, GearCase):
+        return _dataset(case, *gear_columns(case, given, number))
     columns, inputs_of_points = _columns(_quick(case), given, number)
     return _dataset(case, columns, inputs_of_points)
 
@@ -132,7 +140,7 @@ def _values(key: str, values: Any) -> Any:
 def _quick(case: BearingCase) -> BearingCase:
     """Case whose contacts are not solved; an InputError where the bearing needs solved ones."""
     if not isinstance(case, BearingCase):
-        raise InputError("case", got=type(case).__name__, takes="a BearingCase or a DriveCase")
+        raise InputError("case", got=type(case).__name__, takes="a BearingCase, a DriveCase or a GearCase")
     quick, refused = required_quick_case(case)
     if refused is not None:
         raise refused
@@ -168,7 +176,11 @@ def _groups(given: Mapping[str, Any], number: int) -> Iterator[tuple[IntArray, d
         yield np.array(points), dict(zip(shared, names, strict=True))
 
 
-def _dataset(case: BearingCase, columns: Columns, inputs: Mapping[str, Any]) -> xr.Dataset:
+# Names of cases without a title.
+_NAMES = {BearingCase: "Bearing", GearCase: "Gear pair"}
+
+
+def _dataset(case: BearingCase | GearCase, columns: Columns, inputs: Mapping[str, Any]) -> xr.Dataset:
     """Dataset of results over the points, with the inputs as coordinates."""
     import xarray as xr
 
@@ -190,7 +202,7 @@ def _dataset(case: BearingCase, columns: Columns, inputs: Mapping[str, Any]) -> 
         coords={key: entry(key, values) for key, values in inputs.items()},
         attrs={
             "Conventions": "CF-1.11",
-            "title": case.title or "Bearing at many points of operation",
+            "title": case.title or f"{_NAMES[type(case)]} at many points of operation",
             "source": f"ehlectric {__version__}",
             "comment": "SI units; NaN where a point has no result; see warning_codes before a value is used",
             "case": case.to_toml(),

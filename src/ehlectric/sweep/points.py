@@ -11,7 +11,7 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 
 from ehlectric.arrays import Mask
-from ehlectric.cases.drive_case import SweptCase
+from ehlectric.cases.solved_case import SolvedCase
 from ehlectric.quantities.result_warnings import CODES, CODES_OF_TEXTS, ResultWarning, warnings_of
 from ehlectric.runtime.display import Values, is_number, read_only_property
 
@@ -110,7 +110,7 @@ class SweepPoints(Values):
 
     NO_ARRAYS: ClassVar[frozenset[str]] = frozenset({"axes", "ranges", "points", "columns", "numbers"})
 
-    case: SweptCase
+    case: SolvedCase
     design: str
     axes: Mapping[str, tuple[Any, ...]]
     ranges: Mapping[str, Range]

@@ -63,7 +63,7 @@ def columns_of(results: SweepPoints) -> dict[str, list[Any]]:
 
 
 def texts_of(results: SweepPoints) -> dict[str, list[str | None]]:
-    """Texts of the summaries by dotted key, each a list over the points; only bearings have such texts."""
+    """Texts of the summaries of bearings and gears by dotted key, each a list over the points."""
     return {key: results.columns[key] for key in TEXTS_OF_POINTS if key in results.columns}
 
 
@@ -97,7 +97,7 @@ def dataset_of(results: SweepPoints) -> xr.Dataset:
     shape = tuple(len(axis) for axis in results.axes.values()) if gridded else (len(results.points),)
 
     def laid_out(values: list[Any]) -> tuple[tuple[str, ...], Any]:
-        return dimensions, _array(values).reshape(shape)
+        return dimensions, array_of(values).reshape(shape)
 
     columns = columns_of(results)
     about = {name: (*laid_out(columns.pop(name)), attributes) for name, attributes in SWEEP_COLUMNS.items()}
@@ -105,7 +105,7 @@ def dataset_of(results: SweepPoints) -> xr.Dataset:
     coordinates = {
         key: (
             key if gridded else "point",
-            _array(list(results.axes[key] if gridded else values)),
+            array_of(list(results.axes[key] if gridded else values)),
             _attributes(key, results),
         )
         for key, values in inputs.items()
@@ -113,7 +113,7 @@ def dataset_of(results: SweepPoints) -> xr.Dataset:
     summaries = {
         key: (
             dimensions,
-            (_array(values) if key in TEXTS_OF_POINTS else np.array(values, dtype=float)).reshape(shape),
+            (array_of(values) if key in TEXTS_OF_POINTS else np.array(values, dtype=float)).reshape(shape),
             _attributes(key, results),
         )
         for key, values in columns.items()
@@ -139,7 +139,7 @@ def dataset_of(results: SweepPoints) -> xr.Dataset:
 _NUMBERS = frozenset({int, float})
 
 
-def _array(values: list[Any]) -> Any:
+def array_of(values: list[Any]) -> Any:
     """Values as an array of numbers, or of texts if some are not numbers; lists become JSON texts."""
     if kinds_of(values) <= _NUMBERS:
         return np.array(values)

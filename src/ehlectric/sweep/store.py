@@ -15,8 +15,8 @@ from typing import Any, get_args
 
 from ehlectric.cases.amounts import INFINITE, Amount, finite_or_text
 from ehlectric.cases.case import Case
-from ehlectric.cases.drive_case import SweptCase, swept_case_of_dict
 from ehlectric.cases.input_keys import input_field, kind_of
+from ehlectric.cases.solved_case import SolvedCase, solved_case_of_dict
 from ehlectric.cases.table import number_of
 from ehlectric.contact import case_with_stored_laws
 from ehlectric.errors import InputError
@@ -110,7 +110,7 @@ def check_results(file: sqlite3.Connection) -> None:
         _check_outcome(name, status, reason, seconds, version, table)
 
 
-def _law_values(case: SweptCase) -> SampledLaws | None:
+def _law_values(case: SolvedCase) -> SampledLaws | None:
     """Values of laws of the user's own; None without any."""
     return case.law_values if isinstance(case, Case) else None
 
@@ -124,8 +124,8 @@ def results_of(file: sqlite3.Connection) -> SweepResults:
         f"SELECT {_COLUMNS_OF_POINTS} FROM points LEFT JOIN results USING (key) ORDER BY number"
     ).fetchall()
     stored = settings[_LAWS]
-    read = swept_case_of_dict if stored is None else partial(case_with_stored_laws, stored=stored)
-    case: SweptCase = case_of(settings, read)
+    read = solved_case_of_dict if stored is None else partial(case_with_stored_laws, stored=stored)
+    case: SolvedCase = case_of(settings, read)
     results = SweepResults(
         case=case,
         design=settings["design"],
@@ -253,7 +253,7 @@ def _check_design(results: SweepResults) -> None:
             raise UnfitError(f"inputs of point {point.number} are not as they were written")
 
 
-def _points(rows: Sequence[tuple[Any, ...]], case: SweptCase) -> Iterator[Point]:
+def _points(rows: Sequence[tuple[Any, ...]], case: SolvedCase) -> Iterator[Point]:
     """Points from rows of the joined tables, checked."""
     for (number, _, refused, status, reason, seconds, version, _), (inputs, summary) in zip(
         rows, _parsed(rows), strict=True

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from pathlib import Path
@@ -20,14 +20,10 @@ from ehlectric.bearing import LEAST_SAMPLES, MOST_SAMPLES
 from ehlectric.cases.amounts import INFINITE, WRITTEN, Amount, Count
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case, check_changes
-from ehlectric.cases.drive_case import (
-    DriveCase,
-    SweptCase,
-    swept_case_of_dict,
-    swept_case_of_file,
-    with_absolute_files,
-)
+from ehlectric.cases.drive_case import DriveCase, with_absolute_files
+from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.input_keys import input_field, is_of_drive, key_of_names, kind_of
+from ehlectric.cases.solved_case import SolvedCase, solved_case_of_dict, solved_case_of_file
 from ehlectric.cases.table import (
     Table,
     Title,
@@ -52,14 +48,14 @@ from ehlectric.sweep.result import SweepResults
 _NOT_VARIED = ("title", "ranges")
 
 
-def check_varied(key: str, case: SweptCase, varied: Collection[str] = ()) -> None:
+def check_varied(key: str, case: SolvedCase, varied: Collection[str] = ()) -> None:
     """Check that a key is one of a case, and that varying it changes the case. Raises InputError if the case
     has no such key; the message names the nearest one.
     """
     if isinstance(case, DriveCase):
         _check_drive(key, case, varied)
         return
-    model: type[Table] = BearingCase if isinstance(case, BearingCase) else Case
+    model: type[Table] = type(case)
     if is_of_drive(key):
         raise InputError.unknown(key, nearest_key(key, model, case.__dict__))
     try:
@@ -70,6 +66,8 @@ def check_varied(key: str, case: SweptCase, varied: Collection[str] = ()) -> Non
         if "unknown key" in error.text and not key.startswith("roughness.") and not advised:
             raise InputError.unknown(key, nearest_key(key, model, case.__dict__)) from None
         raise
+    if key.partition(".")[0] not in model.known_keys():
+        raise InputError.unknown(key, nearest_key(key, model, case.__dict__))
 
 
 def _check_drive(key: str, case: DriveCase, varied: Collection[str]) -> None:
@@ -133,7 +131,9 @@ class Breakdown:
         return np.where(np.isfinite(margin), margin, ratio)
 
 
-CONTACT, FIRST_BREAK, THROUGH = (Breakdown(**BREAKDOWNS[name]) for name in ("contact", "first", "through"))
+CONTACT, FIRST_BREAK, THROUGH, MESH = (
+    Breakdown(**BREAKDOWNS[name]) for name in ("contact", "first", "through", "mesh")
+)
 
 # With a coating on a ring, the breakdown voltages next to the shaft voltage are voltages of the shaft.
 _COATED_FIRST = replace(FIRST_BREAK, value="bearing.shaft_first_break")
@@ -144,14 +144,17 @@ _COATED_THROUGH = replace(THROUGH, value="bearing.shaft_ring_to_ring_breakdown")
 _NONE = Breakdown("", "", "")
 
 
-def main_value(case: SweptCase) -> str:
-    """Key of the summary that figures of a sweep show first. Returns breakdown voltage of a contact, first
-    breakdown of a bearing, or discharges per second of a drive.
+def main_value(case: SolvedCase) -> str:
+    """Key of the summary that figures of a sweep show first. Returns breakdown voltage of a contact or a gear
+    pair, first breakdown of a bearing, discharges per second of a drive, or lambda ratio of a gear pair whose
+    oil has no strength.
     """
+    if isinstance(case, GearCase) and not case.discharge.has_strength:
+        return "mesh.lambda_ratio"
     return breakdown_of(case).value or "drive.events_per_second"
 
 
-def ranked_value(case: SweptCase) -> str:
+def ranked_value(case: SolvedCase) -> str:
     """Key of the summary to whose spread the inputs of a Sobol design are ranked. Returns margin of a bearing
     with a motor, of which the breakdown voltage is only a part; else ``main_value``.
     """
@@ -160,10 +163,12 @@ def ranked_value(case: SweptCase) -> str:
     return main_value(case)
 
 
-def breakdown_of(case: SweptCase, value: str | None = None) -> Breakdown:
+def breakdown_of(case: SolvedCase, value: str | None = None) -> Breakdown:
     """Breakdown voltage that a value of a summary belongs to."""
     if isinstance(case, DriveCase):
         return _NONE
+    if isinstance(case, GearCase):
+        return MESH
     if not isinstance(case, BearingCase):
         return CONTACT
     if case.bearing.coating is not None:
@@ -296,7 +301,7 @@ class Sweep(Tabled, Table):
     """
 
     title: Title = ""
-    case: SweptCase
+    case: SolvedCase
     design: Literal["grid", "paired", "sobol"] = "grid"
     vary: Mapping[str, Any]
     samples: Annotated[int, Count(2, 2**16, "rows of each matrix of a sobol design")] | None = None
@@ -308,7 +313,7 @@ class Sweep(Tabled, Table):
 
     @field_validator("case")
     @classmethod
-    def _alone(cls, case: SweptCase) -> SweptCase:
+    def _alone(cls, case: SolvedCase) -> SolvedCase:
         """Case without remedies and duty cycle, which a sweep does not solve: what they change may vary."""
         if isinstance(case, DriveCase) and (case.remedies or case.duty is not None):
             return case.model_copy(update={"remedies": (), "duty": None})
@@ -496,10 +501,10 @@ def _with_case(table: Mapping[str, Any], *, written: bool) -> Mapping[str, Any]:
     case = table.get("case")
     try:
         if isinstance(case, str | Path):
-            return {**table, "case": swept_case_of_file(case)}
+            return {**table, "case": solved_case_of_file(case)}
         if isinstance(case, Mapping):
-            return {**table, "case": swept_case_of_dict(case, written=written)}
-        if case is not None and not isinstance(case, SweptCase):
+            return {**table, "case": solved_case_of_dict(case, written=written)}
+        if case is not None and not isinstance(case, SolvedCase):
             raise InputError("case", got=shown(case), takes="a table or the name of a file")
     except InputError as error:
         if error.key in ("case", printable(str(case)) if isinstance(case, str | Path) else None):
@@ -582,11 +587,21 @@ def _axis(key: str, value: Any, design: str, *, written: bool) -> tuple[Any, ...
 
 def _values(key: str, field: FieldInfo, values: Sequence[Any], *, written: bool) -> Iterator[Any]:
     """Values of a varied key as a case stores them; numbers are in SI units."""
-    parse, number = parser_of(field, key), number_of(field)
+    parse = stored_value(key, field)
     for each in values:
-        value = each.item() if isinstance(each, np.generic) else each
-        stored = parse(value, written=written).model_dump(mode="json")[key.rpartition(".")[2]]
-        yield math.inf if number is not None and stored == INFINITE else stored
+        yield parse(each, written=written)
+
+
+def stored_value(key: str, field: FieldInfo) -> Callable[..., Any]:
+    """Function that parses a value of a key, as a case stores it; numbers are in SI units."""
+    parse, number = parser_of(field, key), number_of(field)
+
+    def stored(entry: Any, *, written: bool) -> Any:
+        value = entry.item() if isinstance(entry, np.generic) else entry
+        parsed = parse(value, written=written).model_dump(mode="json")[key.rpartition(".")[2]]
+        return math.inf if number is not None and parsed == INFINITE else parsed
+
+    return stored
 
 
 def _range(

@@ -13,7 +13,9 @@ from ehlectric.arrays import Array
 from ehlectric.bearing import equal_bearings, formula_factor
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.defaults import ISOTHERMAL, QUICK
-from ehlectric.cases.drive_case import DriveCase, SweptCase
+from ehlectric.cases.drive_case import DriveCase
+from ehlectric.cases.gear_case import GearCase
+from ehlectric.cases.solved_case import SolvedCase
 from ehlectric.discharge.breakdown_rule import TOUCHING, strength_interval
 from ehlectric.discharge.film_verdict import DOUBTS, strength_clause
 from ehlectric.quantities.formats import Scale
@@ -142,10 +144,12 @@ def _doubts(results: SweepPoints, margins: Array) -> Iterator[Statement]:
         yield Statement.of("points-with-doubts", number=doubtful)
 
 
-def _film_error(point: Point, case: SweptCase) -> float:
-    """Relative error of the films of a bearing that is not solved; 0 of other points."""
+def _film_error(point: Point, case: SolvedCase) -> float:
+    """Relative error of the films of a gear pair, and of a bearing that is not solved; 0 of other points."""
     summary = point.summary or {}
     contacts = value_at(summary, "bearing.contacts")
+    if isinstance(case, GearCase):
+        return float(value_at(summary, "mesh.film_error") or 0.0)
     if contacts not in QUICK or not isinstance(case, BearingCase):
         return 0.0
     if contacts == "formula":
@@ -153,12 +157,18 @@ def _film_error(point: Point, case: SweptCase) -> float:
     return float(value_at(summary, "bearing.film_error") or 0.0)
 
 
-def _over_summits(point: Point, case: SweptCase) -> float:
+def _over_summits(point: Point, case: SolvedCase) -> float:
     """Relative change of a margin divided by a small change of all films: more than 1 under summits."""
-    if not isinstance(case, BearingCase):
-        return 1.0
-    height = point.inputs.get("bearing.summit_height", case.bearing.summit_height)
-    ratio = value_at(point.summary or {}, "bearing.lambda_ratio")
+    match case:
+        case BearingCase():
+            height, key = case.bearing.summit_height, "bearing"
+            ratio = value_at(point.summary or {}, "bearing.lambda_ratio")
+        case GearCase():
+            height, key = case.gear.summit_height, "gear"
+            ratio = value_at(point.summary or {}, "mesh.lambda_ratio")
+        case _:
+            return 1.0
+    height = point.inputs.get(f"{key}.summit_height", height)
     return ratio / (ratio - height) if is_number(ratio) and is_number(height) and ratio > height else 1.0
 
 
@@ -186,6 +196,8 @@ def _assumptions(results: SweepPoints) -> tuple[Bound, tuple[Statement, ...]]:
         ]
         ideal = smooth or any(factor in ISOTHERMAL for factor, _ in taken)
         bound = "upper" if ideal else "best"
+    elif isinstance(case, GearCase):
+        bound, kinds = "best", ["fully flooded", "rough"]
     else:
         supplied = case.inlet is not None or any(key.startswith("inlet.") for key in results.varied)
         heated = case.film is not None and case.film.thermal and "film.thermal" not in results.varied
@@ -200,9 +212,13 @@ def _assumptions(results: SweepPoints) -> tuple[Bound, tuple[Statement, ...]]:
     return bound if kinds else "", (*films, strength, *equal)
 
 
+# Tables of summaries with a margin, for cases that are no contact.
+_TABLES = {BearingCase: "bearing", GearCase: "mesh"}
+
+
 def _margins(results: SweepPoints) -> Array:
     """Margin at every point; NaN where a point has none or its film must not be used."""
-    table = "bearing" if isinstance(results.case, BearingCase) else "discharge"
+    table = _TABLES.get(type(results.case), "discharge")
     values = [value_at(point.usable, f"{table}.margin") for point in results.points]
     return np.array([math.nan if value is None else float(value) for value in values])
 
@@ -268,7 +284,7 @@ def crossing(low: tuple[float, float], high: tuple[float, float]) -> float:
     return math.exp(place) if logarithmic else place
 
 
-def value_text(key: str, value: Any, case: SweptCase) -> str:
+def value_text(key: str, value: Any, case: SolvedCase) -> str:
     """Value of an input in the unit that is printed, with three digits; temperatures in degrees Celsius."""
     label = label_of(key, case)
     scale = Scale(180.0 / math.pi, "deg") if label.unit == "rad" else label.scaled(np.array([value]))

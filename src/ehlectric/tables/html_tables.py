@@ -12,7 +12,8 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.film_factors import FilmFactors
-from ehlectric.cases.gear_case import GearCase, SolvedCase
+from ehlectric.cases.gear_case import GearCase
+from ehlectric.cases.solved_case import SolvedCase
 from ehlectric.cases.table_edits import flattened
 from ehlectric.contact import ContactResult
 from ehlectric.drive import DriveResult

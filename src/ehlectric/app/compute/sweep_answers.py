@@ -38,8 +38,9 @@ from ehlectric.bearing import is_quick, percent
 from ehlectric.cases.amounts import Amount, Count
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.defaults import HOW
-from ehlectric.cases.drive_case import DriveCase, SweptCase, swept_case_of_dict
+from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.input_keys import input_of, kind_of, of_both_ends, unit_of
+from ehlectric.cases.solved_case import SolvedCase, solved_case_of_dict
 from ehlectric.cases.table_edits import flattened, set_keys
 from ehlectric.errors import InputError
 from ehlectric.figures.data import with_unit
@@ -339,13 +340,13 @@ def choices(table: Mapping[str, Any]) -> SweepChoices:
 _PAGES = {"bearing": "/", "drive": "/drive", "contact": "/contact"}
 
 
-def _kind_of_case(case: SweptCase) -> str:
+def _kind_of_case(case: SolvedCase) -> str:
     if isinstance(case, DriveCase):
         return "drive"
     return "bearing" if isinstance(case, BearingCase) else "contact"
 
 
-def _variables(table: Mapping[str, Any], case: SweptCase) -> Iterator[Variable]:
+def _variables(table: Mapping[str, Any], case: SolvedCase) -> Iterator[Variable]:
     if isinstance(case, DriveCase):
         written, resolved = _by_key(table, case), _by_key(case.to_dict(), case)
         fields = _drive_fields()
@@ -367,7 +368,7 @@ def _variables(table: Mapping[str, Any], case: SweptCase) -> Iterator[Variable]:
             yield Variable(key, named(key, case), *ends, log=slider is not None and slider.log)
 
 
-def _may_vary(key: str, case: SweptCase) -> bool:
+def _may_vary(key: str, case: SolvedCase) -> bool:
     """Whether a sweep can vary a number of a case, which is none of how the case is computed."""
     if kind_of(key) is None or key.partition(".")[0] in _OF_SOLUTION:
         return False
@@ -401,7 +402,7 @@ def _in_tables(table: Mapping[str, Any], values: Mapping[str, Any]) -> dict[str,
     return by_key
 
 
-def named(key: str, case: SweptCase) -> str:
+def named(key: str, case: SolvedCase) -> str:
     """Name of an input or a result; one without a name has the last part of its key."""
     name = _NAMES.get(key) or label_of(key, case).name
     if name == key:
@@ -518,7 +519,7 @@ def point(folder: str, table: Mapping[str, Any], number: int) -> SweepPoint:
 
 
 def point_table(
-    case: SweptCase,
+    case: SolvedCase,
     table: Mapping[str, Any],
     inputs: Mapping[str, Any],
     units: Mapping[str, str] | None = None,
@@ -535,7 +536,7 @@ def point_table(
     texts = {key: _text(key, value, (units or {}).get(key, "")) for key, value in inputs.items()}
     set_keys(changed, _in_tables(table, texts) if isinstance(case, DriveCase) else texts)
     try:
-        if case_key(swept_case_of_dict(changed, written=True)) == case_key(point_case):
+        if case_key(solved_case_of_dict(changed, written=True)) == case_key(point_case):
             return changed
     except InputError:
         # As where a load replaces a Hertz pressure: the file must not have both.
