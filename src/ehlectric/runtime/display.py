@@ -13,11 +13,12 @@ import io
 import os
 import sys
 import textwrap
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import fields, is_dataclass
 from functools import cached_property, partial
 from importlib import import_module
+from types import NoneType
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self, TypeGuard, TypeVar, overload
 
 import numpy as np
@@ -92,20 +93,27 @@ def read_only(value: T) -> T:
     seen: set[int] = set()
     while left:
         item = left.pop()
-        if id(item) in seen:
-            continue
-        seen.add(id(item))
         if isinstance(item, np.ndarray):
             item.flags.writeable = False
-        elif hasattr(item, "identical"):
-            left += [variable.values for variable in item.variables.values()]
-        elif isinstance(item, Mapping):
-            left += item.values()
-        elif isinstance(item, list | tuple):
-            left += item
-        elif is_dataclass(item):
-            left += getattr(item, "__dict__", {}).values()
+        elif not isinstance(item, _SCALARS) and id(item) not in seen:
+            seen.add(id(item))
+            left += _parts(item)
     return value
+
+
+# Types of values that contain nothing else.
+_SCALARS = (float, int, str, NoneType, np.generic)
+
+
+def _parts(item: Any) -> Iterable[Any]:
+    """Values in a mapping, list, dataclass or dataset."""
+    if isinstance(item, list | tuple):
+        return item
+    if is_dataclass(item):
+        return getattr(item, "__dict__", {}).values()
+    if hasattr(item, "identical"):
+        return [variable.values for variable in item.variables.values()]
+    return item.values() if isinstance(item, Mapping) else ()
 
 
 class read_only_property(cached_property[R]):  # noqa: N801  # as cached_property
