@@ -6,20 +6,22 @@ import tomllib
 
 import pytest
 
-from ehlectric import BearingCase, Case, DriveCase, solve
+from ehlectric import BearingCase, Case, DriveCase, GearCase, solve, solve_gear
 from ehlectric.app import catalogue
-from ehlectric.app.form_fields import BEARING_GROUPS
+from ehlectric.app.form_fields import BEARING_GROUPS, GEAR_GROUPS
 from ehlectric.app.form_fields.contact_fields import groups_of
 from ehlectric.app.form_fields.drive_fields import DRIVE_GROUPS
 from ehlectric.app.form_fields.field_defaults import end_and_key
+from ehlectric.app.form_fields.gear_fields import with_lists
+from ehlectric.app.page_inputs import Inputs
 from ehlectric.bearing.summary import summary_of
 from ehlectric.quantities.field_help import effect, help_at, help_text
-from ehlectric.quantities.inputs import attributes
+from ehlectric.quantities.inputs import attributes, key_of_list
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.units import in_unit
 from tests.helpers.places import EXAMPLES
 
-GROUPS = (BEARING_GROUPS, DRIVE_GROUPS, groups_of("line"), groups_of("point"))
+GROUPS = (BEARING_GROUPS, DRIVE_GROUPS, groups_of("line"), groups_of("point"), GEAR_GROUPS)
 FIELDS = {
     end_and_key(field.key)[1]: field
     for groups in GROUPS
@@ -100,6 +102,8 @@ MACHINE = {
     "liner_permittivity": 3.5,
 }
 RINGING = {"source.overshoot": "20 %", "source.ringing_frequency": "2 MHz", "source.ringing_time": "1 us"}
+GEAR = example("gear_pair", gear__composite_rq="0.08 um", gear__flank_ra=None)
+RA = example("gear_pair", gear__rq_over_ra=1.25)
 LINE = example("discharge", grid={"nodes": 801})
 HOT = example("hot_contact", grid={"nodes": 401, "inlet": -5.0})
 POINT = example("ball_contact", grid={"nodes": 65}, electric={"potential_1": "0 V", "potential_2": "2 V"})
@@ -210,6 +214,8 @@ INPUTS = {
     "breakdown.extinction_voltage": changed(
         DRIVE, {"breakdown.extinction_current": None, "breakdown.recovery_time": "0 ns"}
     ),
+    "gear": GEAR,
+    **dict.fromkeys(("gear.flank_ra", "gear.rq_over_ra"), RA),
     "contact": LINE,
     "inlet": LINE,
     "grid": LINE,
@@ -279,6 +285,13 @@ VALUES = {
     "contact.temperature_2": (50, 70),
     "contact.load_per_length": (0.8, 1.5),
     "inlet.oil_layer": (0.2, 0.4),
+    **{f"gear.flank_ra.{gear}": (0.04, 0.06) for gear in (1, 2)},
+    "gear.composite_rq": (0.07, 0.09),
+    "gear.rq_over_ra": (1.1, 1.4),
+    "gear.summit_height": (1, 2),
+    "gear.operation.pinion_torque": (20, 40),
+    "gear.operation.pinion_speed": (12000, 16000),
+    "gear.operation.bulk_temperature": (60, 70),
 }
 
 
@@ -297,7 +310,11 @@ def flat(table, before=""):
 def results(key, value):
     """Results of the inputs of a key with a value [unit of the field], by dotted key of the summary."""
     field = NUMBERS[key]
-    table = changed(inputs_of(key), {key: field.from_text(f"{value!r} {field.unit}".strip())})
+    written = field.from_text(f"{value!r} {field.unit}".strip())
+    if "gear" in inputs_of(key):
+        case = with_lists(Inputs(inputs_of(key)), {key: written})
+        return dict(flat(solve_gear(GearCase.from_dict(changed(inputs_of(key), case))).summary()))
+    table = changed(inputs_of(key), {key: written})
     kind = DriveCase if "drive" in table else BearingCase if "bearing" in table else Case
     result = solve(kind.from_dict(table))
     # Without the curves over the speed and the probability of breakdown of a bearing.
@@ -335,7 +352,7 @@ def test_every_field_has_help():
 
 def test_help_is_of_known_inputs_and_effects():
     data = data_file("ehlectric.quantities", "field_help.toml")
-    assert attributes("help").keys() <= FIELDS.keys()
+    assert attributes("help").keys() <= {key_of_list(key) for key in FIELDS}
     used = {name for claims in CLAIMS.values() for name in (*claims.rises, *claims.falls)}
     assert used == set(data["effects"])
     sources = {help_at(key).source for key in FIELDS}

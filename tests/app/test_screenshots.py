@@ -41,6 +41,10 @@ def drive(page):
     simulate(page)
 
 
+def gear(page):
+    page.get_by_test_id("number-mesh.margin").wait_for()
+
+
 def contact(page):
     wait_until_solved(page)
 
@@ -68,6 +72,7 @@ def compared(page):
 PAGES = {
     "bearing": (lambda: "/", bearing),
     "drive": (lambda: address_of("/drive", short("0.05 s")), drive),
+    "gear": (lambda: "/gear", gear),
     "contact": (lambda: "/contact", contact),
     "contact-point": (lambda: "/contact?contact.geometry=point", contact_point),
     "sweep": (lambda: address_of("/sweep", sweep(6)), swept),

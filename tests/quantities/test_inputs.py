@@ -2,7 +2,7 @@
 
 import pytest
 
-from ehlectric.app.form_fields import BEARING_GROUPS
+from ehlectric.app.form_fields import BEARING_GROUPS, GEAR_GROUPS
 from ehlectric.app.form_fields.contact_fields import groups_of
 from ehlectric.app.form_fields.drive_fields import DRIVE_GROUPS
 from ehlectric.cases.amounts import Amount, Count
@@ -10,7 +10,7 @@ from ehlectric.cases.drive_case import case_of_dict
 from ehlectric.cases.input_keys import TABLES, input_field, input_of
 from ehlectric.cases.measurements import CYCLE
 from ehlectric.cases.oil_inputs import law_parameters
-from ehlectric.cases.table import number_of
+from ehlectric.cases.table import annotation_of, number_of
 from ehlectric.quantities.inputs import (
     REPLACED,
     SPEED,
@@ -20,6 +20,7 @@ from ehlectric.quantities.inputs import (
     input_at,
     inputs,
     key_of_drive,
+    key_of_list,
 )
 from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.sweep_inputs import Sweep
@@ -31,6 +32,7 @@ FORMS = {
     "bearing": BEARING_GROUPS,
     "line": groups_of("line"),
     "point": groups_of("point"),
+    "gear": GEAR_GROUPS,
     "drive": [group for group in DRIVE_GROUPS if "end" not in group.title.split(":")[0]],
 }
 FIELDS = {
@@ -87,18 +89,18 @@ def test_fields_are_the_keys_of_the_form_in_their_order(name):
 
 
 def test_an_input_with_a_field_is_in_a_form():
-    # The app has no page for gear pairs.
-    tables = {table: keys for table, keys in inputs().items() if table.split(".")[0] != "gear"}
     sliding = {
-        f"{table}.{key}" for table, keys in tables.items() for key, entry in keys.items() if entry.shown
+        f"{table}.{key}" for table, keys in inputs().items() for key, entry in keys.items() if entry.shown
     }
-    assert sliding <= {key.replace("body_1", "body") for key in KEYS}
+    assert sliding <= {key_of_list(key).replace("body_1", "body") for key in KEYS}
 
 
 @each("name, key", [place for place, field in FIELDS.items() if field.kind in ("number", "count")])
 def test_ends_of_a_slider_are_allowed_and_have_the_unit_of_the_key(name, key):
     field = FIELDS[name, key]
-    kind = number_of(input_field(key))
+    kind = number_of(input_field(key_of_list(key)))
+    if (listed := annotation_of(input_field(key_of_list(key)))) is not None and kind is None:
+        kind = listed.each
     assert field.low < field.high
     # A share of oil may also be a word, and is no quantity for the checks.
     if kind is not None:
@@ -125,4 +127,4 @@ def test_columns_of_a_duty_cycle_replace_the_operating_point():
 
 @each("name", ["default", "field", "help", "lists", "only_given"])
 def test_attributes_of_fields_are_of_inputs_with_a_field(name):
-    assert attributes(name).keys() <= {key for _, key in FIELDS}
+    assert attributes(name).keys() <= {key_of_list(key) for _, key in FIELDS}

@@ -13,6 +13,7 @@ from ehlectric.app.view_models import (
     DriveAnswer,
     DutyAnswer,
     Figure,
+    GearAnswer,
     MotionAnswer,
     RemedyAnswer,
     Side,
@@ -67,6 +68,10 @@ BEARING_DUTY: Call[DutyAnswer] = Call("bearing_answers.duty_answer")
 # A drive.
 DRIVE_QUICK: Call[DriveAnswer] = Call("drive_answers.quick_answer")
 DRIVE_SIMULATED: Call[DriveAnswer] = Call("drive_answers.simulate")
+
+# A gear pair.
+GEAR_QUICK: Call[GearAnswer] = Call("gear_answers.quick_answer")
+GEAR_SOLVED: Call[GearAnswer] = Call("gear_answers.solve_pair")
 
 # A contact.
 CONTACT_QUICK: Call[ContactAnswer] = Call("contact_answers.quick_answer")

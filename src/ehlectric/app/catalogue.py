@@ -94,6 +94,7 @@ def choices() -> dict[str, tuple[Choice, ...]]:
         ("bearing.element_material", "bearing.ring_material"): library.solid_names(rolling=True),
         ("contact.body_1.material", "contact.body_2.material"): library.solid_names(thermal=True),
         ("bearing.fits.shaft_material", "bearing.fits.housing_material"): library.solid_names(),
+        ("gear.material",): library.solid_names(conducting=True),
     }
     return {
         "bearing.base": tuple(map(_bearing, library.bearing_names())),

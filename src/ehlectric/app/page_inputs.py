@@ -249,9 +249,13 @@ def _quoted_parts(key: str) -> list[str]:
 
 
 def _item(table: Any, name: str) -> Any:
-    """Value of a name in a table, or of a number, from 1, in a list; None where there is none."""
+    """Value of a name in a table, or of a number, from 1, in a list; None where there is none. A single value
+    is the first of its list.
+    """
     if isinstance(table, Mapping):
         return table.get(name)
+    if name == "1" and isinstance(table, str | int | float):
+        return table
     if isinstance(table, list) and name.isdecimal() and 1 <= int(name) <= len(table):
         return table[int(name) - 1]
     return None

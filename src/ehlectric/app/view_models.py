@@ -87,7 +87,7 @@ class Uploaded:
     """Uploaded case or sweep."""
 
     name: str
-    kind: str  # "contact", "motion", "bearing" or "sweep"
+    kind: str  # "contact", "motion", "bearing", "drive", "gear" or "sweep"
     table: Mapping[str, Any]  # its tables; names of files are relative to the folder of the session
     # Names of files that the case names and that are still to be uploaded. The tables are checked once none
     # is missing.
@@ -692,3 +692,13 @@ class DriveAnswer(PageAnswer):
     ends: Table  # numbers of both bearings side by side
     # The drive and its remedies side by side; None before a simulation, and without remedies.
     remedies: Table | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class GearAnswer(PageAnswer):
+    """Answer about a gear pair."""
+
+    solved: bool  # whether films are solved at the points of the path of contact
+    geometry: Table  # contact ratios and other numbers that follow from the drawing
+    points: Table  # radii, speeds, loads and films at the points A to E of the path of contact
+    follows: Mapping[str, str]  # values with units that follow from other inputs, by key of the input

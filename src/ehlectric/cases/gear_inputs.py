@@ -77,7 +77,7 @@ def _teeth(entry: object) -> tuple[int, int]:
 
 def conducting_solids() -> list[str]:
     """Names of the solids of the library that conduct: the film is the only insulation of a mesh."""
-    return [name for name in library.solid_names() if library.solid(name)["conducting"]]
+    return library.solid_names(conducting=True)
 
 
 _BULK = amount_at("gear.operation.bulk_temperature")

@@ -10,7 +10,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ehlectric.quantities.inputs import Input, attributes, first_clause, input_at, plain_text
+from ehlectric.quantities.inputs import (
+    Input,
+    attributes,
+    first_clause,
+    input_at,
+    key_of_list,
+    plain_text,
+)
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.units import printed, rounded
 from ehlectric.readable import capital
@@ -49,7 +56,7 @@ def effect(name: str) -> dict[str, Any]:
 
 def help_at(key: str) -> Help:
     """Usual values and effects of the input of a dotted key."""
-    return Help(**attributes("help").get(key, {}))
+    return Help(**attributes("help").get(key_of_list(key), {}))
 
 
 def help_text(key: str) -> str:

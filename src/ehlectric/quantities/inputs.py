@@ -33,7 +33,7 @@ _FILES = ("case_file", "bearing_file", "drive_file", "gear_file")
 
 # Attributes of an entry that are no fields of ``Input``; ``attributes`` returns them.
 _FURTHER = frozenset(
-    ("aliases", "default", "field", "help", "in_results", "lists", "only", "only_given", "row_of")
+    ("aliases", "default", "each", "field", "help", "in_results", "lists", "only", "only_given", "row_of")
 )
 
 # Tables that a file has several times, with the words for one of them.
@@ -206,6 +206,18 @@ def table_and_key(key: str) -> tuple[str, str, str]:
     return (head, name, number) if number.isdecimal() else (table, name, "")
 
 
+def key_of_list(key: str) -> str:
+    """Key of a list with a value of each gear, from the key of one value; any other key itself.
+
+    Examples
+    --------
+    >>> key_of_list("gear.teeth.2"), key_of_list("gear.helix_angle")
+    ('gear.teeth', 'gear.helix_angle')
+    """
+    table, _, number = key.rpartition(".")
+    return table if number in ("1", "2") and table in attributes("each") else key
+
+
 def input_at(key: str) -> Input | None:
     """Input of a dotted key; None where there is no such key.
 
@@ -213,9 +225,12 @@ def input_at(key: str) -> Input | None:
     --------
     >>> input_at("drive_end.bearing.radial_load").label, input_at("contact.body_2.density").label
     ('radial load', 'density of body 2')
-    >>> input_at("film.minimum_thickness") is None
-    True
+    >>> input_at("film.minimum_thickness") is None, input_at("gear.teeth.1").label
+    (True, 'teeth of gear 1')
     """
+    whole = key_of_list(key)
+    if whole != key and (listed := input_at(whole)) is not None:
+        return replace(listed, label=f"{attributes('each')[whole]} {key[-1]}")
     table, name, number = table_and_key(key)
     places = (table,) if table else _FILES
     entry = next((inputs()[book][name] for book in places if name in inputs().get(book, {})), None)

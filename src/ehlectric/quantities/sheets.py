@@ -42,7 +42,7 @@ CONTACT_ONLY, BEARING_ONLY = (_READ["only"][name] for name in ("contact", "beari
 # says more than the central one.
 CONTACT_CARDS, CHECK_CARDS = _cards("contact"), _cards("contact_check")
 TOUCHING_CARDS, SPOT_CARDS = _cards("touching_contact"), _cards("spots")
-BEARING_CARDS, DRIVE_CARDS = _cards("bearing"), _cards("drive")
+BEARING_CARDS, DRIVE_CARDS, GEAR_CARDS = _cards("bearing"), _cards("drive"), _cards("gear")
 
 # Formula by geometry of the film of the estimated breakdown voltage, which pages show and compare with
 # heights of roughness: the formulas that give the films of a bearing without solution.

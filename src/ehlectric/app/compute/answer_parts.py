@@ -15,6 +15,7 @@ from typing import Any
 from ehlectric.app.session import session_file
 from ehlectric.app.view_models import SEVERITIES, Line, Number, PageWarning
 from ehlectric.cases.drive_case import AnyCase, DriveCase, case_of_dict
+from ehlectric.cases.gear_case import GearCase, SolvedCase
 from ehlectric.errors import InputError, shown
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.quantity import Quantity
@@ -128,9 +129,21 @@ def drive_of(table: Mapping[str, Any], folder: Path | None = None) -> DriveCase:
     return DriveCase.from_written(with_session_files(table, folder))
 
 
+def gear_of(table: Mapping[str, Any], folder: Path | None = None) -> GearCase:
+    """Gear pair from the tables of a page; see ``case_of``. Raises InputError if the tables are no valid gear
+    pair.
+    """
+    return GearCase.from_written(with_session_files(table, folder))
+
+
 def run_case_of(table: Mapping[str, Any], folder: Path | None = None) -> AnyCase | DriveCase:
-    """Case of any kind except a sweep from the tables of a page; see ``case_of``."""
+    """Case of a contact, a bearing or a drive from the tables of a page; see ``case_of``."""
     return drive_of(table, folder) if kind_of(table) == "drive" else case_of(table, folder)
+
+
+def solved_case_of(table: Mapping[str, Any], folder: Path | None = None) -> SolvedCase:
+    """Case of any kind except a sweep from the tables of a page; see ``case_of``."""
+    return gear_of(table, folder) if kind_of(table) == "gear" else run_case_of(table, folder)
 
 
 def sweep_of(table: Mapping[str, Any], folder: Path | None = None) -> Sweep:

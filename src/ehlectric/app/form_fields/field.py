@@ -15,7 +15,7 @@ from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.bearing_kinds import KEYS_OF_KINDS, KINDS_OF_BEARINGS, KindOfBearing
 from ehlectric.quantities.field_help import help_text
 from ehlectric.quantities.grouped_digits import certain
-from ehlectric.quantities.inputs import attributes, form, input_at
+from ehlectric.quantities.inputs import attributes, form, input_at, key_of_list
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.units import in_unit, parts, printed, rounded, si_unit, split
 from ehlectric.readable import capital
@@ -293,7 +293,7 @@ def field_of(key: str, **more: Any) -> Field:
         "unit": entry.shown,
         "low": entry.slider[0],
         "high": entry.slider[1],
-        "when": never if key in attributes("only_given") else always,
+        "when": never if key_of_list(key) in attributes("only_given") else always,
         "note": entry.field_note,
         "help": help_text(key),
         **{name: getattr(entry, name) for name in ("log", "kind", "choices", "optional")},

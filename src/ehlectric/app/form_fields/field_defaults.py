@@ -94,6 +94,8 @@ def default_of(inputs: Inputs, key: str) -> Any:
     if key == "grid.error":
         error = DEFAULT_ERROR[inputs.value("contact.geometry") == "point"]
         return f"{100.0 * error:g} %"
+    if key in ("gear.flank_ra.2", "gear.tip_relief.2"):
+        return inputs.value(f"{key[:-1]}1")
     if key == "contact.boundary_film":
         return f"{1e9 * BOUNDARY_FILM:g} nm"
     if key in _NOT_WITH_SHEET and inputs.value("lubricant.temperature") is not None:

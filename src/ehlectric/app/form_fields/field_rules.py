@@ -14,6 +14,7 @@ from ehlectric.app.catalogue import bearing, coating, contradicts, designated
 from ehlectric.app.form_fields.drive_fields import DRIVE_ALTERNATIVES, fitted_to_source, with_fitted_remedies
 from ehlectric.app.form_fields.field import Field, Group, first_of_kind, fitted_to_kind, form_data, kind_of
 from ehlectric.app.form_fields.field_defaults import at_end, bearing_at, end_and_key
+from ehlectric.app.form_fields.gear_fields import with_lists
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.defaults import DEFAULT_FILM, FILM_FACTORS
 from ehlectric.quantities import alternatives
@@ -109,7 +110,7 @@ def _custom_changes(inputs: Inputs, key: str) -> dict[str, Any]:
 
 
 # Alternatives of the checks, of an oil of one's own, and of tables that exclude each other.
-_TABLES = ("bearing", "lubricant", "discharge", "meter", "inlet", "motion", "grid", "contact")
+_TABLES = ("bearing", "gear", "lubricant", "discharge", "meter", "inlet", "motion", "grid", "contact")
 ALTERNATIVES: tuple[Rows, ...] = (
     *(group for table in _TABLES for group in dotted(table, alternatives.ALTERNATIVES[table])),
     (("lubricant.viscosity",), ("lubricant.temperature",), ("lubricant.atmospheric_law",)),
@@ -148,7 +149,7 @@ def changed(inputs: Inputs, changes: Mapping[str, Any], given: frozenset[str] = 
     '10 um'
     """
     by_end: dict[str, dict[str, Any]] = {end: {} for end in ("", *ENDS)}
-    for key, value in changes.items():
+    for key, value in with_lists(inputs, changes).items():
         end, inner = end_and_key(key)
         by_end[end][inner] = value
     result = _changed(inputs, by_end[""], given)

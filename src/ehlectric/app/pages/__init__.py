@@ -5,13 +5,21 @@ from __future__ import annotations
 from collections.abc import Callable, Coroutine
 from typing import Any
 
-from ehlectric.app.pages import bearing_page, compare_page, contact_page, drive_page, sweep_page
+from ehlectric.app.pages import (
+    bearing_page,
+    compare_page,
+    contact_page,
+    drive_page,
+    gear_page,
+    sweep_page,
+)
 from ehlectric.app.work import Work
 
 # Functions that add a page to the server, in the order of the links at its top.
 PAGES: tuple[Callable[[Work], None], ...] = (
     bearing_page.BearingPage.add,
     drive_page.DrivePage.add,
+    gear_page.GearPage.add,
     contact_page.ContactPage.add,
     sweep_page.add,
     compare_page.add,

@@ -35,7 +35,7 @@ class AnswerPage(Generic[A]):
     path: ClassVar[str]
     title: ClassVar[str]
     start: ClassVar[Inputs]  # inputs with which the page begins
-    kind: ClassVar[Literal["bearing", "drive", "contact"]]
+    kind: ClassVar[Literal["bearing", "drive", "gear", "contact"]]
     groups: ClassVar[Sequence[Group]]
     # Keys of the numbers of the short answer, with the words before each; its name where there are none.
     short: ClassVar[Mapping[str, str]]

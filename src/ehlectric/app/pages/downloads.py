@@ -29,7 +29,7 @@ _OF_CONTACTS = ("vtkhdf",)
 _DRAWN: tuple[Download, ...] = ("figures", "all")
 
 # Commands that solve the kinds of files.
-_COMMANDS = {"bearing": "bearing", "drive": "drive", "contact": "run", "sweep": "sweep"}
+_COMMANDS = {"bearing": "bearing", "drive": "drive", "gear": "gear", "contact": "run", "sweep": "sweep"}
 
 
 class Downloads:
@@ -46,7 +46,7 @@ class Downloads:
     def __init__(
         self,
         session: Session,
-        kind: Literal["bearing", "drive", "contact", "sweep"],
+        kind: Literal["bearing", "drive", "gear", "contact", "sweep"],
         folder: Callable[[], Path | None] = lambda: None,
         *,
         only_made: bool = False,

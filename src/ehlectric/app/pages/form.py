@@ -21,6 +21,7 @@ from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.frame import session_here
 from ehlectric.app.pages.page_parts import Control, GroupBox, brief, kind_of_list, removable, say
 from ehlectric.errors import InputError
+from ehlectric.quantities.inputs import key_of_list
 from ehlectric.quantities.units import printed
 
 Change = Callable[[str, Any], Awaitable[None]]
@@ -55,6 +56,7 @@ class Form:
         self._inputs = inputs
         self._groups, self._elsewhere = groups, elsewhere
         self._memory = Memory(groups)
+        self._follows: Mapping[str, str] = {}  # values of empty fields that follow from other inputs
         self.wrong: Field | None = None  # field with an error
         self._slide = OnlyLast(self._take_slid)
         self._boxes: dict[str, GroupBox] = {}
@@ -117,6 +119,14 @@ class Form:
         self.note.classes(remove="stays")
         brief(self.note, "")
         self._show()
+
+    def follow(self, values: Mapping[str, str]) -> None:
+        """Show values that follow from other inputs, by key, in the empty fields of their keys."""
+        changed_keys = {key for key, _ in {*values.items()} ^ {*self._follows.items()}}
+        self._follows = dict(values)
+        for field, control in self._controls:
+            if field.key in changed_keys:
+                self._show_field(field, control)
 
     def _group(self, group: Group) -> None:
         async def switched(event: Any) -> None:
@@ -232,7 +242,10 @@ class Form:
         old, new = before.flat(), after.flat()
 
         def other(key: str) -> bool:
-            return not any(key == changed_key or key.startswith(f"{changed_key}.") for changed_key in changes)
+            return not any(
+                key in (changed_key, key_of_list(changed_key)) or key.startswith(f"{changed_key}.")
+                for changed_key in changes
+            )
 
         def text(key: str, value: Any) -> str:
             return shown_text(fields[key], str(value)) if key in fields else str(value)
@@ -269,7 +282,7 @@ class Form:
 
     def _show_field(self, field: Field, control: Control) -> None:
         value = self._inputs.value(field.key)
-        default = default_of(self._inputs, field.key)
+        default = self._follows.get(field.key, default_of(self._inputs, field.key))
         if field.kind == "alternatives":
             control.show(text=str(field.alternative(self._inputs)), options=self._options(field))
         elif field.custom_label and is_custom(self._inputs, field.key):

@@ -40,6 +40,8 @@ BEARING = start("bearing_6208")
 # The way to the films stands in the table of the drive, where the form offers it for both bearings.
 DRIVE = start("drive").changed({"drive_end.contacts": None, "drive.contacts": "atlas"})
 
+GEAR = start("gear_pair")
+
 
 # First values of pages, all assumptions.
 _FIRST = form_data("first_values")
@@ -162,7 +164,14 @@ def show_address(inputs: Inputs, path: str) -> None:
 Show = Callable[[], Awaitable[None] | None]
 
 # Pages of the kinds of files.
-PATHS = {"bearing": "/", "drive": "/drive", "contact": "/contact", "motion": "/contact", "sweep": "/sweep"}
+PATHS = {
+    "bearing": "/",
+    "drive": "/drive",
+    "gear": "/gear",
+    "contact": "/contact",
+    "motion": "/contact",
+    "sweep": "/sweep",
+}
 
 # Time in which the browser answers, also where it draws figures without a graphics card [s].
 _ANSWER = 60.0
@@ -187,9 +196,9 @@ class Toolbar:
             self._redo = _button("Redo", "redo", self.redo, "Control+Shift+Z")
             _button("Copy link", "copy-link", self.copy_link)
             if opens:
-                if path != PATHS["drive"]:
+                if path not in (PATHS["drive"], PATHS["gear"]):
                     _button("Compare", "compare", self.compare)
-                if path != PATHS["sweep"]:
+                if path not in (PATHS["sweep"], PATHS["gear"]):
                     _button("Vary", "vary", self.vary)
                 if path == PATHS["bearing"]:
                     _button("In its drive", "in-drive", self.in_drive)
@@ -279,7 +288,7 @@ class Toolbar:
             'data-testid="upload-case" aria-hidden="true" tabindex="-1"'
         )
         open_file = ui.button("Open file").props('outline no-caps dense data-testid="open-file"')
-        open_file.tooltip("A case, bearing, drive or sweep file (TOML), with the files that it names")
+        open_file.tooltip("A case, bearing, drive, gear or sweep file (TOML), with the files that it names")
         open_file.on("click", js_handler=f"() => getElement({self._upload.id}).$refs.qRef.pickFiles()")
 
     def _rejected(self, _: events.UiEventArguments) -> None:

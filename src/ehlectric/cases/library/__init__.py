@@ -56,13 +56,14 @@ def lubricant(name: str) -> dict[str, Any]:
     return _table("lubricant", name)
 
 
-def solid_names(*, rolling: bool = False, thermal: bool = False) -> list[str]:
+def solid_names(*, rolling: bool = False, thermal: bool = False, conducting: bool = False) -> list[str]:
     """Names of solids that a file can use as materials.
 
-    Only materials of rings and elements if ``rolling``, and only materials with known thermal properties if
-    ``thermal``.
+    Only materials of rings and elements if ``rolling``, only materials with known thermal properties if
+    ``thermal``, and only materials that conduct if ``conducting``.
     """
     names = [name for name in _names("solid") if not rolling or _read("solid", name)["solid"]["rolling"]]
+    names = [name for name in names if not conducting or _read("solid", name)["solid"]["conducting"]]
     return [name for name in names if not thermal or "thermal_conductivity" in _read("solid", name)["solid"]]
 
 

@@ -1,0 +1,200 @@
+"""Answers about a gear pair: at once with films of the atlas, and with solved films."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from ehlectric.app.charts.gear_charts import film_figure, flank_figure, mesh_figure, path_figure
+from ehlectric.app.compute.answer_parts import (
+    cards,
+    gauge_text,
+    gear_of,
+    lines_of,
+    page_warnings_of,
+    with_warnings,
+)
+from ehlectric.app.view_models import Deciding, Figure, Gauge, GearAnswer, Table, limited_to
+from ehlectric.cases.defaults import HOW, quick_way
+from ehlectric.cases.gear_case import GearCase
+from ehlectric.errors import InputError
+from ehlectric.figures.data import with_unit
+from ehlectric.figures.gear_panels import film_finding, flank_finding, mesh_finding, path_finding
+from ehlectric.gear import GearResult, solve_gear
+from ehlectric.quantities.quantity import data_file
+from ehlectric.quantities.results import GEAR_BOOK
+from ehlectric.quantities.rows import Row, Summary, row_of
+from ehlectric.quantities.sheets import GEAR, GEAR_CARDS
+from ehlectric.quantities.verdict import Verdict
+from ehlectric.readable import ratio_text, readable
+from ehlectric.runs.by_kind import run_gear
+from ehlectric.runtime.progress import Progress
+from ehlectric.tables.gear_tables import gear_rows, point_rows
+
+_MEANINGS = data_file("ehlectric.app", "page_texts.toml")["gear"]["meanings"]
+
+
+def gear_case(table: Mapping[str, Any], session: Path | None = None) -> GearCase:
+    """Gear pair of the tables of a page. Raises InputError if they are no valid gear pair."""
+    if "gear" not in table:
+        raise InputError("gear", "missing", takes="the table [gear] of a gear pair")
+    return gear_of(table, session)
+
+
+def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> GearAnswer:
+    """Answer about a gear pair without solved films. Raises InputError if the tables are no valid gear pair,
+    or its gears cannot run together.
+    """
+    case = gear_case(table, session)
+    return answer_of(solve_gear(case.replace({"contacts": quick_way(case.contacts)})))
+
+
+def solve_pair(
+    table: Mapping[str, Any], session: Path | None, folder: Path | str, progress: Progress
+) -> GearAnswer:
+    """Solve films as ``ehlectric gear --contacts solved`` does, with all files of the result. Raises
+    InputError if the tables are no valid gear pair.
+    """
+    outcome = run_gear(gear_case(table, session), folder, progress, contacts="solved")
+    progress(0, 0, "drawing")
+    return answer_of(outcome.result)
+
+
+def answer_of(result: GearResult) -> GearAnswer:
+    """Answer of a solved gear pair."""
+    summary, verdict = result.summary(), result.verdict
+    rows = gear_rows(summary)
+    warnings = limited_to(page_warnings_of(result.warnings), GEAR_CARDS)
+    return GearAnswer(
+        title=result.case.title,
+        verdict=verdict,
+        meaning=meaning_of(verdict),
+        how=_how(result),
+        shown=with_warnings(cards(rows, GEAR_CARDS), warnings),
+        deciding=deciding(summary, verdict),
+        lines=lines_of(rows),
+        warnings=warnings,
+        figures=_figures(result, summary),
+        seconds=summary["seconds"],
+        solved=result.case.contacts == "solved",
+        geometry=geometry_table(summary),
+        points=points_table(summary),
+        follows=follows(result),
+    )
+
+
+def meaning_of(verdict: Verdict) -> str:
+    """What a verdict means for the mesh, in plain words.
+
+    Examples
+    --------
+    >>> meaning_of(Verdict("green", "breakdown-excluded"))
+    'The film holds the voltage between both gears.'
+    """
+    return str(_MEANINGS.get(verdict.code, _MEANINGS[verdict.level]))
+
+
+def _how(result: GearResult) -> str:
+    """Sentence on how films are computed, and how far off they may be."""
+    films, off = HOW[result.case.contacts], readable(100.0 * result.solution.film_error, 2)
+    return f"Films {films}: the minimum film may be {off} % off."
+
+
+# Statement of the verdict that says no more than the margin with its voltages.
+_SAID = ("mesh-voltages",)
+
+
+def deciding(summary: Summary, verdict: Verdict) -> Deciding:
+    """Margin with its interval; without one the breakdown voltage, and the lambda ratio if summits touch."""
+    margin, interval = verdict.margin, verdict.interval
+    if margin is None or interval is None:
+        known = summary["mesh"]["breakdown_voltage"] is not None
+        key = "mesh.breakdown_voltage" if known else "mesh.lambda_ratio"
+        return Deciding(key, figure="film")
+    keys = ("mesh.breakdown_voltage", "mesh.voltage")
+    facts = [
+        (GEAR_BOOK[key].label, row_of(key, GEAR_BOOK[key], summary["mesh"][key.partition(".")[2]]).amount)
+        for key in keys
+    ]
+    facts.append(("margin, within what is uncertain", " to ".join(map(ratio_text, interval))))
+    gauge = Gauge(gauge_text(margin, facts), margin, interval)
+    return Deciding("mesh.margin", tuple(facts), gauge, "film", _SAID)
+
+
+# Text instead of a number that needs a load.
+_NO_LOAD = "–"
+
+
+def points_table(summary: Summary) -> Table:
+    """Table of the points A to E of the path of contact."""
+    (_, *points, _), *rows = point_rows(summary)
+    cells = tuple(
+        (with_unit(name, unit), *(number or _NO_LOAD for number in numbers)) for name, *numbers, unit in rows
+    )
+    return Table("Points of the path of contact", ("", *points), cells)
+
+
+def geometry_table(summary: Summary) -> Table:
+    """Table of the numbers of the geometry, as the command prints them."""
+    (section,) = (section for section in GEAR if section.heading == "geometry")
+    known: dict[str, Row] = {row.key: row for row in gear_rows(summary) if row.key}
+    cells = tuple((known[key].name, known[key].amount) for key in section.keys if key in known)
+    return Table("Geometry that follows from the drawing", ("", "value"), cells)
+
+
+def follows(result: GearResult) -> dict[str, str]:
+    """Values that follow from other inputs, by the keys of empty fields."""
+    gear, pair = result.case.gear, result.solution.pair
+    shifts = () if gear.profile_shift is None else gear.profile_shift
+    texts: dict[str, str] = {}
+    for number, (shift, tip) in enumerate(zip(pair.profile_shift, pair.tip_diameter, strict=True), 1):
+        if len(shifts) < number:
+            texts[f"gear.profile_shift.{number}"] = readable(shift)
+        if gear.tip_diameter is None:
+            texts[f"gear.tip_diameter.{number}"] = f"{readable(1e3 * abs(tip), 5)} mm"
+    if gear.centre_distance is None:
+        texts["gear.centre_distance"] = f"{readable(1e3 * abs(pair.centre_distance), 6)} mm"
+    if gear.normal_backlash is None and pair.normal_backlash is not None:
+        texts["gear.normal_backlash"] = f"{readable(1e6 * pair.normal_backlash)} um"
+    return texts
+
+
+def _figures(result: GearResult, summary: Summary) -> dict[str, Figure]:
+    return dict(_drawn(result, summary))
+
+
+def _drawn(result: GearResult, summary: Summary) -> Iterator[tuple[str, Figure]]:
+    films = "Dotted lines: points A to E. Gear 1 touches with its root at A, and with its tip at E."
+    yield (
+        "film",
+        Figure("Film along the path of contact", film_finding(result), film_figure(result), caption=films),
+    )
+    yield (
+        "flank",
+        Figure(
+            "Minimum film on the flank of gear 1",
+            flank_finding(result),
+            flank_figure(result),
+            caption=f"{flank_finding(result)}. Thick films have the last colour.",
+        ),
+    )
+    yield (
+        "mesh",
+        Figure(
+            "Capacitance and breakdown voltage over one pitch",
+            mesh_finding(result),
+            mesh_figure(result),
+            caption=f"{mesh_finding(result)}.",
+        ),
+    )
+    yield (
+        "path",
+        Figure(
+            "Radii, speeds, load and pressure along the path",
+            path_finding(result),
+            path_figure(result),
+            points_table(summary),
+            caption=f"{path_finding(result)}.",
+        ),
+    )

@@ -1,0 +1,62 @@
+"""Page of a gear pair, which says whether the film of its mesh insulates, and when it breaks down."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import ClassVar
+
+from nicegui import ui
+
+from ehlectric.app.calls import GEAR_QUICK, GEAR_SOLVED
+from ehlectric.app.form_fields import GEAR_GROUPS
+from ehlectric.app.form_fields.gear_fields import LISTS
+from ehlectric.app.page_inputs import Inputs
+from ehlectric.app.pages.answer_page import AnswerPage, AnswerView
+from ehlectric.app.pages.frame import GEAR, PATHS
+from ehlectric.app.pages.result_parts import behind, table_html
+from ehlectric.app.view_models import GearAnswer
+from ehlectric.quantities.sheets import GEAR_CARDS
+
+
+class GearView(AnswerView[GearAnswer]):
+    """Place of an answer about a gear pair."""
+
+    rows_name = "Numbers of the gear pair"
+    keys = tuple(GEAR_CARDS)
+    leading = ("film",)
+
+    def build(self) -> None:
+        """Build the parts of the answer below its numbers."""
+        self._points = ui.html("", sanitize=False).props('data-testid="points"')
+        self.build_figures(("flank", "mesh", "path"), ("path",))
+        self._geometry = ui.html("", sanitize=False).props('data-testid="geometry"')
+
+    def show(self, answer: GearAnswer) -> None:
+        """Show an answer."""
+        super().show(answer)
+        self.body.props(f'data-solved="{str(answer.solved).lower()}"')
+        self.panel.lead("film", answer.figures.get("film"))
+        self._points.content = f"<h2>Points of the path of contact</h2>{table_html(answer.points)}"
+        self._geometry.content = behind("Geometry that follows from the drawing", table_html(answer.geometry))
+
+
+class GearPage(AnswerPage[GearAnswer]):
+    """Page of one tab."""
+
+    path = PATHS["gear"]
+    title = "Does the film between these gears insulate?"
+    start = GEAR
+    kind = "gear"
+    groups = GEAR_GROUPS
+    elsewhere = (*LISTS, "contacts")
+    short: ClassVar[Mapping[str, str]] = {"mesh.margin": "", "mesh.breakdown_voltage": "breakdown at"}
+    wait = 0.4
+    quick, solved = GEAR_QUICK, GEAR_SOLVED
+
+    def build_view(self) -> None:
+        """Build the place of the answer."""
+        self.view = GearView()
+
+    def _show(self, inputs: Inputs, answer: GearAnswer) -> None:
+        super()._show(inputs, answer)
+        self.form.follow(answer.follows)
