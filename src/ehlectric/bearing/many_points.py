@@ -67,7 +67,7 @@ class Columns:
     def add(
         self, points: IntArray, tables: Mapping[str, Any], codes: Iterable[tuple[str, Mask | bool]]
     ) -> None:
-        """Take the numbers and codes of solved points, shape (m,) or the same at all points."""
+        """Take the numbers and codes of solved points, of shape (m,), or one value for all points."""
         for key, value in flattened(tables).items():
             array = isinstance(value, np.ndarray) and value.dtype.kind in "fiub"
             if key in TEXTS_OF_POINTS or is_number(value) or array:

@@ -16,8 +16,8 @@ SolvedCase = AnyCase | DriveCase | GearCase
 
 
 def solved_case_of_dict(table: Mapping[str, Any], *, written: bool = False) -> SolvedCase:
-    """Make a drive case from tables with the key of one of its bearings, a gear case from tables with the
-    table of a gear pair, else a case of a bearing or contact. Raises InputError if the tables are not valid;
+    """Make a drive case from tables that contain the key of one of its bearings, a gear case from tables that
+    contain ``gear``, else a case of a bearing or contact. Raises InputError if the tables are not valid;
     the message names the key, its value, and what is allowed.
     """
     if any(end in table for end in ENDS):

@@ -145,7 +145,7 @@ def _doubts(results: SweepPoints, margins: Array) -> Iterator[Statement]:
 
 
 def _film_error(point: Point, case: SolvedCase) -> float:
-    """Relative error of the films of a gear pair, and of a bearing that is not solved; 0 of other points."""
+    """Relative film error at gear pairs and at bearings that are not solved; 0 at other points."""
     summary = point.summary or {}
     contacts = value_at(summary, "bearing.contacts")
     if isinstance(case, GearCase):
