@@ -15,7 +15,8 @@ from typing import Any
 from ehlectric.app.session import session_file
 from ehlectric.app.view_models import SEVERITIES, Line, Number, PageWarning
 from ehlectric.cases.drive_case import AnyCase, DriveCase, case_of_dict
-from ehlectric.cases.gear_case import GearCase, SolvedCase
+from ehlectric.cases.gear_case import GearCase
+from ehlectric.cases.solved_case import SolvedCase
 from ehlectric.errors import InputError, shown
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.quantity import Quantity
