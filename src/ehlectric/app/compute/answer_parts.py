@@ -137,14 +137,12 @@ def gear_of(table: Mapping[str, Any], folder: Path | None = None) -> GearCase:
     return GearCase.from_written(with_session_files(table, folder))
 
 
-def run_case_of(table: Mapping[str, Any], folder: Path | None = None) -> AnyCase | DriveCase:
-    """Case of a contact, a bearing or a drive from the tables of a page; see ``case_of``."""
-    return drive_of(table, folder) if kind_of(table) == "drive" else case_of(table, folder)
-
-
-def solved_case_of(table: Mapping[str, Any], folder: Path | None = None) -> SolvedCase:
+def run_case_of(table: Mapping[str, Any], folder: Path | None = None) -> SolvedCase:
     """Case of any kind except a sweep from the tables of a page; see ``case_of``."""
-    return gear_of(table, folder) if kind_of(table) == "gear" else run_case_of(table, folder)
+    kind = kind_of(table)
+    if kind == "drive":
+        return drive_of(table, folder)
+    return gear_of(table, folder) if kind == "gear" else case_of(table, folder)
 
 
 def sweep_of(table: Mapping[str, Any], folder: Path | None = None) -> Sweep:

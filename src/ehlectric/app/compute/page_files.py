@@ -14,7 +14,7 @@ from ehlectric.app.compute.answer_parts import (
     kind_of,
     names_in,
     page_warnings_of,
-    solved_case_of,
+    run_case_of,
     sweep_of,
     with_names,
 )
@@ -83,7 +83,7 @@ def uploaded(contents: Mapping[str, bytes], folder: Path) -> Uploaded:
         if kind == "sweep":
             sweep_of(table, folder)
         else:
-            solved_case_of(table, folder)
+            run_case_of(table, folder)
     except InputError:
         # Surfaces of a case that is not opened do not stay.
         for path in filter(None, kept):
@@ -201,7 +201,7 @@ def write(table: Mapping[str, Any], contacts: str, folder: Path, progress: Progr
     a folder of the session, which earlier files leave. Raises InputError, ConvergenceError, LostError as the
     command raises them.
     """
-    kind, case, options = kind_of(table), solved_case_of(table, folder), dict[str, Any]()
+    kind, case, options = kind_of(table), run_case_of(table, folder), dict[str, Any]()
     if kind == "bearing":
         # As many jobs run at once as there are pairs of cores.
         options = {"contacts": contacts, "workers": min(2, cores())}
@@ -253,7 +253,7 @@ def _offered(path: Path, endings: Iterable[str]) -> bool:
 
 def _surfaces(table: Mapping[str, Any], folder: Path) -> list[str]:
     """Names of the files that a case names, relative to the folder of its session."""
-    solved_case_of(table, folder) if kind_of(table) != "sweep" else sweep_of(table, folder)
+    run_case_of(table, folder) if kind_of(table) != "sweep" else sweep_of(table, folder)
     return sorted({name for _, name in names_in(table) if not Path(name).is_absolute()})
 
 
