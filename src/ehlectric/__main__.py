@@ -13,9 +13,9 @@ from ehlectric.runtime.worker_processes import cores, limit_blas
 LEAST_MEMORY, MEMORY_OF_CORE = 750_000_000, 20_000_000
 _TOO_LITTLE, _INTERRUPTED = 2, 130
 
-# New objects after which Python searches them for cycles. Loading the libraries makes about 100,000 that
-# stay: with the usual 700 the searches take a tenth of a short command.
-_NEW_OBJECTS = 10_000
+# New objects after which Python searches them for cycles, for the first time and later. Loading the
+# libraries makes about 100,000 that stay: with the usual 700 the searches take a tenth of a short command.
+_LOADED_OBJECTS, _NEW_OBJECTS = 150_000, 10_000
 
 
 def main() -> None:
@@ -24,7 +24,8 @@ def main() -> None:
     if left < least:
         message = f"memory: got {in_bytes(max(0.0, left))}, what ulimit leaves to this process"
         sys.exit(_end(f"{message}; expected at least {in_bytes(least)}"))
-    gc.set_threshold(_NEW_OBJECTS)
+    gc.set_threshold(_LOADED_OBJECTS)
+    gc.callbacks.append(_search_more_often)
     # Films and fields are factorised on one thread. Idle threads of BLAS would take processor time.
     limit_blas()
     try:
@@ -38,7 +39,15 @@ def main() -> None:
         sys.exit(_end(out_of_memory(error)))
     with process():
         status = exit_status()
+    # At its exit Python would search all objects for cycles, although the system takes their memory anyway.
+    gc.freeze()
     sys.exit(status)
+
+
+def _search_more_often(_: str, __: dict[str, int]) -> None:
+    """Limit what cycles keep of the memory after the first search, as the libraries have been loaded."""
+    gc.callbacks.remove(_search_more_often)
+    gc.set_threshold(_NEW_OBJECTS)
 
 
 def _end(text: str) -> int:
