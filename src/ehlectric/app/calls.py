@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from importlib import import_module
 from typing import Any, Generic, TypeVar, cast
 
@@ -25,6 +24,7 @@ from ehlectric.app.view_models import (
     Uploaded,
     Written,
 )
+from ehlectric.dataclass import dataclass
 
 T = TypeVar("T")
 

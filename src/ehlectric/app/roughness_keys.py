@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
 from ehlectric.app.form_fields.field import form_data
+from ehlectric.dataclass import dataclass
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
 from ehlectric.arrays import Numbers
@@ -31,6 +30,7 @@ from ehlectric.bearing.ring_contacts import (
     rigid_roller,
 )
 from ehlectric.cases.bearing_inputs import Bearing
+from ehlectric.dataclass import dataclass
 
 G = TypeVar("G", bound=Geometry)
 C = TypeVar("C", BallContact, RollerContact)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass, fields, replace
+from dataclasses import asdict, fields, replace
 from typing import Any
 
 import numpy as np
 
 from ehlectric.cases.discharge_inputs import Discharge
+from ehlectric.dataclass import dataclass
 from ehlectric.discharge.discharge_laws import (
     SOURCES,
     TUNNELLING,

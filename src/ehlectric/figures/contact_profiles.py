@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -12,6 +11,7 @@ from numpy.typing import NDArray
 from ehlectric.arrays import Array, Mask
 from ehlectric.cases.case import Case
 from ehlectric.contact import PointConditions, PointResult, Result
+from ehlectric.dataclass import dataclass
 from ehlectric.field import PointField
 from ehlectric.figures.contact_findings import AnyContact, strength_limit
 from ehlectric.figures.data import WIDTH, Curve, Panel

@@ -5,13 +5,14 @@ alike.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ehlectric.arrays import Array, IntArray, Mask
+from ehlectric.dataclass import dataclass
 
 # Axes and colours are logarithmic where the values differ by more than this ratio.
 WIDE = 20.0

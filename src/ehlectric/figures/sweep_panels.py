@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,6 +12,7 @@ import scipy
 
 from ehlectric.arrays import Array, IntArray, Mask
 from ehlectric.bearing import CAPACITIVE, RESISTIVE
+from ehlectric.dataclass import dataclass
 from ehlectric.figures.data import (
     WIDTH,
     Along,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cache
 from typing import TypeAlias
 
@@ -11,6 +10,7 @@ import numpy as np
 import scipy
 
 from ehlectric.arrays import Array, Mask
+from ehlectric.dataclass import dataclass
 from ehlectric.film.deflection import Deflection, Geometry
 from ehlectric.film.mesh import Mesh, Width
 from ehlectric.film.reynolds import Stencil, wedge_stencil

@@ -30,11 +30,12 @@ convex function of t, so that there is one solution.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
+from ehlectric.dataclass import dataclass
 from ehlectric.film.across_film import GAUSS, Quadrature, over_columns
 from ehlectric.film.shear_laws import Constants, Rheology, ShearLaw
 

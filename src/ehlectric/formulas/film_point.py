@@ -7,11 +7,12 @@ The x axis runs along entrainment, the y axis across it.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from ehlectric.arrays import Numbers, as_float
+from ehlectric.dataclass import dataclass
 from ehlectric.formulas.film_line import (
     BothThicknesses,
     CentralThickness,

@@ -18,11 +18,11 @@ A spur pair has the limit of these for eps_beta to 0: floor(eps_alpha) and ceil(
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
 from ehlectric.arrays import Array
+from ehlectric.dataclass import dataclass
 from ehlectric.gear.contact_path import ContactPath
 
 

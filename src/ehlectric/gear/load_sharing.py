@@ -26,11 +26,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 
 import numpy as np
 
 from ehlectric.arrays import Array
+from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 from ehlectric.gear.contact_lines import PlaneOfAction
 from ehlectric.gear.contact_path import ContactPath

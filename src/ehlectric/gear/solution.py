@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from ehlectric.bearing import Solid
 from ehlectric.cases.case_oil import temperature_coefficient
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.gear_inputs import Gear, both
+from ehlectric.dataclass import dataclass
 from ehlectric.discharge.discharge_laws import Leakage, leakage
 from ehlectric.discharge.film_breakdown import dielectric_strength
 from ehlectric.errors import InputError

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from ehlectric.contact import field_problem, film_problem, resolve
+from ehlectric.dataclass import dataclass
 from ehlectric.errors import ConvergenceError
 from ehlectric.field import solve_field
 from ehlectric.film import FilmProblem, trapezoidal_weights

@@ -7,10 +7,11 @@ all along the line together. The integration constant H00 is computed by eq. (19
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
+from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 from ehlectric.film import (
     LINE,

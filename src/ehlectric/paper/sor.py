@@ -6,12 +6,13 @@ The equations on the Cartesian grid are the equations of ``ehlectric.paper.carte
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import scipy
 
 from ehlectric.arrays import Array
+from ehlectric.dataclass import dataclass
 from ehlectric.errors import ConvergenceError
 from ehlectric.field import Field, FieldProblem, field_from_potential
 from ehlectric.formulas.polynomials import lobatto_nodes

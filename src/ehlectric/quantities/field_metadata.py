@@ -6,8 +6,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from typing import Any
+
+from ehlectric.dataclass import dataclass
 
 # Keys of the metadata of a field.
 _ARRAY, _NUMBER = "stored", "stored number"

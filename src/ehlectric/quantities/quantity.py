@@ -9,12 +9,13 @@ from __future__ import annotations
 import math
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cache
 from importlib import resources
 from types import MappingProxyType
 from typing import Any, Literal, TypeAlias
 
+from ehlectric.dataclass import dataclass
 from ehlectric.errors import printable
 
 # Sign of a value that is a bound only; empty for any other value.

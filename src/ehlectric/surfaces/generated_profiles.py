@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 import scipy
@@ -11,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array
 from ehlectric.cases.roughness_inputs import Roughness
+from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 from ehlectric.surfaces.profiles import Profile, convolved
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -35,6 +34,7 @@ from ehlectric.app.charts.plotly_panels import (
 from ehlectric.app.view_models import Figure, Reach
 from ehlectric.arrays import Array
 from ehlectric.contact import PointResult
+from ehlectric.dataclass import dataclass
 from ehlectric.figures.contact_profiles import (
     BEFORE,
     BEHIND,
