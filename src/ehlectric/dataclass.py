@@ -38,7 +38,7 @@ class _Init:
 
 
 def _compiled(cls: Any) -> Any:
-    """The method ``__init__`` of a class; its arguments are those of the standard library."""
+    """The method ``__init__`` of a class, with the arguments that the standard library gives it."""
     fields = dataclasses.fields(cls)
     known: dict[str, object] = {"_FACTORY": _FACTORY, "_set": object.__setattr__}
     arguments: dict[bool, list[str]] = {False: [], True: []}
