@@ -30,9 +30,10 @@ def complete(page):
 
 
 def drawn(page):
-    """Wait until all figures of a page are drawn, and two frames more."""
+    """Wait until all figures that are seen are drawn, and two frames more."""
     page.wait_for_function(
-        "() => [...document.querySelectorAll('.js-plotly-plot')].every(one => one._fullLayout)"
+        "() => [...document.querySelectorAll('.js-plotly-plot')]"
+        ".every(one => one.getAttribute('aria-busy') === 'false' || !one.getClientRects().length)"
     )
     page.evaluate("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
 

@@ -136,7 +136,7 @@ class CutsBox:
         places = {f"shapes[2].{end}": down for end in ("y0", "y1")}
         places |= {f"shapes[3].{end}": across for end in ("x0", "x1")}
         for map_box in self._maps:
-            map_box.plot.run_plot_method("relayout", places)
+            map_box.plot.run_method("relayout", places)
         try:
             cuts = await self._session.work.quick(CONTACT_CUTS, str(folder), x, y)
         except (InputError, LostError) as error:

@@ -13,8 +13,8 @@ from ehlectric.app.calls import MOTION_RUN, MOTION_STORED
 from ehlectric.app.pages.frame import start
 from ehlectric.app.pages.page_parts import (
     JobBox,
+    Plot,
     button,
-    figure,
     heading,
     lines_html,
     mark,
@@ -196,13 +196,13 @@ def _movie(answer: MotionAnswer) -> None:
             go = f'() => document.getElementById("{slider.html_id}")'
             go += f'.dispatchEvent(new CustomEvent("instant", {{detail: {instant}}}))'
             ui.button(label, color=None).props("flat no-caps").on("click", js_handler=go)
-    movie = figure(answer.movie, f"Film, pressure and field of {answer.title} at one instant")
+    movie = Plot(answer.movie, f"Film, pressure and field of {answer.title} at one instant")
     heading("Over time", 3)
     ui.label(
         "A click sets the time. Dots: instants at which the field is solved; between them it follows from "
         "the minimum film. Dashed: the same roughness held stationary."
     ).classes("hint")
-    history = figure(answer.history, "Minimum film, maximum field and breakdown voltage over time")
+    history = Plot(answer.history, "Minimum film, maximum field and breakdown voltage over time")
     show_warnings(answer.warnings)
     rows = (Line(name, value) for name, value in answer.rows)
     about = "Numbers of the run"

@@ -14,6 +14,7 @@ from weakref import WeakMethod
 
 from nicegui import ui
 from nicegui.element import Element
+from nicegui.elements import plotly  # noqa: F401  # the module that figures load in the browser
 
 from ehlectric.app.calls import Call
 from ehlectric.app.session import Session
@@ -312,13 +313,60 @@ def lines_html(lines: Iterable[Line], caption: str) -> str:
     return f"<div class=scroll><table class=rows>{head}<tbody>{''.join(rows)}</tbody></table></div>"
 
 
-def figure(data: Mapping[str, Any], label: str) -> ui.plotly:
-    """Figure that can be zoomed; ``label`` says to a screen reader what it shows."""
-    plot = ui.plotly(dict(data)).classes("figure")
-    # As an item: in a text of properties, a label could hold further properties, which browsers run.
-    # No image: its bar of buttons can be reached by keyboard.
-    plot.props.update({"role": "figure", "aria-label": label})
-    return plot
+class Plot(Element, component="../static/figure.js"):
+    """Figure of Plotly that can be zoomed; the browser gets the whole figure once, and then what changed."""
+
+    def __init__(self, figure: Mapping[str, Any], label: str) -> None:
+        super().__init__()
+        self.classes("figure js-plotly-plot")
+        self._content: dict[str, Any] = {}
+        self._revision = 0
+        # A browser that missed a change gets the whole figure.
+        self.on("behind", self.update)
+        self.show(figure, label)
+
+    def show(self, figure: Mapping[str, Any], label: str) -> None:
+        """Show a figure; ``label`` says to a screen reader what it shows."""
+        before, self._content = self._content, {**figure, "label": label}
+        changes = [*changes_of(before, self._content)]
+        if not changes:
+            return
+        self._revision += 1
+        with self.props.suspend_updates():
+            # As items: in a text of properties, a label could hold further properties, which browsers run.
+            self.props.update(options=self._content, revision=self._revision)
+        if before.keys() == self._content.keys():
+            self.run_method("change", self._revision, changes)
+        else:
+            self.update()
+
+
+def changes_of(
+    before: Any, after: Any, path: tuple[str | int, ...] = ()
+) -> Iterator[tuple[tuple[str | int, ...], Any]]:
+    """Paths of the parts of a figure that changed, with their new values.
+
+    Examples
+    --------
+    >>> before = {"data": [{"name": "film", "y": [1.0, 2.0]}, {"name": "gap", "y": [3.0]}], "layout": {}}
+    >>> after = {"data": [{"name": "film", "y": [1.0, 4.0]}, {"name": "gap", "y": [3.0]}], "layout": {}}
+    >>> [*changes_of(before, after)]
+    [(('data', 0, 'y'), [1.0, 4.0])]
+    """
+    if isinstance(before, Mapping) and isinstance(after, Mapping) and before.keys() == after.keys():
+        for key, value in after.items():
+            yield from changes_of(before[key], value, (*path, key))
+    elif _alike(before, after):
+        for place, value in enumerate(after):
+            yield from changes_of(before[place], value, (*path, place))
+    elif before != after:
+        yield path, after
+
+
+def _alike(before: Any, after: Any) -> bool:
+    """Whether both are lists of as many tables."""
+    lists = isinstance(before, list) and isinstance(after, list) and len(before) == len(after)
+    return lists and all(isinstance(part, Mapping) for part in (*before, *after))
 
 
 class JobBox:

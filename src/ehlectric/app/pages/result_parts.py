@@ -8,7 +8,7 @@ from html import escape
 
 from nicegui import ui
 
-from ehlectric.app.pages.page_parts import figure, mark, say, scrolling_table
+from ehlectric.app.pages.page_parts import Plot, mark, say, scrolling_table
 from ehlectric.app.view_models import Deciding, Figure, Gauge, Note, Number, PageWarning, Table, counts
 from ehlectric.quantities.result_warnings import SEVERITY_WORDS
 from ehlectric.quantities.verdict import Verdict
@@ -210,7 +210,7 @@ class FigureBox:
         with ui.element("div").classes("figure-box").props(f'data-testid="figure-{name}"') as self._box:
             with ui.element("h3"):
                 self._title = ui.label()
-            self.plot = figure({"data": [], "layout": {}}, name)
+            self.plot = Plot({}, name)
             self._caption = ui.label().classes("soft")
             self._table = ui.html("", sanitize=False)
         mark(self._box, "wide", on=wide)
@@ -225,10 +225,7 @@ class FigureBox:
         self._box.set_visibility(shown is not None)
         if shown is not None:
             self._title.text, self._caption.text = shown.title, shown.caption
-            # A fuller answer has most figures of the answer before, which are not sent and drawn again.
-            if (self.plot.props["aria-label"], self.plot.figure) != (shown.label, shown.plot):
-                self.plot.props["aria-label"] = shown.label
-                self.plot.update_figure(dict(shown.plot))
+            self.plot.show(shown.plot, shown.label)
             table = shown.table
             self._table.content = "" if table is None else behind("Numbers of this figure", table_html(table))
 

@@ -11,7 +11,7 @@ from ehlectric.app.calls import SURFACE
 from ehlectric.app.form_fields.contact_fields import geometry_of
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.file_field import LOST_FILE, NOT_IN_LINKS, UploadField
-from ehlectric.app.pages.page_parts import Control, GroupBox, JobBox, button, control, figure, heading, say
+from ehlectric.app.pages.page_parts import Control, GroupBox, JobBox, Plot, button, control, heading, say
 from ehlectric.app.pages.result_parts import show_warnings, table_html
 from ehlectric.app.roughness_keys import (
     FILE_KEYS,
@@ -78,7 +78,7 @@ def show_surface(answer: SurfaceAnswer) -> None:
         for step in answer.figures:
             with ui.element("div"):
                 heading(step.name, 3)
-                figure(step.figure, step.label)
+                Plot(step.figure, step.label)
 
 
 def _show_summits(summits: SummitsTable) -> None:

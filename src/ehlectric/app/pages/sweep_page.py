@@ -290,6 +290,7 @@ def _texts(inputs: Inputs) -> dict[str, str]:
 
 # Only the number of the point goes to the server, not the whole figure.
 _CLICKED = "(event) => emit(event.points.map((p) => p.customdata).find((n) => n !== undefined))"
+_MAP = "Map of the sweep"
 _STEPS = {"ArrowLeft": (-1, 0), "ArrowRight": (1, 0), "ArrowUp": (0, 1), "ArrowDown": (0, -1)}
 
 # Most points whose table is written anew at each look while points are being solved.
@@ -344,7 +345,7 @@ class MapPart:
             self._note = ui.label().classes("soft").props('data-testid="map-note"')
             self._select = control("show", "Result to show", self._other, {}, kind="search")
             with ui.element("div").classes("map-keys").props('tabindex="0" data-testid="map"') as self._keys:
-                self._plot = page_parts.figure({"data": [], "layout": {}}, "Map of the sweep")
+                self._plot = page_parts.Plot({}, _MAP)
                 self._plot.on("plotly_click", self._clicked, js_handler=_CLICKED)
             self._keys.on("keydown", self._pressed, js_handler=page_parts.script("map_keys"))
             self._keys.set_visibility(False)
@@ -415,7 +416,7 @@ class MapPart:
             return
         figure = dict(view.figure)
         figure["data"] = [*figure["data"], chosen_trace(view.chart, self._chosen)]
-        self._plot.update_figure(figure)
+        self._plot.show(figure, _MAP)
         about = f"{view.chart.title} over {' and '.join(view.chart.inputs)}"
         about += "; arrow keys choose a point, Enter opens its case; the table below has all numbers"
         self._keys.props.update({"role": "group", "aria-label": about})
