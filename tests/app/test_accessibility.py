@@ -166,6 +166,7 @@ def test_the_answer_is_a_live_region_with_headings_and_named_figures(
     address, wait = PAGES[name]
     page = open_page(app_server, address())
     wait(page)
+    drawn(page)
     told = page.get_by_test_id("panel").get_by_role("status").inner_text()
     assert verdict in told
     assert deciding in told

@@ -40,11 +40,13 @@ const changed = (part, [key, ...further], value) => {
 };
 
 export default {
-  template: `<div role="figure" :aria-label="label" :aria-busy="old ? 'true' : 'false'"></div>`,
+  // Has its height before the figure is drawn, so that nothing moves then.
+  template: `<div role="figure" :aria-label="label" :aria-busy="old ? 'true' : 'false'"
+    :style="{ minHeight: height }"></div>`,
   props: { options: Object, revision: Number },
   emits: ["behind", "plotly_click"],
   data() {
-    return { label: "", old: true };
+    return { label: "", height: "", old: true };
   },
   created() {
     this.take();
@@ -69,8 +71,7 @@ export default {
     take() {
       this.figure = Vue.toRaw(this.options);
       this.present = this.revision;
-      this.label = this.figure.label;
-      this.old = true;
+      this.look();
     },
     // Takes over changes of the figure with the revision before.
     change(revision, changes) {
@@ -81,9 +82,13 @@ export default {
       }
       for (const [path, value] of changes) this.figure = changed(this.figure, path, value);
       this.present = revision;
-      this.label = this.figure.label;
-      this.old = true;
+      this.look();
       this.later();
+    },
+    look() {
+      this.label = this.figure.label;
+      this.height = this.figure.data ? `${this.figure.layout.height}px` : "";
+      this.old = true;
     },
     // Changes the layout in this browser only, such as the lines of a cut that follow a slider.
     relayout(places) {
