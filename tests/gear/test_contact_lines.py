@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.gear.contact_lines import PlaneOfAction
+from ehlectric.gear.contact_lines import PlaneOfAction, line_nodes, line_parts
 from ehlectric.gear.contact_path import ContactPath
 from tests.gear.pairs import FIRST_STAGE, FZG_C, SECOND_STAGE
 from tests.gear.pairs import plane_of as pair_plane
@@ -86,11 +86,45 @@ def test_whole_overlap_ratios_make_the_length_constant():
     assert least == pytest.approx(most, rel=1e-12)
 
 
-@given(*RATIOS, st.floats(0.0, 1.0, exclude_max=True))
-def test_slices_of_the_face_add_up_to_the_length(alpha, beta, phase):
-    plane, slices = plane_of(alpha, beta), 4000
-    across = (np.arange(slices) + 0.5) * WIDTH / slices
-    touching = np.count_nonzero(~np.isnan(plane.places(np.array([phase]), across)))
-    length = touching * WIDTH / slices / math.cos(plane.path.base_helix_angle)
-    # Each end of a line is on one slice or the next one.
-    assert length == pytest.approx(plane.length(phase), abs=20.0 * WIDTH / slices)
+@pytest.mark.parametrize("drawing", [FZG_C, FIRST_STAGE, SECOND_STAGE])
+@pytest.mark.parametrize("loaded", [False, True])
+def test_nodes_add_up_to_the_length_at_each_phase(drawing, loaded):
+    """Also if pieces of the lines carry no load."""
+    plane = pair_plane(drawing)
+    parts = line_parts(plane, plane.path.points.values(), 4)
+    pieces = np.broadcast_to([[0.2], [0.7]], (2, parts.width.size)).reshape(2, *parts.width.shape)
+    nodes = line_nodes(parts, 5, tuple(pieces) if loaded else None)
+    lengths = [plane.length(phase) for phase in nodes.phases]
+    assert np.sum(nodes.length, axis=(1, 2)) == pytest.approx(lengths, rel=1e-12)
+    assert np.sum(nodes.weights) == pytest.approx(1.0, rel=1e-14)
+    assert nodes.weights @ lengths == pytest.approx(plane.mean_length, rel=1e-12)
+
+
+@given(*RATIOS)
+def test_nodes_integrate_over_the_plane_of_action(alpha, beta):
+    """The integral of x^2 y over all lines and phases is the integral over the plane over the distance p_bt
+    of the lines, for each length over cos beta_b.
+    """
+    plane = plane_of(alpha, beta)
+    nodes = line_nodes(line_parts(plane, [], 5), 4)
+    x = np.nan_to_num(nodes.places - plane.path.start)
+    sums = np.sum(x**2 * np.nan_to_num(nodes.across) * nodes.length, axis=(1, 2))
+    exact = plane.path.length**3 / 3.0 * WIDTH**2 / 2.0 / PITCH / math.cos(plane.path.base_helix_angle)
+    assert nodes.weights @ sums == pytest.approx(exact, rel=1e-9)
+
+
+@given(*RATIOS)
+def test_lines_have_nodes_at_their_ends(alpha, beta):
+    """At each phase the ends of all lines are on the edges of the plane of action."""
+    plane = plane_of(alpha, beta)
+    nodes = line_nodes(line_parts(plane, plane.path.points.values(), 3), 3)
+    for places, across in zip(nodes.places.reshape(-1, nodes.places.shape[-1]),
+                              nodes.across.reshape(-1, nodes.places.shape[-1]), strict=True):  # fmt: skip
+        at = ~np.isnan(places)
+        if np.any(at):
+            first, last = (
+                [(places[at][k] - plane.path.start) / plane.path.length, across[at][k] / WIDTH]
+                for k in (0, -1)
+            )
+            assert min(first) == pytest.approx(0.0, abs=1e-7)
+            assert max(last) == pytest.approx(1.0, abs=1e-7)

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ehlectric.errors import InputError
-from ehlectric.gear.load_sharing import Modification, line_loads
+from ehlectric.gear.load_sharing import Modification, line_loads, single_stiffness
 from tests.gear.pairs import FIRST_STAGE, FZG_A, FZG_C, SECOND_STAGE, plane_of
 
 FORCE = 5000.0
@@ -24,7 +24,7 @@ def loads_of(drawing, law="stiffness", *, stiffness=STIFF, modification=PLAIN, *
 
 def shares(drawing, law="stiffness", **options):
     """Places g of a spur pair in increasing order, and the share of the force that a pair carries there."""
-    plane, loads = loads_of(drawing, law, phases=20_000, slices=1, **options)
+    plane, loads = loads_of(drawing, law, **options)
     touching = ~np.isnan(loads.places)
     places, load = loads.places[touching], loads.load[touching]
     order = np.argsort(places)
@@ -50,8 +50,8 @@ def test_springs_share_by_the_least_energy():
     plane, places, share = shares(FZG_C)
     expected = [energy_share(ratio, xi) for xi in (places - plane.path.start) / plane.path.base_pitch]
     assert share == pytest.approx(expected, rel=1e-10)
-    assert share[0] == pytest.approx(0.35513, abs=3e-5)
-    assert share[-1] == pytest.approx(0.35513, abs=3e-5)
+    assert share[0] == pytest.approx(0.35513, abs=1e-5)
+    assert share[-1] == pytest.approx(0.35513, abs=1e-5)
 
 
 @pytest.mark.parametrize("law", ["stiffness", "rigid"])
@@ -77,7 +77,7 @@ MODIFICATIONS = st.builds(
 @given(st.sampled_from([FZG_A, FZG_C, *HELICAL]), st.floats(1e8, 1e12), MODIFICATIONS)
 def test_slices_have_one_approach_and_carry_the_force(drawing, stiffness, modification):
     """Loaded slices have w/c + f in common, and unloaded ones a larger opening f."""
-    plane, loads = loads_of(drawing, stiffness=stiffness, modification=modification, phases=7, slices=9)
+    plane, loads = loads_of(drawing, stiffness=stiffness, modification=modification)
     assert loads.normal_force == pytest.approx(FORCE, rel=1e-9)
     opening = modification.opening(plane, loads.places, loads.across)
     ratio = plane.path.contact_ratio
@@ -95,12 +95,12 @@ def test_slices_have_one_approach_and_carry_the_force(drawing, stiffness, modifi
 
 def test_the_mean_stiffness_over_a_phase_is_that_of_the_mesh():
     """The force over the approach, averaged over a phase, is c_gamma b for equal slices."""
-    plane, loads = loads_of(FZG_C, phases=20_000, slices=1)
+    plane, loads = loads_of(FZG_C)
     ratio = plane.path.contact_ratio
     b0 = 1.0 / math.sqrt((1.0 + 0.5 * ratio) ** 2 / 2.0 - 1.0)
     xi = (loads.places - plane.path.start) / plane.path.base_pitch
     shape = np.nansum(np.cos(b0 * (xi - 0.5 * ratio)), axis=(1, 2))
-    assert np.mean(shape) * b0 / (2.0 * math.sin(0.5 * b0 * ratio)) == pytest.approx(1.0, rel=1e-4)
+    assert loads.weights @ shape * b0 / (2.0 * math.sin(0.5 * b0 * ratio)) == pytest.approx(1.0, rel=1e-7)
 
 
 @pytest.mark.parametrize("drawing", [FZG_C, *HELICAL])
@@ -114,8 +114,11 @@ def test_no_relief_and_no_crowning_is_the_plain_pair(drawing):
 def test_soft_teeth_do_not_feel_relief(drawing):
     """A deflection far above the relief closes all openings."""
     modification = Modification(5e-6, 5e-6, 1e-3, 5e-6)
-    soft = loads_of(drawing, stiffness=1e3, modification=modification)[1].load
-    assert soft == pytest.approx(loads_of(drawing)[1].load, rel=1e-3, nan_ok=True)
+    plane, soft = loads_of(drawing, stiffness=1e3, modification=modification)
+    stiffness = np.nan_to_num(single_stiffness(plane, soft.places, 1e3))
+    approach = FORCE / np.sum(stiffness * soft.length, axis=(1, 2))
+    expected = stiffness * approach[:, np.newaxis, np.newaxis]
+    assert np.nan_to_num(soft.load) == pytest.approx(expected, rel=1e-3)
 
 
 def test_stiff_teeth_do_not_touch_where_they_are_relieved():
@@ -140,11 +143,47 @@ def test_tip_relief_thickens_films_at_both_ends():
 
 
 def test_crowning_moves_load_to_the_middle_of_the_face():
-    _, loads = loads_of(FZG_C, modification=Modification(crowning=5e-6), slices=11)
-    line = loads.load[24, :, :]
+    _, loads = loads_of(FZG_C, modification=Modification(crowning=5e-6))
+    line = loads.load[loads.load.shape[0] // 2]
     line = line[~np.all(np.isnan(line), axis=1)][0]
-    assert np.all(np.diff(line[:6]) > 0.0)
+    line = line[~np.isnan(line)]
+    assert np.all(np.diff(line[: line.size // 2 + 1]) > 0.0)
     assert line == pytest.approx(line[::-1], rel=1e-9)
+
+
+@pytest.mark.parametrize("drawing", [FZG_C, *HELICAL])
+def test_loads_end_where_the_flanks_open(drawing):
+    """A pair that relief and crowning open in part: the load is zero from the place on at which f = delta."""
+    modification = Modification(30e-6, 30e-6, 2e-3, 20e-6)
+    plane, loads = loads_of(drawing, modification=modification)
+    opening = modification.opening(plane, loads.places, loads.across)
+    approach = np.nanmax(loads.load / single_stiffness(plane, loads.places, STIFF) + opening, axis=(1, 2),
+                         where=loads.load > 0.0, initial=0.0)[:, np.newaxis, np.newaxis]  # fmt: skip
+    present = ~np.isnan(loads.load)
+    unloaded = present & (loads.load == 0.0)
+    assert np.any(unloaded)
+    assert np.all((opening >= (1.0 - 1e-4) * approach)[unloaded])
+    # Lengths of pieces with and without a load add up to the length of the lines.
+    lengths = [plane.length(phase) for phase in loads.phases]
+    assert np.sum(loads.length, axis=(1, 2)) == pytest.approx(lengths, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    "modification", [PLAIN, Modification(20e-6, 20e-6, 2e-3), Modification(crowning=20e-6)]
+)
+@pytest.mark.parametrize("drawing", [FZG_C, *HELICAL])
+def test_sums_of_powers_of_the_load_converge(drawing, modification):
+    """Capacitance and area change with powers of the load near 0.4 and 0.5. Twice as many nodes change their
+    means over a phase by less than 0.1 %.
+    """
+    for power in (0.4, 0.5, 1.0, 2.0):
+        coarse, fine = (
+            loads.mean(loads.along(loads.load**power))
+            for loads in (
+                loads_of(drawing, modification=modification, accuracy=number)[1] for number in (1, 2)
+            )
+        )
+        assert coarse == pytest.approx(fine, rel=1e-3)
 
 
 def test_shares_of_the_standard():
@@ -172,16 +211,16 @@ def test_shares_with_as_much_relief_as_deflection():
 
 
 def test_helical_shares_of_the_standard_are_the_mean_load_but_at_the_ends():
-    plane, loads = loads_of(FIRST_STAGE, "iso", slices=400)
+    plane, loads = loads_of(FIRST_STAGE, "iso")
     mean = FORCE / plane.mean_length
     inside = (loads.places > plane.path.start + 0.2e-3) & (loads.places < plane.path.end - 0.2e-3)
     assert loads.load[inside] == pytest.approx(mean, rel=1e-9)
-    assert np.nanmax(loads.load) == pytest.approx(1.3 * mean, rel=0.05)
+    assert np.nanmax(loads.load) == pytest.approx(1.3 * mean, rel=1e-4)
 
 
 @pytest.mark.parametrize("drawing", HELICAL)
 def test_rigid_lines_have_one_load(drawing):
-    plane, loads = loads_of(drawing, "rigid", slices=2000)
+    plane, loads = loads_of(drawing, "rigid")
     for phase, load in zip(loads.phases, loads.load, strict=True):
         assert np.nanmax(load) == np.nanmin(load)
-        assert np.nanmax(load) == pytest.approx(FORCE / plane.length(phase), rel=2e-3)
+        assert np.nanmax(load) == pytest.approx(FORCE / plane.length(phase), rel=1e-12)

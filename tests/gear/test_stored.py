@@ -79,16 +79,21 @@ def test_numbers_that_differ_make_another_result(spur):
 def test_the_file_describes_its_variables(helical):
     """Lines of contact are where their phase and their helix put them, as in section A of ISO 21771."""
     dataset = helical.to_xarray()
-    assert dict(dataset.sizes) == {"phase": 48, "line": dataset.sizes["line"], "slice": 48, "point": 5}
+    loads = helical.solution.loads
+    assert dict(dataset.sizes) == dict(zip(("phase", "line", "node"), loads.places.shape, strict=True)) | {
+        "point": 5
+    }
     assert list(dataset["point"].values) == list("ABCDE")
     assert dataset["load"].attrs["units"] == "N/m"
     assert dataset["film_minimum"].attrs["units"] == "m"
-    place, pitch = dataset["place"].values, helical.solution.path.base_pitch
-    step = math.tan(helical.solution.path.base_helix_angle) * float(dataset["slice"][1] - dataset["slice"][0])
-    inside = ~np.isnan(place[:, :, 1:]) & ~np.isnan(place[:, :, :-1])
-    assert np.diff(place, axis=2)[inside] == pytest.approx(step)
-    both = ~np.isnan(place[1:]) & ~np.isnan(place[:-1])
-    assert np.diff(place, axis=0)[both] == pytest.approx(pitch / 48)
+    assert float(dataset["phase_weight"].sum()) == pytest.approx(1.0)
+    path = helical.solution.path
+    x = dataset["place"].values - path.start - math.tan(path.base_helix_angle) * dataset["across"].values
+    number = x / path.base_pitch - dataset["phase"].values[:, None, None]
+    present = ~np.isnan(number)
+    assert number[present] == pytest.approx(np.round(number[present]), abs=1e-6)
+    lengths = [helical.solution.plane.length(phase) for phase in dataset["phase"].values]
+    assert dataset["length"].sum(("line", "node")).values == pytest.approx(lengths, rel=1e-12)
 
 
 @each(
@@ -98,7 +103,9 @@ def test_the_file_describes_its_variables(helical):
         ("film_minimum", lambda values: -values),
         ("place", lambda values: values + 1e-6),
         ("place", lambda values: values[:, :, :0]),
-        ("slice", lambda values: 0.5 * values),
+        ("across", lambda values: 3.0 * values),
+        ("length", lambda values: 0.5 * values),
+        ("phase_weight", lambda values: 0.5 * values),
         ("phase", lambda values: 0.0 * values),
         ("load", lambda values: np.nan * values),
         ("film_known", lambda values: values + 2),

@@ -36,25 +36,40 @@ _NEAR = 4.0
 _ROOM, _CUT = 1.08, 4.0
 
 
-# Rows and columns of the map of a flank.
+# Rows and columns of the map of a flank, and overlap ratio up to which lines are taken as straight along it.
 _ROWS, _COLUMNS = 360, 240
+_STRAIGHT = 0.1
 
 
-def over_flank(result: GearResult, values: Array) -> tuple[Array, Array]:
-    """Map values at lines of contact, shape (phases, lines, slices), on the flank. Returns places g, shape
-    (m,), and values there in each slice, shape (m, slices).
+def over_flank(result: GearResult, values: Array) -> tuple[Array, Array, Array]:
+    """Map values at lines of contact, shape (phases, lines, nodes), on the flank. Returns places g, shape
+    (m,), places y on the face, shape (n,), and values there, shape (m, n).
 
-    A line of contact passes each place of the flank at one phase, so that the value there is one number.
+    A line of contact passes each place of the flank at one phase, so that the value there is one number. It
+    is interpolated along the two nearest lines, and between them.
     """
-    path, places = result.solution.path, result.solution.loads.places
-    g = path.start + (np.arange(_ROWS) + 0.5) / _ROWS * path.length
-    columns = []
-    for k in range(places.shape[-1]):
-        inside = ~np.isnan(places[:, :, k])
-        at, known = places[:, :, k][inside], values[:, :, k][inside]
-        order = np.argsort(at)
-        columns.append(np.interp(g, at[order], known[order]))
-    return g, np.column_stack(columns)
+    path, width, loads = result.solution.path, result.solution.pair.face_width, result.solution.loads
+    g = np.linspace(path.start, path.end, _ROWS)
+    y = (np.arange(_COLUMNS) + 0.5) / _COLUMNS * width
+    straight = result.solution.plane.overlap_ratio < _STRAIGHT
+    along, nodes = (y, loads.across) if straight else (g, loads.places)
+    slope = math.tan(path.base_helix_angle)
+    begins, rows = [], []
+    for line in np.ndindex(loads.places.shape[:2]):
+        at = ~np.isnan(loads.places[line])
+        if np.any(at):
+            begins.append(float((loads.places[line] - slope * loads.across[line])[at][0]))
+            rows.append(np.interp(along, nodes[line][at], values[line][at]))
+    order = np.argsort(begins)
+    begin, of_lines = np.array(begins)[order], np.array(rows)[order]
+    target = g[:, np.newaxis] - slope * y
+    after = np.clip(np.searchsorted(begin, target), 1, begin.size - 1)
+    part = np.clip((target - begin[after - 1]) / (begin[after] - begin[after - 1]), 0.0, 1.0)
+    k = np.arange(_COLUMNS) if straight else np.arange(_ROWS)[:, np.newaxis]
+    before, behind = of_lines[after - 1, k], of_lines[after, k]
+    # Outside of all lines, and next to a single one, the nearest line has the value.
+    between = np.where(part == 0.0, before, np.where(part == 1.0, behind, before + part * (behind - before)))
+    return g, y, between
 
 
 @dataclass(frozen=True)
@@ -68,8 +83,8 @@ class OverPath:
 
     @classmethod
     def of(cls, result: GearResult, values: Array) -> OverPath:
-        """Values of all lines of contact, shape (phases, lines, slices), by their places; NaN is no value."""
-        places, on_flank = over_flank(result, values)
+        """Values of all lines of contact, shape (phases, lines, nodes), by their places; NaN is no value."""
+        places, _, on_flank = over_flank(result, values)
         some = ~np.all(np.isnan(on_flank), axis=1)
         places, on_flank = places[some], on_flank[some]
         return cls(places, *(part(on_flank, axis=1) for part in (np.nanmean, np.nanmin, np.nanmax)))
@@ -265,12 +280,7 @@ def flank_map(result: GearResult) -> tuple[Array, Array, Array]:
     """Minimum film on the flank: places g on the path of contact, shape (m,), places y on the face, shape
     (n,), and films [m], shape (m, n); NaN where the flanks carry no load.
     """
-    g, of_slices = over_flank(result, result.solution.films.minimum)
-    across, width = result.solution.loads.across, result.solution.pair.face_width
-    y = (np.arange(_COLUMNS) + 0.5) / _COLUMNS * width
-    if across.size == 1:
-        return g, y, np.broadcast_to(of_slices, (_ROWS, _COLUMNS))
-    return g, y, np.array([np.interp(y, across, row) for row in of_slices])
+    return over_flank(result, result.solution.films.minimum)
 
 
 def flank_lines(result: GearResult) -> Iterator[tuple[Array, Array]]:
@@ -278,18 +288,14 @@ def flank_lines(result: GearResult) -> Iterator[tuple[Array, Array]]:
     of shape (n,); g is NaN where a line carries no load.
     """
     solution = result.solution
-    films = solution.films.minimum
-    phase = solution.thinnest[0]
+    phase, loads = solution.thinnest[0], solution.loads
     y = np.linspace(0.0, solution.pair.face_width, _COLUMNS)
-    slices = np.minimum((y / solution.pair.face_width * films.shape[2]).astype(int), films.shape[2] - 1)
     slope = math.tan(solution.path.base_helix_angle)
-    for line, places in enumerate(solution.loads.places[phase]):
-        if np.all(np.isnan(places)):
-            continue
-        k = int(np.flatnonzero(~np.isnan(places))[0])
-        g = places[k] + slope * (y - solution.loads.across[k])
-        without = (solution.loads.load[phase, line] == 0.0)[slices]
-        yield y, np.where(without, np.nan, g)
+    for places, nodes, load in zip(loads.places[phase], loads.across[phase], loads.load[phase], strict=True):
+        at = ~np.isnan(places)
+        if np.any(at):
+            without = np.interp(y, nodes[at], load[at] == 0.0) > 0.5
+            yield y, np.where(without, np.nan, places[at][0] + slope * (y - nodes[at][0]))
 
 
 # Parts of the flank of gear 1 at both ends of the path of contact.
@@ -366,7 +372,7 @@ def mesh_finding(result: GearResult) -> str:
     """Sentence: breakdown voltage and capacitance over a phase, or why there is no voltage."""
     phase, state = result.over_phase(), state_of(result.solution)
     capacitance = f"capacitance {_range(phase['capacitance'], 'F')}"
-    share = f"metallic contact {time_share_text(float(np.mean(phase['contact_time_share'])))}"
+    share = f"metallic contact {time_share_text(float(phase['contact_time_share'] @ phase['phase_weight']))}"
     if state == CONDUCTS:
         return f"The mesh conducts: {share}; {capacitance}"
     if result.solution.strength is None:
@@ -375,7 +381,7 @@ def mesh_finding(result: GearResult) -> str:
     lead = f"The mesh {state}"
     if applied is not None:
         lead = f"{result.verdict.lead} at {_prefixed(applied, 'V')}"
-    touching = float(np.mean(voltage == 0.0))
+    touching = float((voltage == 0.0) @ phase["phase_weight"])
     if touching == 1.0:
         return f"{lead}: the highest summits touch at all phases, no breakdown voltage; {capacitance}"
     if touching:

@@ -31,7 +31,7 @@ def state_of(solution: GearSolution) -> str:
     conduction = solution.case.gear.contact.conduction
     if conduction != "by-film":
         return CONDUCTS if conduction == "always" else INSULATES
-    share = float(np.mean(solution.contact_time_share()))
+    share = solution.loads.mean(solution.contact_time_share())
     return CONDUCTS if share >= _CONDUCTING else INSULATES if share <= _INSULATING else AT_TIMES
 
 
@@ -55,7 +55,7 @@ def gear_verdict(solution: GearSolution) -> Verdict:
     at = _operating_point(solution)
     state = state_of(solution)
     breakdown = solution.breakdown_voltage
-    share = float(np.mean(solution.contact_time_share()))
+    share = solution.loads.mean(solution.contact_time_share())
     ratio = float(np.nanmin(solution.films.minimum)) / solution.rq
     assumed = tuple(_assumptions(solution))
     given = solution.case.gear.contact.conduction != "by-film"

@@ -35,8 +35,8 @@ def _outside_atlas(solution: GearSolution) -> Iterator[ResultWarning]:
     capacitance. Lines that relief nearly unloads have thick films outside the atlas.
     """
     outside = solution.outside_atlas
-    capacitance = solution.capacitance_of_lines
-    share = float(np.sum(capacitance[outside]) / np.nansum(capacitance))
+    loads, capacitance = solution.loads, solution.capacitance_of_lines
+    share = loads.mean(loads.along(outside * capacitance)) / loads.mean(loads.along(capacitance))
     if outside[solution.thinnest] or share > _OUTSIDE:
         error = 100.0 * min(1.0, float(np.max(solution.films.error[outside])))
         yield ResultWarning.of("flank-outside-atlas", percent=error)

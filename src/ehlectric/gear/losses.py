@@ -17,9 +17,6 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
-from ehlectric.arrays import Array
 from ehlectric.gear.contact_path import ContactPath
 from ehlectric.gear.geometry import GearPair
 
@@ -46,12 +43,3 @@ def bulk_temperature(
     per_area = 1e-3 * abs(power) * friction * factor / (1e6 * abs(distance) * width)
     rise: float = _RISE * per_area**_EXPONENT * _INJECTED / 1.2
     return oil_temperature + rise
-
-
-def sliding_power(load: Array, sliding_speed: Array, slice_length: float) -> Array:
-    """Integral of w abs(v_1 - v_2) over all lines at each phase [W per unit of friction coefficient].
-
-    ``load`` [N/m] and ``sliding_speed`` [m/s] of the lines of contact, shape (p, k, s).
-    """
-    power: Array = slice_length * np.nansum(load * np.abs(sliding_speed), axis=(1, 2))
-    return power

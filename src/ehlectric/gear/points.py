@@ -37,7 +37,7 @@ def path_points(solution: GearSolution) -> Iterator[PathPoint]:
 def weakest(solution: GearSolution) -> tuple[float, float]:
     """Place g on the path of contact and place y on the face of the smallest film [m]."""
     index = solution.thinnest
-    return float(solution.films.places[index]), float(solution.loads.across[index[2]])
+    return float(solution.films.places[index]), float(solution.loads.across[index])
 
 
 def name_of_place(solution: GearSolution, place: float) -> str:

@@ -101,11 +101,14 @@ class GearResult(Shown):
     def over_phase(self) -> dict[str, np.ndarray]:
         """Return capacitance [F], breakdown voltage [V] and share of time with metallic contact over the
         phase of the mesh, each of shape (p,); the voltage is NaN without a dielectric strength.
+
+        A mean over the phase is the sum of the values times ``phase_weight``.
         """
         solution = self.solution
         voltage = solution.breakdown_voltage
         return {
             "phase": solution.loads.phases,
+            "phase_weight": solution.loads.weights,
             "capacitance": solution.capacitance,
             "breakdown_voltage": np.full_like(solution.capacitance, np.nan) if voltage is None else voltage,
             "contact_time_share": solution.contact_time_share(),

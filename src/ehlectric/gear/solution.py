@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import field, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -23,7 +24,7 @@ from ehlectric.gear.contact_path import ContactPath, contact_path
 from ehlectric.gear.flank_films import FlankFilms, Flanks, flank_films
 from ehlectric.gear.geometry import Drawing, GearPair, gear_pair
 from ehlectric.gear.load_sharing import SIDES, LineLoads, Modification, line_loads, load_at
-from ehlectric.gear.losses import bulk_temperature, loss_factor, sliding_power
+from ehlectric.gear.losses import bulk_temperature, loss_factor
 from ehlectric.gear.mesh_capacitance import back_capacitance, capacitance_per_length
 from ehlectric.gear.tooth_stiffness import mesh_stiffness, pair_stiffness
 from ehlectric.lubricant.heat_laws import ASSUMED_CONDUCTIVITY
@@ -33,16 +34,13 @@ from ehlectric.quantities.field_metadata import stored
 # factor by which it may be wrong either way.
 REFERENCE_AREA, AREA_FACTOR = 1e-6, 3.0
 
-# Phases and slices of a helical face, and of a spur face without crowning.
-_PHASES, _SLICES = 48, 48
-
 
 @dataclass(frozen=True)
 class GearSolution:
     """Mesh of a gear pair at its operating point.
 
-    Arrays over the lines of contact have the shape (p, k, s) of phases, lines and slices of the face; NaN
-    where there is no contact.
+    Arrays over the lines of contact have the shape (p, k, s) of phases, lines and nodes of a line; NaN where
+    there is no contact.
     """
 
     case: GearCase
@@ -56,7 +54,7 @@ class GearSolution:
     bulk_temperature: float  # temperature of the flanks [K]
     stiffness: float  # c' of a pair of teeth per face width [N/m^2]
     # Capacitance per length of the lines.
-    capacitance_of_lines: Array = field(metadata=stored("phase line slice", "F/m", "not negative or NaN"))
+    capacitance_of_lines: Array = field(metadata=stored("phase line node", "F/m", "not negative or NaN"))
 
     @property
     def path(self) -> ContactPath:
@@ -120,8 +118,7 @@ class GearSolution:
     @property
     def capacitance(self) -> Array:
         """Capacitance of the mesh at each phase, shape (p,) [F], with the flanks behind the working ones."""
-        lines: Array = self.loads.slice_length * np.nansum(self.capacitance_of_lines, axis=(1, 2))
-        return np.asarray(lines + self.back_capacitance)
+        return self.loads.along(self.capacitance_of_lines) + self.back_capacitance
 
     @property
     def back_capacitance(self) -> float:
@@ -142,20 +139,22 @@ class GearSolution:
         ``area_factor``, factor on the reference area.
         """
         given = self.case.gear.contact.reference_area
-        area = area_factor * (REFERENCE_AREA if given is None else given)
-        ratio = np.nan_to_num(self.films.central / self.rq, nan=math.inf)
-        share = contact_probability(ratio)
+        return -np.expm1(self._open / (area_factor * (REFERENCE_AREA if given is None else given)))
+
+    @cached_property
+    def _open(self) -> Array:
+        """Integral of ln(1 - p(lambda)) over the Hertz area at each phase, shape (p,) [m^2]."""
+        share = contact_probability(np.nan_to_num(self.films.central / self.rq, nan=math.inf))
         with np.errstate(divide="ignore"):
             closed = np.log1p(-share)
-        patch = 2.0 * np.nan_to_num(self.films.half_width) * self.loads.slice_length / area
-        exponent = np.where(patch > 0.0, patch * closed, 0.0)
-        return np.asarray(-np.expm1(np.sum(exponent, axis=(1, 2))))
+        width = 2.0 * np.nan_to_num(self.films.half_width)
+        return self.loads.along(np.where(width > 0.0, width * closed, 0.0))
 
     @property
     def sliding_power(self) -> float:
         """Mean over the phases of the integral of w abs(v_g) over all lines [W]."""
         films = self.films
-        return float(np.mean(sliding_power(films.load, films.sliding_speed, self.loads.slice_length)))
+        return self.loads.mean(self.loads.along(films.load * np.abs(films.sliding_speed)))
 
 
 @dataclass(frozen=True)
@@ -193,17 +192,14 @@ def solve_gear_pair(case: GearCase) -> GearSolution:
     oil without a value at the temperature of the flanks.
     """
     gear, at = case.gear, OperatingPair.of(case)
-    uniform = at.pair.helix_angle == 0.0 and gear.lead_crowning == 0.0
     loads = line_loads(
         at.plane,
         _normal_force(gear, at.pair),
         gear.operation.load_sharing,
         stiffness=mesh_stiffness(at.stiffness, at.plane.path.contact_ratio),
         modification=modification_of(gear),
-        phases=_PHASES * (4 if uniform else 1),
-        slices=1 if uniform else _SLICES,
     )
-    films = _films(case, at.flanks, loads)
+    films = _films(case, at.plane, at.flanks, loads)
     return GearSolution(
         case=case,
         pair=at.pair,
@@ -211,30 +207,30 @@ def solve_gear_pair(case: GearCase) -> GearSolution:
         flanks=at.flanks,
         loads=loads,
         films=replace(films, atlas=None),
-        point_films=replace(_point_films(case, at.flanks, loads, films), atlas=None),
+        point_films=replace(_point_films(case, at, loads, films), atlas=None),
         bulk_temperature=at.bulk_temperature,
         stiffness=at.stiffness,
         capacitance_of_lines=capacitance_per_length(at.flanks, films),
     )
 
 
-def _films(case: GearCase, flanks: Flanks, loads: LineLoads) -> FlankFilms:
+def _films(case: GearCase, plane: PlaneOfAction, flanks: Flanks, loads: LineLoads) -> FlankFilms:
     """Films on all lines in the way that the file asks for."""
     if case.contacts != "solved":
         return flank_films(flanks, loads.places, loads.load, by_formula=case.contacts == "formula")
     from ehlectric.gear.solved_points import corrected, solve_points  # late: the atlas needs no solver
 
     films = flank_films(flanks, loads.places, loads.load)
-    places, load = _places_to_solve(flanks.path, loads, films)
+    places, load = _places_to_solve(plane, loads, films)
     points = list(solve_points(flanks, places, load))
     return corrected(films, flank_films(flanks, places, load), points)
 
 
-def _places_to_solve(path: ContactPath, loads: LineLoads, films: FlankFilms) -> tuple[Array, Array]:
+def _places_to_solve(plane: PlaneOfAction, loads: LineLoads, films: FlankFilms) -> tuple[Array, Array]:
     """Places of the points of the path that carry load, and of the smallest film, with their loads."""
     places, load = [float(loads.places[films.thinnest])], [float(loads.load[films.thinnest])]
-    for name, place in path.points.items():
-        mean = load_at(path, loads, place, SIDES[name])
+    for name, place in plane.path.points.items():
+        mean = load_at(plane, loads, place, SIDES[name])
         if mean > 0.0:
             places.append(place)
             load.append(mean)
@@ -312,14 +308,15 @@ def _flanks(case: GearCase, pair: GearPair, path: ContactPath, temperature: floa
     )
 
 
-def _point_films(case: GearCase, flanks: Flanks, loads: LineLoads, films: FlankFilms) -> FlankFilms:
+def _point_films(case: GearCase, pair: OperatingPair, loads: LineLoads, films: FlankFilms) -> FlankFilms:
     """Films at the points A to E under the mean over the phases of the load there, arrays of shape (5,).
 
     Where films are solved, the ratio of solved film and film of the atlas on the nearest line corrects them.
     """
-    points = flanks.path.points
+    plane, flanks = pair.plane, pair.flanks
+    points = plane.path.points
     places = np.array(list(points.values()))
-    load = np.array([load_at(flanks.path, loads, place, SIDES[name]) for name, place in points.items()])
+    load = np.array([load_at(plane, loads, place, SIDES[name]) for name, place in points.items()])
     at = flank_films(flanks, places, load, by_formula=case.contacts == "formula")
     if case.contacts != "solved":
         return at

@@ -6,11 +6,13 @@ geometry follows from the case in closed form.
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ehlectric.cases.gear_case import GearCase
+from ehlectric.gear.contact_lines import PlaneOfAction
 from ehlectric.gear.contact_path import POINTS
 from ehlectric.gear.flank_films import FlankFilms
 from ehlectric.gear.load_sharing import LineLoads
@@ -25,14 +27,14 @@ if TYPE_CHECKING:
 # Name and version of the layout of gear.nc.
 SCHEMA = "ehlectric.gear.result/1"
 
-_LINES, _POINT = ("phase", "line", "slice"), "point"
+_LINES, _POINT = ("phase", "line", "node"), "point"
 _SOLUTION, _LOADS = Part(GearSolution), Part(LineLoads)
 # Places of the films are the places of the loads.
 _FILMS = Part(FlankFilms, prefix="film_", axes={"place": _LINES})
 _POINT_FILMS = Part(FlankFilms, prefix="point_", axes={"place": (_POINT,)})
 _PARTS = (_SOLUTION, _LOADS, _FILMS, _POINT_FILMS)
 
-# Rounding of places that are computed again from the case [m].
+# Rounding of nodes that are computed again from the case [m].
 _ROUNDING = 1e-9
 
 
@@ -61,11 +63,8 @@ def solution_of(dataset: xr.Dataset) -> tuple[GearSolution, float, str]:
     if dataset.sizes[_POINT] != len(POINTS):
         raise UnfitError(f"it has {dataset.sizes[_POINT]} values along {_POINT}, not {len(POINTS)}")
     values, at = values_of(dataset), OperatingPair.of(case)
-    width = at.pair.face_width / dataset.sizes["slice"]
-    loads = LineLoads(
-        **_LOADS.read(values), slice_length=width / float(np.cos(at.plane.path.base_helix_angle))
-    )
-    _check_places(at, loads)
+    loads = LineLoads(**_LOADS.read(values))
+    _check_nodes(at.plane, loads)
     solution = GearSolution(
         case=case,
         pair=at.pair,
@@ -81,16 +80,22 @@ def solution_of(dataset: xr.Dataset) -> tuple[GearSolution, float, str]:
     return solution, number_of(attributes, "seconds"), text_of(attributes, "version")
 
 
-def _check_places(at: OperatingPair, loads: LineLoads) -> None:
-    """Check that slices and lines of contact belong to the gear pair, and thus its films."""
-    slices = loads.across.size
-    middles = (np.arange(slices) + 0.5) / slices * at.pair.face_width
-    if not np.allclose(middles, loads.across, rtol=0.0, atol=_ROUNDING):
-        raise UnfitError("slice does not belong to the face width of its case")
-    places = at.plane.places(loads.phases, loads.across)
-    if places.shape != loads.places.shape or not np.allclose(
-        places, loads.places, rtol=0.0, atol=_ROUNDING, equal_nan=True
-    ):
-        raise UnfitError("place does not belong to the gear pair of its case")
+def _check_nodes(plane: PlaneOfAction, loads: LineLoads) -> None:
+    """Check that lines and films belong to the gear pair: each node is on a line of contact, and the lengths
+    add up to the length of all lines.
+    """
+    path, tolerance = plane.path, _ROUNDING / plane.path.base_pitch
+    if not math.isclose(float(np.sum(loads.weights)), 1.0, rel_tol=_ROUNDING):
+        raise UnfitError("phase_weight is not a part of the phase")
+    shift = loads.across * math.tan(path.base_helix_angle)
+    phase = (loads.places - path.start - shift) / path.base_pitch - loads.phases[:, None, None]
+    lengths = [plane.length(phase) for phase in loads.phases.tolist()]
+    for name, off in {
+        "place": np.abs(phase - np.round(phase)) - tolerance,
+        "across": np.abs(loads.across - 0.5 * plane.face_width) - 0.5 * plane.face_width - _ROUNDING,
+        "length": np.abs(np.sum(loads.length, axis=(1, 2)) - lengths) - _ROUNDING,
+    }.items():
+        if np.any(off > 0.0):
+            raise UnfitError(f"{name} does not belong to the gear pair of its case")
     if np.all(np.isnan(loads.load)):
         raise UnfitError("load has no number")

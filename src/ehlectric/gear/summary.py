@@ -65,12 +65,12 @@ def _mesh(solution: GearSolution) -> dict[str, Any]:
     voltage, strength = solution.breakdown_voltage, solution.strength
     thinnest = float(np.nanmin(films.minimum))
     place, across = weakest(solution)
-    mean = float(np.mean(capacitance))
+    loads = solution.loads
+    mean = loads.mean(capacitance)
     # Summits that touch leave no film to break down.
     first = None if voltage is None else float(np.min(voltage)) or None
     relaxation = solution.leakage.relaxation_time
-    area = solution.loads.slice_length * np.nansum(2.0 * films.half_width, axis=(1, 2))
-    shares = [float(np.mean(solution.contact_time_share(f))) for f in (1.0, AREA_FACTOR, 1.0 / AREA_FACTOR)]
+    shares = [loads.mean(solution.contact_time_share(f)) for f in (1.0, AREA_FACTOR, 1.0 / AREA_FACTOR)]
     return {
         "state": state_of(solution),
         "minimum_thickness": thinnest,
@@ -83,7 +83,7 @@ def _mesh(solution: GearSolution) -> dict[str, Any]:
         "lambda_ratio": thinnest / solution.rq,
         "lambda_gf": lambda_gf(solution),
         "max_pressure": float(np.nanmax(films.max_pressure)),
-        "contact_area": float(np.mean(area)),
+        "contact_area": loads.mean(loads.along(2.0 * films.half_width)),
         "contact_time_share": shares[0],
         "contact_time_share_low": shares[1],
         "contact_time_share_high": shares[2],

@@ -192,7 +192,13 @@ GEAR_KEYS: Keys = {
     },
 }
 # Columns of mesh.csv, with their units.
-PHASE_COLUMNS = {"phase": "", "capacitance": "F", "breakdown_voltage": "V", "contact_time_share": ""}
+PHASE_COLUMNS = {
+    "phase": "",
+    "capacitance": "F",
+    "breakdown_voltage": "V",
+    "contact_time_share": "",
+    "phase_weight": "",
+}
 GEAR_BOOK: Keys = {**GEAR_KEYS, **_read("gear", stored=False)}
 EVENT_KEYS: Keys = _within("event", _DRIVE)
 EVENT_COLUMNS = {name: quantity.unit for name, quantity in EVENT_KEYS.items()}

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from ehlectric.quantities.formats import SELDOM
 from ehlectric.quantities.results import GEAR_BOOK, PATH_POINTS, POINT_KEYS
-from ehlectric.quantities.rows import Row, Summary, row_of, sheet_rows
+from ehlectric.quantities.rows import Row, RowTexts, Summary, row_of, sheet_rows, value_at
 from ehlectric.quantities.sheets import GEAR
 from ehlectric.tables.measured_tables import columns_table
 
@@ -14,9 +15,18 @@ if TYPE_CHECKING:
     from rich.table import Table
 
 
+# Shares of time, which have no digits if they are very small.
+_SHARES = ("mesh.contact_time_share", "mesh.contact_time_share_low", "mesh.contact_time_share_high")
+
+
 def gear_rows(summary: Summary) -> list[Row]:
     """Rows of the key figures of a gear pair."""
-    return list(sheet_rows(GEAR, GEAR_BOOK, summary))
+    seldom = {key: _seldom for key in _SHARES if 0.0 < value_at(summary, key) < SELDOM}
+    return list(sheet_rows(GEAR, GEAR_BOOK, summary, RowTexts(values=seldom)))
+
+
+def _seldom(_: Summary) -> tuple[str, str]:
+    return f"< {100.0 * SELDOM:g}", "%"
 
 
 def point_rows(summary: Summary) -> Iterator[tuple[str, ...]]:
