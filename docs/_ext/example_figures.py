@@ -40,6 +40,7 @@ _RUNS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
         ("sweep", "breakdown_probability_map.toml"),
         ("map_uncertainty.breakdown_probability.png",),
     ),
+    "gear_map": (("sweep", "gear_map.toml"), ("map_mesh.contact_time_share.png",)),
     "traction_curve": (("sweep", "traction_curve.toml"), ("lines_film.traction_coefficient.png",)),
 }
 
@@ -48,6 +49,10 @@ _THEN = {
     "breakdown_probability_map": (
         *("--x", "bearing.inner_speed", "--y", "bearing.temperature"),
         *("--value", "uncertainty.breakdown_probability"),
+    ),
+    "gear_map": (
+        *("--x", "gear.operation.pinion_speed", "--y", "gear.operation.pinion_torque"),
+        *("--value", "mesh.contact_time_share"),
     ),
     "traction_curve": (
         *("--x", "contact.slide_to_roll_ratio", "--y", "film.thermal"),

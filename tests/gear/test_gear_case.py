@@ -15,7 +15,7 @@ from ehlectric.quantities.results import GEAR_KEYS
 from tests.gear.pairs import FZG_C_CASE, case_of
 from tests.helpers.places import EXAMPLES
 
-FILES = sorted(EXAMPLES.glob("gear_*.toml"))
+FILES = sorted(EXAMPLES.glob("gear_[ps]*.toml"))
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)

@@ -161,6 +161,7 @@ def test_kinds_of_the_examples():
         "bearing_6208": "bearing",
         "bearing_greased": "bearing",
         "bearing_regime_map": "sweep",
+        "gear_map": "sweep",
         "bearing_thin_oil": "bearing",
         "breakdown_probability_map": "sweep",
         "duty_wltc": "bearing",

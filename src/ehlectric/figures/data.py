@@ -151,7 +151,9 @@ class MapPanel:
     between: Mesh | None = field(default=None, repr=False)
     opening: Mesh | None = field(default=None, repr=False)  # cells in which contacts open and close
     limit: Limit | None = None
-    levels: tuple[float, ...] = ()  # values between which areas have names and colours of their own
+    levels: tuple[float, ...] = ()  # values between which areas have colours of their own
+    # Names of the areas below the first level, between levels, and above the last one.
+    areas: tuple[str, ...] = ()
 
 
 def with_unit(name: str, unit: str) -> str:

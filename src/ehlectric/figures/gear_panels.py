@@ -14,8 +14,9 @@ from ehlectric.cases.defaults import HOW
 from ehlectric.dataclass import dataclass
 from ehlectric.figures import contact_findings
 from ehlectric.figures.data import Along, Area, Curve, Panel, Upright
-from ehlectric.gear import CONDUCTS, GearResult, name_of_place, state_of, weakest
+from ehlectric.gear import GearResult, name_of_place, state_of, weakest
 from ehlectric.quantities.formats import amount, operating_point, time_share_text
+from ehlectric.quantities.lubrication_states import CONDUCTS
 from ehlectric.quantities.palette import BLACK, BLUE, GREEN, MIDDLE_GREY, ORANGE, STRENGTH
 from ehlectric.quantities.units import unit_for
 from ehlectric.readable import ratio_text, readable

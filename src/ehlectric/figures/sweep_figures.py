@@ -68,18 +68,18 @@ def of_slice(results: SweepResults, selection: Slice) -> str:
         label, scale = labelled(results, selection.value, selection.values)
         finite = selection.values[np.isfinite(selection.values)]
         if selection.value in TIME_SHARES:
-            return _of_time(finite)
+            return _of_time(TIME_SHARES[selection.value].subject, finite)
         low, high = (readable(scale.of(float(of(finite)))) for of in (np.min, np.max))
         ends = low if low == high else f"{low} to {high}"
         return f"{capital(label.name)}: {ends} {scale.unit}".rstrip()
     return _of_margins(results, selection, margin) + _intermittent(selection)
 
 
-def _of_time(shares: Array) -> str:
-    """Sentence: range of the shares of time in which contacts short bearings."""
+def _of_time(subject: str, shares: Array) -> str:
+    """Sentence: range of the shares of time in which a bearing or a mesh conducts."""
     low, high = (time_share_text(float(of(shares))) for of in (np.min, np.max))
     ends = high if low == high else f"{low.removesuffix(OF_TIME)} to {high}"
-    return f"Contacts short the bearing {ends}"
+    return f"{subject} {ends}"
 
 
 def _intermittent(selection: Slice) -> str:

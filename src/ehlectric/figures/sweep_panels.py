@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -42,8 +43,41 @@ from ehlectric.sweep import (
     surface_of,
 )
 
-# Keys of a bearing's summary that are shares of time, and lines of equal share on their maps.
-TIME_SHARES = ("bearing.contact_time_share", "bearing.touching_time_share", "bearing.clarke_time_share")
+
+@dataclass(frozen=True)
+class TimeShare:
+    """Words for a share of time in which a bearing or a mesh conducts."""
+
+    subject: str  # first words of the sentence that ends with the share
+    # Names of the areas of a map below the first line of equal share, between lines, and above the last one.
+    areas: tuple[str, str, str]
+
+
+_OF_BEARING = TimeShare(
+    "Contacts short the bearing",
+    (
+        "capacitive: contacts short it at most 1 % of the time",
+        "intermittent",
+        "resistive: more than 99 %",
+    ),
+)
+
+# Shares of time by their keys in summaries, and lines of equal share on their maps.
+TIME_SHARES: Mapping[str, TimeShare] = MappingProxyType(
+    {
+        "bearing.contact_time_share": _OF_BEARING,
+        "bearing.touching_time_share": _OF_BEARING,
+        "bearing.clarke_time_share": _OF_BEARING,
+        "mesh.contact_time_share": TimeShare(
+            "The mesh conducts",
+            (
+                "insulates: metallic contact at most 1 % of the time",
+                "conducts at times",
+                "conducts: more than 99 %",
+            ),
+        ),
+    }
+)
 SHARE_LEVELS = (CAPACITIVE, 0.1, 0.5, RESISTIVE)
 
 # Ends of the shares that are drawn: beyond them their quantiles have no finite value.
@@ -98,6 +132,7 @@ def range_text(values: Array, unit: str) -> str:
 _KINDS = {
     "solved": ("dots", BLACK, "points"),
     "intermittent": ("wide cross", ORANGE, "frequent asperity contact: no voltage computed"),
+    "conducting": ("square", AMBER, "the mesh conducts: no voltage to break down"),
     "without this value": ("square", GREY, "without this value"),
     "do not use": ("diamond", ORANGE, "must not be used"),
     "not converged": ("plus", BLACK, "not converged"),
@@ -117,11 +152,12 @@ LESS_ACCURATE = frozenset(code for code, cause in CODES.items() if cause.less_ac
 def kinds(selection: Slice) -> dict[str, Mask]:
     """Mask of the points of each kind of mark, shape (points,); kinds without points are omitted."""
     known, intermittent = np.isfinite(selection.values), selection.intermittent
-    without = selection.of("solved") & ~known & ~selection.doubtful
+    without, conducting = selection.of("solved") & ~known & ~selection.doubtful, selection.conducting
     masks = {
         "solved": selection.of("solved") & known,
         "intermittent": without & intermittent,
-        "without this value": without & ~intermittent,
+        "conducting": without & conducting,
+        "without this value": without & ~intermittent & ~conducting,
         "do not use": selection.doubtful,
         "not converged": selection.of("not converged"),
         "failed": selection.of("failed"),
@@ -204,6 +240,7 @@ def map_panel(results: SweepResults, selection: Slice, *, limited: bool = False)
             "opening": between.mesh(np.ones_like(nodes), opening & ~whole),
             "alone": surface.alone(values),
         }
+    share = TIME_SHARES.get(selection.value)
     return MapPanel(
         axes=(x, y),
         title=label.with_symbol,
@@ -213,7 +250,8 @@ def map_panel(results: SweepResults, selection: Slice, *, limited: bool = False)
         marks=_marks(selection, places[0], places[1], [(np.arange(values.size), "", 1.0)]),
         log=_is_log(selection),
         limit=_limit(selection, between) if selection.of_discharge or limited else None,
-        levels=SHARE_LEVELS if selection.value in TIME_SHARES else (),
+        levels=SHARE_LEVELS if share is not None else (),
+        areas=() if share is None else share.areas,
         **parts,
     )
 

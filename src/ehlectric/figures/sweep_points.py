@@ -96,14 +96,15 @@ def _between(places: Array) -> Array:
     return np.asarray(np.where(jump[nearest, np.newaxis], places[nearest], straight))
 
 
-# Colours and names of the areas between the lines of equal share.
+# Colours of the areas between the lines of equal share, of which the first, second and last have names.
 _AREAS = (
-    (to_rgba(BLUE, 0.25), "capacitive: contacts short it at most 1 % of the time"),
-    (to_rgba(ORANGE, 0.25), "intermittent"),
-    (to_rgba(ORANGE, 0.45), ""),
-    (to_rgba(ORANGE, 0.65), ""),
-    (to_rgba(GREY, 0.65), "resistive: more than 99 %"),
+    to_rgba(BLUE, 0.25),
+    to_rgba(ORANGE, 0.25),
+    to_rgba(ORANGE, 0.45),
+    to_rgba(ORANGE, 0.65),
+    to_rgba(GREY, 0.65),
 )
+_NAMED = (_AREAS[0], _AREAS[1], _AREAS[-1])
 
 
 def draw_regimes(panel: MapPanel, ax: Axes) -> list[Artist]:
@@ -112,11 +113,11 @@ def draw_regimes(panel: MapPanel, ax: Axes) -> list[Artist]:
         # Dots of the points that belong to no cell have the colour of their regime.
         numbers = np.searchsorted(SHARE_LEVELS, panel.values[panel.alone])
         x, y = panel.places[:, panel.alone]
-        colours = [_AREAS[k][0] for k in numbers]
+        colours = [_AREAS[k] for k in numbers]
         ax.scatter(x, y, c=colours, s=40.0, edgecolors="black", lw=0.5, zorder=4.0)
     if panel.between is not None:
         _fill_regimes(triangulated(panel.between), quantile_of(panel.between.values), panel.places.T, ax)
-    return [Patch(facecolor=colour, label=name) for colour, name in _AREAS if name]
+    return [Patch(facecolor=colour, label=name) for colour, name in zip(_NAMED, panel.areas, strict=True)]
 
 
 def triangulated(mesh: Mesh) -> Triangulation:
@@ -129,9 +130,7 @@ def _fill_regimes(mesh: Triangulation, quantiles: Array, taken: Array, ax: Axes)
     levels = scipy.special.ndtri(SHARE_LEVELS)
     shown = quantiles[mesh.get_masked_triangles()]
     ends = min(float(np.min(shown)), levels[0]) - 1.0, max(float(np.max(shown)), levels[-1]) + 1.0
-    ax.tricontourf(
-        mesh, quantiles, levels=[ends[0], *levels, ends[1]], colors=[colour for colour, _ in _AREAS]
-    )
+    ax.tricontourf(mesh, quantiles, levels=[ends[0], *levels, ends[1]], colors=_AREAS)
     inside = [k for k, level in enumerate(levels) if np.min(shown) < level < np.max(shown)]
     if inside:
         inside_levels = [levels[k] for k in inside]

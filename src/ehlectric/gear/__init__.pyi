@@ -1,6 +1,5 @@
 """Names of gear that other packages may import."""
 
-from .gear_verdict import CONDUCTS as CONDUCTS
 from .gear_verdict import state_of as state_of
 from .gear_warnings import gear_warnings as gear_warnings
 from .points import name_of_place as name_of_place

@@ -16,14 +16,12 @@ from ehlectric.discharge.breakdown_rule import (
 )
 from ehlectric.discharge.film_verdict import no_verdict, strength_clause, strength_doubt
 from ehlectric.gear.solution import GearSolution
+from ehlectric.quantities.lubrication_states import AT_TIMES, CONDUCTS, INSULATES
 from ehlectric.quantities.statement import Fact, Statement
 from ehlectric.quantities.verdict import Verdict
 
 # Shares of time up to which a mesh is called insulating, and from which it is called conducting.
 _INSULATING, _CONDUCTING = 0.01, 0.99
-
-# States of a mesh.
-CONDUCTS, AT_TIMES, INSULATES = "conducts", "conducts at times", "insulates"
 
 
 def state_of(solution: GearSolution) -> str:
@@ -36,11 +34,11 @@ def state_of(solution: GearSolution) -> str:
 
 
 def breakdown_margin(solution: GearSolution) -> float | None:
-    """Smallest breakdown voltage over the voltage between both gears; None without one of them, and where
-    summits touch.
+    """Smallest breakdown voltage over the voltage between both gears; None without one of them, where summits
+    touch, and for a mesh that conducts.
     """
     voltage, breakdown = solution.case.gear.contact.voltage, solution.breakdown_voltage
-    if voltage is None or breakdown is None or not np.min(breakdown):
+    if voltage is None or breakdown is None or not np.min(breakdown) or state_of(solution) == CONDUCTS:
         return None
     return float(np.min(breakdown)) / voltage
 

@@ -13,6 +13,7 @@ from ehlectric.gear.iso_film import lambda_gf
 from ehlectric.gear.losses import loss_factor
 from ehlectric.gear.points import PathPoint, name_of_place, path_points, weakest
 from ehlectric.gear.solution import AREA_FACTOR, GearSolution
+from ehlectric.quantities.lubrication_states import CONDUCTS
 
 
 def gear_summary(solution: GearSolution) -> dict[str, Any]:
@@ -67,12 +68,15 @@ def _mesh(solution: GearSolution) -> dict[str, Any]:
     place, across = weakest(solution)
     loads = solution.loads
     mean = loads.mean(capacitance)
+    state = state_of(solution)
+    if state == CONDUCTS:
+        voltage = None
     # Summits that touch leave no film to break down.
     first = None if voltage is None else float(np.min(voltage)) or None
     relaxation = solution.leakage.relaxation_time
     shares = [loads.mean(solution.contact_time_share(f)) for f in (1.0, AREA_FACTOR, 1.0 / AREA_FACTOR)]
     return {
-        "state": state_of(solution),
+        "state": state,
         "minimum_thickness": thinnest,
         "minimum_at": name_of_place(solution, place),
         "minimum_place": place,

@@ -140,6 +140,10 @@ _PLAIN = ("", "deg", "K", "rad", "1/K", "1/s")
 _ENGINEERS = ("A/mm²", "rpm", "mm²/s")
 
 
+# Torque from which a prefix is usual [N m].
+_LARGE_TORQUE = 1e4
+
+
 def scale_for(largest: float, unit: str) -> Scale:
     """Prefixed unit that suits values up to ``largest`` > 0, in SI units, for the numbers of an axis.
 
@@ -151,9 +155,13 @@ def scale_for(largest: float, unit: str) -> Scale:
     Scale(factor=1000000000000.0, unit='µm²', offset=0.0)
     >>> scale_for(0.04, "Pa*s")
     Scale(factor=1000.0, unit='mPa s', offset=0.0)
+    >>> scale_for(250.0, "N*m")
+    Scale(factor=1.0, unit='N m', offset=0.0)
     """
     if unit in _PLAIN:
         return Scale(1.0, unit)
+    if unit == "N*m" and 1.0 <= largest < _LARGE_TORQUE:
+        return Scale(1.0, "N m")
     for unit_of_engineers in _ENGINEERS:
         if UNITS[unit_of_engineers][0] == unit:
             return Scale(UNITS[unit_of_engineers][1], unit_of_engineers)

@@ -47,6 +47,9 @@ FULL = LubricationState("full film", "The film separates the surfaces.", voltage
 # All states from the thinnest to the thickest film.
 STATES = (BOUNDARY, FREQUENT, MIXED, FULL)
 
+# Electrical states of a mesh.
+CONDUCTS, AT_TIMES, INSULATES = "conducts", "conducts at times", "insulates"
+
 # State of an element without load, which has a gap and no film.
 GAP = "gap"
 
@@ -112,15 +115,36 @@ def inner_states(summit_height: float = 0.0) -> Iterator[tuple[float, Lubricatio
 
 
 def is_shorted(summary: Mapping[str, Any] | None) -> bool:
-    """Return whether asperity contacts short the bearing of a summary, so that no voltage is computed.
+    """Return whether asperity contacts short the bearing or the mesh of a summary at times.
 
-    The state of lubrication is not sufficient: ceramic elements insulate in each state.
+    No voltage is computed then.
+
+    The state of lubrication is not sufficient: ceramic elements insulate in each state. A mesh that always
+    conducts is not shorted at times.
 
     Examples
     --------
     >>> is_shorted({"bearing": {"lubrication": "conducting"}}), is_shorted(None)
     (True, False)
+    >>> is_shorted({"mesh": {"state": "insulates", "lambda_ratio": 1.9, "smooth_breakdown_voltage": 0.5}})
+    True
     """
+    mesh = (summary or {}).get("mesh")
+    if isinstance(mesh, Mapping):
+        film, breakdown = (mesh.get(key) for key in ("smooth_breakdown_voltage", "breakdown_voltage"))
+        return film is not None and breakdown is None and not conducts(summary)
     table = (summary or {}).get("bearing")
     # A former key, which this program reads without a warning.
     return isinstance(table, dict) and dict.get(table, "lubrication") == "conducting"
+
+
+def conducts(summary: Mapping[str, Any] | None) -> bool:
+    """Return whether the mesh of a summary conducts, so that it has no voltage to break down.
+
+    Examples
+    --------
+    >>> conducts({"mesh": {"state": "conducts"}}), conducts({"mesh": {"state": "insulates"}}), conducts({})
+    (True, False, False)
+    """
+    mesh = (summary or {}).get("mesh")
+    return isinstance(mesh, Mapping) and mesh.get("state") == CONDUCTS

@@ -13,6 +13,7 @@ import numpy as np
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.defaults import HOW, QUICK
 from ehlectric.cases.drive_case import DriveCase
+from ehlectric.cases.gear_case import GearCase
 from ehlectric.errors import InputError
 from ehlectric.quantities.rows import Row
 from ehlectric.readable import readable
@@ -85,7 +86,7 @@ def _sweep_rows(sweep: Sweep, described: Mapping[str, Any], seconds: float) -> I
 
 
 # Commands that solve base cases other than contacts.
-_COMMANDS = {BearingCase: "bearing", DriveCase: "drive"}
+_COMMANDS = {BearingCase: "bearing", DriveCase: "drive", GearCase: "gear"}
 
 
 def _shown(key: str, value: Mapping[str, Any], sweep: Sweep) -> tuple[str, str, str]:

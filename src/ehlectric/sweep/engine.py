@@ -33,11 +33,13 @@ from ehlectric.bearing import (
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.drive_case import DriveCase
+from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.solved_case import SolvedCase, solved_case_of_dict
 from ehlectric.contact import portable, solve
 from ehlectric.dataclass import dataclass
 from ehlectric.drive import quick_drive
 from ehlectric.errors import ConvergenceError, InputError, LostError, MemoryLimitError, shown
+from ehlectric.gear import solve_gear
 from ehlectric.lubricant.python_laws import SampledLaws
 from ehlectric.quantities.inputs import SPEED, TEMPERATURE, end_and_replaced
 from ehlectric.quantities.result_warnings import texts_and_codes
@@ -271,10 +273,19 @@ def _solve_drive(case: DriveCase, _: int | None) -> tuple[bool, dict[str, Any], 
     return drive.converged, summary, "a contact of a bearing is not converged"
 
 
+def _solve_gear_pair(case: GearCase, _: int | None) -> tuple[bool, dict[str, Any], str]:
+    return True, solve_gear(case).summary(), ""
+
+
 # Solution of a case of each kind, and of bearings with samples for the probability of breakdown: whether it
 # converged, its summary, and the reason if it did not.
 _SOLVERS: Mapping[type, Callable[[Any, int | None], tuple[bool, dict[str, Any], str]]] = MappingProxyType(
-    {Case: _solve_contact, BearingCase: _solve_bearing, DriveCase: _solve_drive}
+    {
+        Case: _solve_contact,
+        BearingCase: _solve_bearing,
+        DriveCase: _solve_drive,
+        GearCase: _solve_gear_pair,
+    }
 )
 
 

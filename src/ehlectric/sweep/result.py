@@ -181,7 +181,7 @@ class SweepResults(Shown, SweepPoints):
 
     Attributes
     ----------
-    case : Case, BearingCase or DriveCase
+    case : Case, BearingCase, DriveCase or GearCase
         Base case of the sweep.
     design : str
         "grid", "paired" or "sobol".

@@ -18,12 +18,13 @@ from ehlectric.cases.amounts import Amount, Count
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.drive_case import DriveCase
+from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.input_keys import kind_of, unit_of
 from ehlectric.cases.table import nearest
 from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, short, shown
 from ehlectric.quantities.former_keys import current_key
-from ehlectric.quantities.lubrication_states import is_shorted
+from ehlectric.quantities.lubrication_states import conducts, is_shorted
 from ehlectric.runtime.display import is_number
 from ehlectric.sweep.axis_labels import result_keys
 from ehlectric.sweep.points import Point, Status, as_number
@@ -279,6 +280,11 @@ class Slice:
         return np.asarray(self.of("solved") & np.array([is_shorted(point.summary) for point in self.points]))
 
     @property
+    def conducting(self) -> Mask:
+        """Mask of gear meshes that conduct, so that they have no voltage, shape (points,)."""
+        return np.asarray(self.of("solved") & np.array([conducts(point.summary) for point in self.points]))
+
+    @property
     def of_discharge(self) -> bool:
         """Whether the drawn value is a breakdown voltage, a margin or another result of [discharge]."""
         return self.value.startswith("discharge.") or self.value in self.breakdown.keys
@@ -474,6 +480,8 @@ def _lacking(results: SweepResults, value: str, known: Sequence[str]) -> str:
         keys = [key for key in ("bearing.first_break", "bearing.margin") if key in known]
         names = " and ".join(keys)
         return f"; of a bearing it is {names}" if keys else "; no point has a breakdown voltage"
+    if isinstance(results.case, GearCase):
+        return "; of a gear pair it is mesh.breakdown_voltage and mesh.margin"
     return (
         "; the case has no [discharge]" if results.case.discharge is None else "; no point has such a number"
     )

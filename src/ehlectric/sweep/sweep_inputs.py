@@ -418,8 +418,8 @@ class Sweep(Tabled, Table):
         Parameters
         ----------
         table : mapping
-            Tables of the sweep. Its ``case`` is a Case, BearingCase or DriveCase, the tables of one, or the
-            path of its file.
+            Tables of the sweep. Its ``case`` is a Case, BearingCase, DriveCase or GearCase, the tables of
+            one, or the path of its file.
 
         Returns
         -------

@@ -17,9 +17,9 @@ from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.solved_case import SolvedCase
 from ehlectric.discharge.breakdown_rule import TOUCHING, strength_interval
-from ehlectric.discharge.film_verdict import DOUBTS, strength_clause
+from ehlectric.discharge.film_verdict import DOUBTS, no_verdict, strength_clause
 from ehlectric.quantities.formats import Scale
-from ehlectric.quantities.lubrication_states import is_shorted
+from ehlectric.quantities.lubrication_states import AT_TIMES, CONDUCTS, INSULATES, conducts, is_shorted
 from ehlectric.quantities.rows import value_at
 from ehlectric.quantities.statement import Bound, Fact, Level, Statement
 from ehlectric.quantities.verdict import Verdict
@@ -33,6 +33,9 @@ _IDEAL = ("film_factor", "summit_height")
 
 # Reason for which a bearing whose surfaces touch, at times at least, has no margin.
 _TOUCH = "with frequent asperity contact (discharges likely as contacts open)"
+
+# Reason for which a mesh that conducts has no margin.
+_CONDUCT = "with a mesh that conducts"
 
 
 def sweep_verdict(results: SweepPoints) -> Verdict | None:
@@ -49,10 +52,10 @@ def sweep_verdict(results: SweepPoints) -> Verdict | None:
     """
     if isinstance(results.case, DriveCase):
         return None  # it is a number of discharges whose harm depends on the bearing, not on a margin
-    usable = _margins(results)
+    usable, states = _margins(results), tuple(_mesh_states(results))
     known = usable[np.isfinite(usable)]
     if not known.size:
-        return _without_voltages(results)
+        return _without_voltages(results, states)
     below, missing = int(np.sum(known < 1.0)), usable.size - known.size
     lowest, highest = float(np.min(known)), float(np.max(known))
     doubts = list(_doubts(results, usable))
@@ -66,8 +69,9 @@ def sweep_verdict(results: SweepPoints) -> Verdict | None:
     )
     if touching:
         reasons.append(Statement.of("points-on-spots", number=touching))
-    # A point that is not solved may lie on either side.
-    everywhere = below == known.size and not _not_solved(results, usable)
+    # A point that is not solved may lie on either side, and a mesh that conducts has no film to break down.
+    short = any(conducts(point.summary) for point in results.points)
+    everywhere = below == known.size and not short and not _not_solved(results, usable)
     level: Level = "red" if everywhere else "yellow" if below or missing or touching else "green"
     if doubts:
         level = "yellow"
@@ -77,7 +81,7 @@ def sweep_verdict(results: SweepPoints) -> Verdict | None:
         _code(level, below, word),
         Statement.of("points-margins", word=word, below=below, known=known.size, low=lowest, high=highest),
         facts=(Fact("sweep.margin", lowest, (lowest, highest)),),
-        reasons=(*reasons, *doubts),
+        reasons=(*states, *reasons, *doubts),
         assumptions=clauses,
         bound=bound,
     )
@@ -100,18 +104,41 @@ def _not_solved(results: SweepPoints, margins: Array) -> int:
     )
 
 
-def _without_voltages(results: SweepPoints) -> Verdict | None:
-    """Verdict on points without a margin: red where contacts open and close at all, None where at none."""
+def _without_voltages(results: SweepPoints, of_mesh: tuple[Statement, ...]) -> Verdict | None:
+    """Verdict on points without a margin: red where contacts open and close at all; where at none, states of
+    the mesh of a gear pair without a verdict, else None.
+    """
     states = [is_shorted(point.summary) for point in results.points]
     count = sum(states)
     if not count:
-        return None
+        return no_verdict(of_mesh[0]) if of_mesh else None
     sure = all(point.solved and not point.doubtful for point in results.points)
-    # With a motor, its common-mode voltage lies on the shaft.
-    driven = isinstance(results.case, BearingCase) and results.case.motor is not None
+    match results.case:
+        case BearingCase(motor=motor):
+            # With a motor, its common-mode voltage lies on the shaft.
+            driven = motor is not None
+        case GearCase(gear=gear):
+            driven = gear.contact.voltage is not None
+        case _:
+            driven = False
     everywhere = sure and count == len(states) and driven
     answer = Statement.of("points-touching-all", number=count, known=len(states))
-    return Verdict("red" if everywhere else "yellow", TOUCHING, answer)
+    return Verdict("red" if everywhere else "yellow", TOUCHING, answer, reasons=of_mesh)
+
+
+def _mesh_states(results: SweepPoints) -> Iterator[Statement]:
+    """Statement on the states of the mesh at the points of a sweep of gears."""
+    states = [value_at(point.usable, "mesh.state") for point in results.points]
+    counts = {name: states.count(name) for name in (CONDUCTS, AT_TIMES, INSULATES)}
+    known = sum(counts.values())
+    if known:
+        yield Statement.of(
+            "points-mesh-states",
+            conducts=counts[CONDUCTS],
+            at_times=counts[AT_TIMES],
+            insulates=counts[INSULATES],
+            known=known,
+        )
 
 
 def _doubts(results: SweepPoints, margins: Array) -> Iterator[Statement]:
@@ -233,6 +260,8 @@ def _why(results: SweepPoints, margins: Array) -> str:
             reason = "not solved"
         elif point.doubtful:
             reason = "solved, but not to be used"
+        elif conducts(point.summary):
+            reason = _CONDUCT
         else:
             reason = _TOUCH if is_shorted(point.summary) else "no breakdown voltage or no voltage"
         counts[reason] = counts.get(reason, 0) + 1

@@ -39,6 +39,7 @@ from ehlectric.cases.amounts import Amount, Count
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.defaults import HOW
 from ehlectric.cases.drive_case import DriveCase
+from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.input_keys import input_of, kind_of, of_both_ends, unit_of
 from ehlectric.cases.solved_case import SolvedCase, solved_case_of_dict
 from ehlectric.cases.table_edits import flattened, set_keys
@@ -337,12 +338,14 @@ def choices(table: Mapping[str, Any]) -> SweepChoices:
 
 
 # Paths of pages by kind of case.
-_PAGES = {"bearing": "/", "drive": "/drive", "contact": "/contact"}
+_PAGES = {"bearing": "/", "drive": "/drive", "contact": "/contact", "gear": "/gear"}
 
 
 def _kind_of_case(case: SolvedCase) -> str:
     if isinstance(case, DriveCase):
         return "drive"
+    if isinstance(case, GearCase):
+        return "gear"
     return "bearing" if isinstance(case, BearingCase) else "contact"
 
 
