@@ -7,7 +7,6 @@ of columns and the documentation look them up by key, and have no labels, units 
 from __future__ import annotations
 
 import math
-import tomllib
 from collections.abc import Mapping
 from dataclasses import field
 from functools import cache
@@ -17,6 +16,7 @@ from typing import Any, Literal, TypeAlias
 
 from ehlectric.dataclass import dataclass
 from ehlectric.errors import printable
+from ehlectric.toml_files import contents
 
 # Sign of a value that is a bound only; empty for any other value.
 Bound: TypeAlias = Literal["", "≤", "≥"]
@@ -115,7 +115,7 @@ def data_file(package: str, name: str) -> dict[str, Any]:
     >>> sorted(data_file("ehlectric.quantities", "sheets.toml")["columns"])
     ['films', 'loads', 'page']
     """
-    return tomllib.loads(resources.files(package).joinpath(name).read_text(encoding="utf-8"))
+    return contents(resources.files(package).joinpath(name))
 
 
 def unbroken(text: str) -> str:
