@@ -12,7 +12,8 @@ from ehlectric.errors import InputError
 from ehlectric.gear.contact_path import contact_path
 from ehlectric.gear.geometry import gear_pair
 from ehlectric.gear.losses import bulk_temperature, loss_factor
-from ehlectric.gear.solution import solve_gear_pair
+from ehlectric.gear.solution import solve_gear_pair, solve_gear_pairs
+from ehlectric.gear.summary import gear_summary
 from ehlectric.gear.tooth_stiffness import mesh_stiffness, pair_stiffness
 from tests.gear.pairs import FIRST_STAGE, FZG_C, FZG_C_CASE, SECOND_STAGE, case_of
 from tests.helpers.gears import helical_case
@@ -258,3 +259,13 @@ def test_gears_of_aluminium_are_softer():
 def test_insulating_gears_are_refused():
     with pytest.raises(InputError, match=r"gear\.material"):
         case_of(material="silicon-nitride")
+
+
+def test_many_pairs_are_solved_with_the_errors_of_those_that_cannot_run():
+    cases = [case_of(), case_of(tip_diameter=["76 mm", "112 mm"]), case_of(operation__pinion_torque=50.0)]
+    first, error, last = solve_gear_pairs(cases)
+    assert isinstance(error, InputError)
+    assert gear_summary(first) == gear_summary(solve_gear_pair(cases[0]))
+    # The pressure grows with the root of the torque where one pair carries it.
+    ratio = last.point_films.max_pressure[2] / first.point_films.max_pressure[2]
+    assert ratio == pytest.approx(math.sqrt(50.0 / 215.6), rel=1e-3)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import field, replace
 from functools import cached_property
 
@@ -16,7 +17,7 @@ from ehlectric.cases.gear_inputs import Gear, both
 from ehlectric.dataclass import dataclass
 from ehlectric.discharge.discharge_laws import Leakage, leakage
 from ehlectric.discharge.film_breakdown import dielectric_strength
-from ehlectric.errors import InputError
+from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.formulas.asperities import contact_probability
 from ehlectric.formulas.hertz import reduced_modulus
 from ehlectric.gear.contact_lines import PlaneOfAction
@@ -212,6 +213,18 @@ def solve_gear_pair(case: GearCase) -> GearSolution:
         stiffness=at.stiffness,
         capacitance_of_lines=capacitance_per_length(at.flanks, films),
     )
+
+
+def solve_gear_pairs(cases: Iterable[GearCase]) -> list[GearSolution | InputError | ConvergenceError]:
+    """Meshes of many gear pairs, as ``solve_gear_pair`` gives them; the error of a pair that has none."""
+    return [_attempt(case) for case in cases]
+
+
+def _attempt(case: GearCase) -> GearSolution | InputError | ConvergenceError:
+    try:
+        return solve_gear_pair(case)
+    except (InputError, ConvergenceError) as error:
+        return error
 
 
 def _films(case: GearCase, plane: PlaneOfAction, flanks: Flanks, loads: LineLoads) -> FlankFilms:
