@@ -79,13 +79,6 @@ def package(root, name, line):
         ("names_that_windows_lacks", "a.py", "os.fork()", "os.fork"),
         ("names_that_windows_lacks", "a.py", "from fcntl import flock", "fcntl"),
         ("names_that_windows_lacks", "a.py", 'getattr(os, "fork", None)', None),
-        (
-            "frozen_classes_of_the_library",
-            "a.py",
-            "from dataclasses import dataclass  # @dataclass(frozen=True)",
-            "ehlectric.dataclass",
-        ),
-        ("frozen_classes_of_the_library", "a.py", "from dataclasses import dataclass, field", None),
     ],
 )
 def test_a_line_of_the_source_breaks_a_rule(tmp_path, rule, name, line, message):

@@ -348,18 +348,6 @@ def names_that_windows_lacks(root: Path) -> Iterator[Fault]:
                     yield Fault(module.file, node.lineno, f"Windows lacks the module {name}")
 
 
-def frozen_classes_of_the_library(root: Path) -> Iterator[Fault]:
-    """Yield imports of the standard library's ``dataclass`` in modules with frozen classes."""
-    for module in modules(root):
-        if module.file == PACKAGE / "dataclass.py" or "@dataclass(frozen=True" not in module.text:
-            continue
-        for node in module.nodes:
-            if not isinstance(node, ast.ImportFrom) or node.module != "dataclasses":
-                continue
-            if "dataclass" in {alias.name for alias in node.names}:
-                yield Fault(module.file, node.lineno, "import dataclass from ehlectric.dataclass")
-
-
 def publications_of_reports(root: Path) -> Iterator[Fault]:
     """Yield publications of reports that no docstring cites: no equation uses them."""
     texts = data(root, "report/report_texts.toml")
@@ -459,7 +447,6 @@ RULES = (
     properties_of_the_app,
     texts_of_verdicts,
     names_that_windows_lacks,
-    frozen_classes_of_the_library,
     publications_of_reports,
     words_in_names,
     names_of_faces,

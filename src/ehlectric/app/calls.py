@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from importlib import import_module
 from typing import Any, Generic, TypeVar, cast
 
@@ -24,7 +25,6 @@ from ehlectric.app.view_models import (
     Uploaded,
     Written,
 )
-from ehlectric.dataclass import dataclass
 
 T = TypeVar("T")
 

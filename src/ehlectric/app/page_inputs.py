@@ -18,12 +18,11 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from copy import deepcopy
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Any, Self
 from urllib.parse import parse_qsl, urlencode, urlsplit
 
 from ehlectric.cases.key_names import MOST_DEEP, refuse_deep, refuse_long_keys
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, shown
 
 # Longest query of an address that is read or written [characters]: far above the length of any case, and

@@ -10,11 +10,11 @@ import tempfile
 import threading
 import traceback
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from importlib import import_module
 from multiprocessing import resource_tracker
 from typing import Any
 
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import ConvergenceError, InputError, LostError
 from ehlectric.runtime.progress import Progress
 from ehlectric.runtime.worker_processes import end_with_parent, limit_blas

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Any
 
 from ehlectric.app.form_fields.field import form_data
-from ehlectric.dataclass import dataclass
 
 
 @dataclass(frozen=True)

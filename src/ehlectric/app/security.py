@@ -16,6 +16,7 @@ import logging
 import re
 import secrets
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 from html import escape
 from http.cookies import CookieError, SimpleCookie
 from pathlib import PurePath
@@ -27,7 +28,6 @@ from starlette.exceptions import HTTPException
 from starlette.responses import HTMLResponse, PlainTextResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import printable
 
 # Scripts need the nonce of their page, so that text which gets into a page never runs. Vue compiles its

@@ -5,13 +5,12 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from string import ascii_lowercase
 from typing import Any, Literal
 
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.defaults import Contacts
-from ehlectric.dataclass import dataclass
 from ehlectric.quantities.units import known_factor, si_unit, split
 from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import readable

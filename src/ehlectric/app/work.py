@@ -18,7 +18,7 @@ import shutil
 import tempfile
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from multiprocessing.util import Finalize, get_temp_dir
 from pathlib import Path
@@ -27,7 +27,6 @@ from weakref import WeakKeyDictionary
 
 from ehlectric.app.calls import Call
 from ehlectric.app.processes import Bounds, Raised, Returned, Worker, new_context
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import LostError
 from ehlectric.readable import readable
 from ehlectric.runtime.locks import RENAMES_OPEN, try_lock

@@ -8,7 +8,7 @@ contact. Ends of domains are distances from its middle, all positive.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
 
@@ -25,7 +25,6 @@ from ehlectric.bearing.gaps import (
     outside_capacitance,
 )
 from ehlectric.contact import DomainRule, Ends
-from ehlectric.dataclass import dataclass
 from ehlectric.formulas.capacitances import matched_offset
 from ehlectric.formulas.carlson import complete_rd, complete_rf
 from ehlectric.formulas.hertz import DryContact, axis_ratio

@@ -5,7 +5,7 @@ leakage.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from operator import mul, truediv
 from typing import Any
 
@@ -30,7 +30,6 @@ from ehlectric.bearing.solution import (
 )
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.bearing_inputs import Motor
-from ehlectric.dataclass import dataclass
 from ehlectric.discharge.discharge_laws import (
     CURRENT_DENSITY_LIMITS,
     compared_with_limits,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
 from ehlectric.arrays import Numbers
@@ -30,7 +31,6 @@ from ehlectric.bearing.ring_contacts import (
     rigid_roller,
 )
 from ehlectric.cases.bearing_inputs import Bearing
-from ehlectric.dataclass import dataclass
 
 G = TypeVar("G", bound=Geometry)
 C = TypeVar("C", BallContact, RollerContact)

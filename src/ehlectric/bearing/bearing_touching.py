@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any, overload
 
 import numpy as np
@@ -14,7 +15,6 @@ from ehlectric.bearing.solution import (
     conducts,
     dry_areas,
 )
-from ehlectric.dataclass import dataclass
 from ehlectric.formulas.asperities import (
     LOWEST_SEPARATION,
     AsperityContact,

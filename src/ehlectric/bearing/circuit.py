@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import field
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from ehlectric.arrays import Array, Mask, Numbers
-from ehlectric.dataclass import dataclass
 from ehlectric.quantities.field_metadata import stored
 from ehlectric.runtime.display import read_only_property
 

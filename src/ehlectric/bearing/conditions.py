@@ -5,7 +5,7 @@ Conditions of many points are arrays of shape (n,), and floats where the points 
 
 from __future__ import annotations
 
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, Generic, TypeVar
 
 import numpy as np
@@ -16,7 +16,6 @@ from ehlectric.bearing.mounted_clearance import MountedClearance
 from ehlectric.cases import library
 from ehlectric.cases.bearing_inputs import Bearing
 from ehlectric.cases.discharge_inputs import Discharge
-from ehlectric.dataclass import dataclass
 from ehlectric.discharge.film_breakdown import dielectric_strength
 from ehlectric.formulas import hertz
 from ehlectric.lubricant.oil import Oil

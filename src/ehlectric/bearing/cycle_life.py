@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import field, fields
+from dataclasses import dataclass, field, fields
 from typing import Any
 
 import numpy as np
@@ -17,7 +17,6 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.bearing.loads.life import LOWEST_RATIO
 from ehlectric.bearing.rating_life import Fatigue, life_exponent, lives_of, rated_loads
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.dataclass import dataclass
 from ehlectric.quantities.field_metadata import number
 from ehlectric.quantities.inputs import SPEED
 from ehlectric.quantities.result_warnings import ResultWarning

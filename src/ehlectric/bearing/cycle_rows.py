@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
 
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.dataclass import dataclass
 from ehlectric.quantities.field_metadata import stored
 from ehlectric.quantities.lubrication_states import BOUNDARY, BOUNDARY_LIMIT, FREQUENT, FULL, MIXED
 from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes

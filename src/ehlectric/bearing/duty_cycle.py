@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import asdict, field, fields, replace
+from dataclasses import asdict, dataclass, field, fields, replace
 from typing import Any
 
 import numpy as np
@@ -38,7 +38,6 @@ from ehlectric.cases.case_oil import viscosity_over_temperature
 from ehlectric.cases.defaults import QUICK
 from ehlectric.cases.duty_inputs import Cycle, read_cycle
 from ehlectric.cases.measurements import CYCLE, void_rows
-from ehlectric.dataclass import dataclass
 from ehlectric.discharge.discharge_laws import MOST_MARGIN
 from ehlectric.errors import InputError
 from ehlectric.quantities.field_metadata import number, stored

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
@@ -22,7 +23,6 @@ from ehlectric.bearing.solution import (
 )
 from ehlectric.bearing.summary import breaks
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.dataclass import dataclass
 from ehlectric.quantities.inputs import TEMPERATURE
 
 # Quantities of a point that rating lives need in addition.

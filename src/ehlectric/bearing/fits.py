@@ -5,10 +5,11 @@ Dimensions, pressures and temperatures are floats, or arrays of shape (...) of m
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from ehlectric.arrays import Numbers, as_float
-from ehlectric.dataclass import dataclass
 
 
 @dataclass(frozen=True)

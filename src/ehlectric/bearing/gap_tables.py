@@ -13,7 +13,7 @@ their grooves are not similar, their contacts are also integrated.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any, overload
 
@@ -36,7 +36,6 @@ from ehlectric.bearing.gaps import (
 )
 from ehlectric.constants import EPSILON_0
 from ehlectric.contact import Ends
-from ehlectric.dataclass import dataclass
 from ehlectric.formulas.hertz import line_gap, reduced_radius
 from ehlectric.formulas.smooth_tables import Function, SmoothTable, smooth_table
 from ehlectric.runtime.display import read_only_property

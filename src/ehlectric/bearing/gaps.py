@@ -28,14 +28,13 @@ would be 30 % of the total at h0/r = 1e-3. It is less in a groove, which partly 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any, overload
 
 import numpy as np
 
 from ehlectric.arrays import Array, IntArray, Mask, Numbers
 from ehlectric.constants import EPSILON_0
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, shown
 from ehlectric.formulas.capacitances import charge_density, matched_offset, stretched
 from ehlectric.formulas.hertz import DryContact, line_opening, reduced_radius

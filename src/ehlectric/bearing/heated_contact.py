@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import Any
 
@@ -17,7 +17,6 @@ from ehlectric.cases.contact_inputs import Body as BodyTable
 from ehlectric.cases.film_inputs import thermal_properties
 from ehlectric.cases.grid_inputs import Grid
 from ehlectric.contact import KINDS, Conditions, PointConditions, Setup, hot_oil, reached_rise
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.film import Body, Film, OilSupply, Physics, PointFilm, Rheology, Thermal
 from ehlectric.readable import readable

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -17,7 +18,6 @@ from ehlectric.bearing.solution import (
     capacitance_is_bound,
     conducts,
 )
-from ehlectric.dataclass import dataclass
 from ehlectric.discharge.discharge_laws import known, leakage
 from ehlectric.discharge.film_capacitance import LEAST_RATIO, roughness_factor
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -18,7 +18,6 @@ from ehlectric.bearing.summary import tables_of
 from ehlectric.bearing.warnings import codes_of
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.table_edits import flattened
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.quantities.inputs import SPEED
 from ehlectric.quantities.results import TEXTS_OF_POINTS

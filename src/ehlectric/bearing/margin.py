@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import asdict, field, replace
+from dataclasses import asdict, dataclass, field, replace
 from functools import partial
 from typing import Any
 
@@ -43,7 +43,6 @@ from ehlectric.bearing.uncertain_inputs import (
     temperature_is_unused,
 )
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 from ehlectric.quantities.formats import speed_text
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
@@ -29,7 +29,6 @@ from ehlectric.cases.film_factors import (
     temperature_warnings,
 )
 from ehlectric.cases.measurements import MeasuredCapacitance, Measurement, capacitance_of
-from ehlectric.dataclass import dataclass
 from ehlectric.discharge.film_capacitance import LEAST_RATIO
 from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.quantities.formats import amount

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -13,7 +13,6 @@ from ehlectric.bearing.fits import Clearance, Mounting, Temperatures, ThickRing,
 from ehlectric.cases import library
 from ehlectric.cases.bearing_inputs import PLAY, Bearing, Fits
 from ehlectric.cases.library.bearing_catalogue import clearance_range
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 from ehlectric.quantities.result_warnings import WarningCondition
 from ehlectric.quantities.units import to_si

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import Any
 
@@ -17,7 +17,6 @@ from ehlectric.bearing.solving import NOT_IN_FILMS, UNUSED, Detail, key_of
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.input_keys import is_quantity
 from ehlectric.cases.table_edits import flattened
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 from ehlectric.quantities.inputs import SPEED
 

@@ -7,6 +7,7 @@ a result.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
@@ -16,7 +17,6 @@ from ehlectric.arrays import Array, Booleans, Mask, Numbers, any_of
 from ehlectric.bearing.bearing_discharges import first_margin
 from ehlectric.bearing.solution import BearingSolution, RingState, capacitance
 from ehlectric.constants import EPSILON_0
-from ehlectric.dataclass import dataclass
 from ehlectric.discharge.discharge_laws import MOST_MARGIN
 from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.readable import readable

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -24,7 +24,6 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.bearing_inputs import Bearing
 from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.constants import GRAVITY
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 from ehlectric.formulas.hertz import reduced_modulus
 from ehlectric.lubricant.law import is_many, same

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -32,7 +32,6 @@ from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.cases.grid_inputs import DEFAULT_ENDS
 from ehlectric.constants import EPSILON_0
 from ehlectric.contact import Setup, case_warnings
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 from ehlectric.film import contact_film
 from ehlectric.formulas.dry_means import ELLIPSE, STRIP, pressure_mean, wedge_integral

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import fields, replace
+from dataclasses import dataclass, fields, replace
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -38,7 +38,6 @@ from ehlectric.bearing.loads.life import (
 from ehlectric.bearing.solution import BearingSolution, lambda_ratio
 from ehlectric.cases.bearing_inputs import Bearing, Life
 from ehlectric.cases.library.printed_ratings import PrintedRatings, printed_ratings
-from ehlectric.dataclass import dataclass
 from ehlectric.formulas.load_ratings import (
     RATED_GROOVES,
     THRUST_GROOVE,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from ehlectric.bearing.bearing_discharges import shaft_voltage
@@ -28,7 +28,6 @@ from ehlectric.bearing.uncertainty import (
 from ehlectric.bearing.verdict_rule import bearing_verdict
 from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.dataclass import dataclass
 from ehlectric.discharge.discharge_laws import known
 from ehlectric.errors import InputError, shown
 from ehlectric.quantities.formats import amount, speed_text

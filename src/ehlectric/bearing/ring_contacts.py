@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import ClassVar, Generic, TypeAlias
 
@@ -39,7 +39,6 @@ from ehlectric.contact import (
     default_side,
     least_pressure,
 )
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 from ehlectric.film import Ellipse
 from ehlectric.formulas.film_line import moes

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -17,7 +17,6 @@ from ehlectric.bearing.quick_contacts import formula_factor, outside_atlas
 from ehlectric.bearing.ring_contacts import ContactCurve, ContactSolution, ContactValues, RingContacts
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.bearing_kinds import has_rollers
-from ehlectric.dataclass import dataclass
 from ehlectric.quantities.field_metadata import stored
 from ehlectric.quantities.lubrication_states import (
     BOUNDARY,

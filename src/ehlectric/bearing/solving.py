@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import lru_cache, partial
 from typing import Any, Literal
 
@@ -20,7 +20,6 @@ from ehlectric.bearing.ring_contacts import ContactCurve, ContactValues, RingCon
 from ehlectric.bearing.solution import BearingSolution, Position, RingState, ring_state
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.table_edits import flattened
-from ehlectric.dataclass import dataclass
 from ehlectric.readable import readable
 from ehlectric.runtime.progress import Progress, silent
 from ehlectric.runtime.tasks import run_all

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
@@ -33,7 +34,6 @@ from ehlectric.bearing.solution import (
     lambda_ratio,
 )
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.dataclass import dataclass
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.units import rpm
 from ehlectric.runtime.files import plain

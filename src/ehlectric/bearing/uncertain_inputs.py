@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -22,7 +22,6 @@ from ehlectric.cases.library.estimated_bearings import (
     is_estimated,
     series,
 )
-from ehlectric.dataclass import dataclass
 from ehlectric.discharge.breakdown_rule import STRENGTH_UNKNOWN
 from ehlectric.lubricant.data_sheet import GRADE_WIDTH
 from ehlectric.quantities.rows import value_at

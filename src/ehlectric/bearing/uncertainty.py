@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import asdict, field, replace
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any, TypeVar
 
 import numpy as np
@@ -19,7 +19,6 @@ from ehlectric.bearing.solving import NOT_IN_FILMS
 from ehlectric.bearing.uncertain_inputs import Change, changes_of, proportional_to_strength
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.input_keys import is_quantity
-from ehlectric.dataclass import dataclass
 from ehlectric.discharge.breakdown_rule import UNLIKELY, Chance
 from ehlectric.errors import InputError
 from ehlectric.formulas.sobol import sobol_points

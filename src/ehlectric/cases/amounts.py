@@ -5,13 +5,12 @@ from __future__ import annotations
 import math
 import numbers
 from collections.abc import Callable
-from dataclasses import fields
+from dataclasses import dataclass, fields
 from typing import Any, TypeVar
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
 from pydantic_core import CoreSchema, core_schema
 
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, short, shown
 from ehlectric.quantities import units
 from ehlectric.quantities.grouped_digits import doubt

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Required, Self, TypedDict, Unpack
@@ -49,7 +50,6 @@ from ehlectric.cases.table import (
     with_name_keys,
 )
 from ehlectric.cases.table_edits import displace, flattened, nested, set_keys
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, shown, within
 from ehlectric.quantities.alternatives import ALTERNATIVES, DIMENSIONS
 from ehlectric.quantities.formats import amount, operating_point

@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from pathlib import Path
 from typing import Any, Self, TypeVar
@@ -32,7 +32,6 @@ from ehlectric.cases.oil_inputs import (
     refuse_missing,
 )
 from ehlectric.cases.table import nearest, read_toml
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, shown, within
 from ehlectric.lubricant.data_sheet import Estimate
 from ehlectric.lubricant.density import DENSITY_LAWS

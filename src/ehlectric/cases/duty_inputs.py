@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,6 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.cases.measurements import CYCLE, Measurement, read_measurement
 from ehlectric.cases.table import Table
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 
 

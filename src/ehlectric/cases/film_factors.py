@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
@@ -14,7 +14,6 @@ from ehlectric.arrays import Array
 from ehlectric.cases.case_oil import viscosity_over_temperature
 from ehlectric.cases.measurements import Measurement, void_rows
 from ehlectric.cases.oil_inputs import Properties
-from ehlectric.dataclass import dataclass
 from ehlectric.quantities.quantity import Keys, Quantity, data_file
 from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
 from ehlectric.readable import readable

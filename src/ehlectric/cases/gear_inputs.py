@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import BeforeValidator, GetJsonSchemaHandler, model_validator
@@ -13,7 +14,6 @@ from ehlectric.cases.amounts import Amount, AmountOrWord, Amounts, Count, amount
 from ehlectric.cases.mean_heights import rq_of
 from ehlectric.cases.oil_inputs import library_choice
 from ehlectric.cases.table import Table
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, shown
 from ehlectric.quantities.inputs import inputs
 

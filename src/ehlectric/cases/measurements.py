@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from pathlib import Path
 from types import MappingProxyType
@@ -17,7 +17,6 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.cases.amounts import Amount
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, printable, short, shown
 from ehlectric.quantities import units
 from ehlectric.quantities.grouped_digits import doubt_of_column, readings

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import Annotated, Self
 
 from pydantic import model_validator
@@ -11,7 +12,6 @@ from ehlectric.cases.amounts import Amount
 from ehlectric.cases.contact_inputs import Contact
 from ehlectric.cases.mean_heights import StatedRa
 from ehlectric.cases.table import Table
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 
 # Shares of the gap that have a name.

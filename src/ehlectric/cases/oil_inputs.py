@@ -5,6 +5,7 @@ checks.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Optional, Self
 
@@ -27,7 +28,6 @@ from ehlectric.cases import library
 from ehlectric.cases.amounts import Amount, Amounts, amount_at, with_bounds
 from ehlectric.cases.library.library_oils import Grade
 from ehlectric.cases.table import Table, details_of, nearest
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, shown
 from ehlectric.lubricant.data_sheet import Estimate, alpha_estimate, grade_middle, viscosity_at_100
 from ehlectric.lubricant.density import DENSITY_LAWS

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from types import MappingProxyType
@@ -19,7 +19,6 @@ from ehlectric.cases.amounts import Amount
 from ehlectric.cases.case_oil import KnownOil, NamedOil, kelvin_of, known_oil, named_oil
 from ehlectric.cases.library.library_oils import KINDS, Source
 from ehlectric.cases.oil_inputs import ALPHA, LAWS, SHEET_VISCOSITY, Properties, of_base_oil
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, within
 from ehlectric.lubricant.data_sheet import BASE_OILS
 from ehlectric.lubricant.density import DENSITY_LAWS

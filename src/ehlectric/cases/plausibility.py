@@ -6,6 +6,7 @@ Each quantity has a range in its SI unit. A value outside is allowed, and a warn
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from functools import partial
 from types import MappingProxyType
 
@@ -13,7 +14,6 @@ import numpy as np
 
 from ehlectric.arrays import Mask, Numbers
 from ehlectric.cases.mean_heights import GAUSSIAN, rq_of
-from ehlectric.dataclass import dataclass
 from ehlectric.lubricant.oil import Oil
 from ehlectric.quantities.formats import CELSIUS, amount
 from ehlectric.quantities.result_warnings import WarningCondition

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,6 @@ from ehlectric.cases.contact_inputs import Contact
 from ehlectric.cases.meter_inputs import Meter, body_radii
 from ehlectric.constants import EPSILON_0
 from ehlectric.contact.conditions import Conditions, PointConditions
-from ehlectric.dataclass import dataclass
 from ehlectric.discharge.film_capacitance import LEAST_RATIO, Layers, zone_capacitances
 from ehlectric.discharge.outer_gap import Bodies, Body, Outside, around_line, around_point
 from ehlectric.field import ATOM, Field, PointField, areas_by_zone

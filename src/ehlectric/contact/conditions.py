@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any, ClassVar, Generic
 
 import numpy as np
@@ -12,7 +13,6 @@ from ehlectric.arrays import Numbers, V, as_float
 from ehlectric.cases.case import Case
 from ehlectric.cases.contact_inputs import Contact
 from ehlectric.cases.dry_contacts import line_load, line_radius, modulus_of, point_load, point_radius
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, within
 from ehlectric.formulas import hertz
 from ehlectric.formulas.film_line import LineContact, velocity_parameter

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
 import numpy as np
@@ -23,7 +24,6 @@ from ehlectric.contact.contact_solution import (
 )
 from ehlectric.contact.film_warnings import line_result_warnings, point_result_warnings
 from ehlectric.contact.setup import Setup
-from ehlectric.dataclass import dataclass
 from ehlectric.field import Field, FieldProblem, PointField, PointFieldProblem, solve_field, solve_point_field
 from ehlectric.film import Film, FilmProblem, PointFilm, solve_film, solve_point_film
 from ehlectric.formulas import film_line, film_point

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -12,7 +12,6 @@ import numpy as np
 from ehlectric.cases.grid_inputs import Grid
 from ehlectric.contact.contact_memory import check_grid
 from ehlectric.contact.setup import Setup
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, within
 from ehlectric.film import (
     MINIMUM_ORDER,

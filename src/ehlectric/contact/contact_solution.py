@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any, ClassVar, Generic, TypeVar
 
 import numpy as np
@@ -21,7 +22,6 @@ from ehlectric.contact.touching import (
     spots_verdict,
     weighted_rms,
 )
-from ehlectric.dataclass import dataclass
 from ehlectric.discharge.assessment import Assessment, assess
 from ehlectric.discharge.film_verdict import contact_verdict
 from ehlectric.field import Field, PointField, contact_zones

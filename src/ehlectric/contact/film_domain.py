@@ -9,11 +9,11 @@ formula for the film. Lengths are in half-widths or semi-axes.
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
 from ehlectric.arrays import Numbers, as_float
-from ehlectric.dataclass import dataclass
 
 # Distances of the ends of a domain from the middle of the contact: inlet, outlet and side.
 Ends = tuple[Numbers, Numbers, Numbers]

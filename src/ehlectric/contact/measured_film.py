@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any, TypeVar
 
 import numpy as np
@@ -25,7 +26,6 @@ from ehlectric.cases.film_factors import (
 from ehlectric.cases.measurements import Measurement
 from ehlectric.contact.contact_kinds import KINDS
 from ehlectric.contact.solver import solve
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.film import contact_film
 from ehlectric.quantities.result_warnings import ResultWarning

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -26,7 +26,6 @@ from ehlectric.contact.problems import check_tolerance, domain_of, heights_of, s
 from ehlectric.contact.setup import Setup
 from ehlectric.contact.summary import breakdown_by_formula
 from ehlectric.contact.warnings import case_warnings
-from ehlectric.dataclass import dataclass
 from ehlectric.discharge.discharge_laws import MOST_MARGIN
 from ehlectric.errors import InputError, shown
 from ehlectric.film import MOST_OUTSIDE, Film, FilmProblem, Physics, PointFilm

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,7 +14,6 @@ from ehlectric.contact.contact_kinds import KINDS
 from ehlectric.contact.contact_solution import ConditionsT, FieldT, FilmT, RoughnessStatistics, Solution
 from ehlectric.contact.stored import dataset_of
 from ehlectric.contact.summary import formulas_of, summary_of
-from ehlectric.dataclass import dataclass
 from ehlectric.field import Field, PointField, Zone, contact_zones
 from ehlectric.film import Film, PointFilm, pressure_error_text
 from ehlectric.formulas.film_line import Thickness

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import field, fields
+from dataclasses import dataclass, field, fields
 from typing import Any
 
 from ehlectric.cases.case import Case
@@ -10,7 +10,6 @@ from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.cases.film_inputs import Inlet
 from ehlectric.cases.grid_inputs import Electric, Grid, Solver
 from ehlectric.cases.roughness_inputs import Roughness
-from ehlectric.dataclass import dataclass
 from ehlectric.lubricant.oil import Oil
 
 

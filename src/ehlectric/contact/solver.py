@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -30,7 +30,6 @@ from ehlectric.contact.setup import Setup
 from ehlectric.contact.starvation import starvation_warnings
 from ehlectric.contact.touching import Coarser, makes_oil, spot_warnings
 from ehlectric.contact.warnings import case_warnings
-from ehlectric.dataclass import dataclass
 from ehlectric.discharge.assessment import discharge_warnings, margin_warnings
 from ehlectric.discharge.film_breakdown import field_warning_conditions
 from ehlectric.errors import ConvergenceError, InputError

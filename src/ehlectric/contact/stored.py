@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +16,6 @@ from ehlectric.cases.contact_inputs import Contact
 from ehlectric.cases.dry_contacts import hertz_pressure
 from ehlectric.contact.contact_solution import Smooth, Solution
 from ehlectric.contact.touching import Coarser
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 from ehlectric.field import Field, PointField
 from ehlectric.film import Film, HeatedFilm, NewtonStep, PointFilm, Scales, Starvation

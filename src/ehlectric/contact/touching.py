@@ -9,7 +9,7 @@ Reynolds equation at these nodes is that oil.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import asdict, field, fields, replace
+from dataclasses import asdict, dataclass, field, fields, replace
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
@@ -24,7 +24,6 @@ from ehlectric.constants import EPSILON_0
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.problems import SCHEMES, fluid_of
 from ehlectric.contact.setup import Setup
-from ehlectric.dataclass import dataclass
 from ehlectric.discharge.breakdown_rule import POSSIBLE, TOUCHING_EXPECTED
 from ehlectric.discharge.discharge_laws import WeakestLink
 from ehlectric.discharge.film_breakdown import dielectric_strength

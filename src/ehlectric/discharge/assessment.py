@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import asdict, fields, replace
+from dataclasses import asdict, dataclass, fields, replace
 from typing import Any
 
 import numpy as np
 
 from ehlectric.cases.discharge_inputs import Discharge
-from ehlectric.dataclass import dataclass
 from ehlectric.discharge.discharge_laws import (
     SOURCES,
     TUNNELLING,

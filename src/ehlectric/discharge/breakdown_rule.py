@@ -8,12 +8,12 @@ then lies between two bounds, and the level follows these bounds.
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import Any, Self
 
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.dataclass import dataclass
 from ehlectric.quantities.statement import Level, Statement
 from ehlectric.quantities.verdict_texts import statement_text
 

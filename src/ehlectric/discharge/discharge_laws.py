@@ -7,6 +7,7 @@ All quantities are in SI units. The field is proportional to the voltage, so one
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from operator import add, truediv
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -15,7 +16,6 @@ import numpy as np
 from ehlectric.arrays import Array, Numbers
 from ehlectric.cases.discharge_inputs import Discharge, Pit
 from ehlectric.constants import EPSILON_0
-from ehlectric.dataclass import dataclass
 from ehlectric.field import areas
 from ehlectric.lubricant.oil import Oil
 from ehlectric.quantities.quantity import data_file

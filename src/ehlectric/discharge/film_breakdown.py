@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ehlectric.arrays import Array, Numbers
 from ehlectric.cases.discharge_inputs import Discharge
-from ehlectric.dataclass import dataclass
 from ehlectric.discharge.discharge_laws import (
     BREAKING,
     LARGEST_PIT,

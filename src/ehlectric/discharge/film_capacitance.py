@@ -13,6 +13,7 @@ with any small gap.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
@@ -22,7 +23,6 @@ from numpy.typing import ArrayLike
 from ehlectric.arrays import Array, Mask
 from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.constants import EPSILON_0
-from ehlectric.dataclass import dataclass
 from ehlectric.discharge.discharge_laws import Size
 from ehlectric.errors import InputError, shown
 from ehlectric.field import ATOM, areas_by_zone

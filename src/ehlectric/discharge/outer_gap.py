@@ -24,11 +24,12 @@ radius of 10 mm.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.constants import EPSILON_0
-from ehlectric.dataclass import dataclass
 from ehlectric.formulas.capacitances import charge_density, matched_offset, stretched
 from ehlectric.formulas.hertz import DryContact, line_opening, point_deflection
 

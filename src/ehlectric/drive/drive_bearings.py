@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import field
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -19,7 +19,6 @@ from ehlectric.bearing import (
     shaft_path,
 )
 from ehlectric.cases.drive_inputs import Breakdown
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 from ehlectric.quantities.field_metadata import stored
 from ehlectric.readable import readable

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import asdict, field, fields, replace
+from dataclasses import asdict, dataclass, field, fields, replace
 from functools import partial
 from typing import Any
 
@@ -42,7 +42,6 @@ from ehlectric.bearing import (
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.duty_inputs import Cycle, read_cycle
 from ehlectric.cases.measurements import CYCLE
-from ehlectric.dataclass import dataclass
 from ehlectric.drive.drive_record import CONFIDENCE, ENERGY, DriveSolution, event_rate
 from ehlectric.drive.quick_estimate import quick_drive
 from ehlectric.errors import InputError, within

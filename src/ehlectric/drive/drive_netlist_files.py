@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +13,6 @@ from ehlectric.arrays import Array
 from ehlectric.bearing import BearingResult, solve_bearing
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.drive_inputs import Source
-from ehlectric.dataclass import dataclass
 from ehlectric.drive.inverter import steps_of
 from ehlectric.drive.measured_source import measured_source
 from ehlectric.drive.motor_circuit import (

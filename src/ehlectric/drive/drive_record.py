@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -13,7 +13,6 @@ import scipy
 from ehlectric.arrays import Array
 from ehlectric.bearing import BearingResult
 from ehlectric.cases.drive_case import DriveCase
-from ehlectric.dataclass import dataclass
 from ehlectric.drive.drive_bearings import BearingElement
 from ehlectric.quantities.field_metadata import stored
 from ehlectric.quantities.result_warnings import ResultWarning

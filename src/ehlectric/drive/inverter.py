@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
 from types import MappingProxyType
@@ -11,7 +12,6 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.cases.drive_inputs import Source
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 
 # Periods of the carrier, or of the fundamental in six-step operation, that are computed at once.

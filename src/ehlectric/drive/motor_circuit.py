@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from itertools import product
 from typing import Literal, NamedTuple
 
@@ -15,7 +16,6 @@ from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
 from ehlectric.cases.drive_inputs import Breakdown, Circuit
-from ehlectric.dataclass import dataclass
 from ehlectric.drive.drive_bearings import BearingElement
 from ehlectric.quantities.inputs import ENDS
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import textwrap
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from itertools import pairwise
 from string import Template
 from typing import Literal
@@ -32,7 +33,6 @@ from ehlectric.bearing import (
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.bearing_inputs import Motor
 from ehlectric.cases.defaults import HOW
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, printable, shown
 from ehlectric.quantities.formats import amount, operating_point, rpm_text, speed_text
 from ehlectric.quantities.inputs import SPEED

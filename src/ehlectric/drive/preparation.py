@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
 from ehlectric.bearing import BearingResult, solve_bearing
 from ehlectric.cases.drive_case import DriveCase
-from ehlectric.dataclass import dataclass
 from ehlectric.drive.discharges.films_and_source import Films, films_of
 from ehlectric.drive.drive_bearings import BearingElement, bearing_element
 from ehlectric.drive.drive_cycle import check_drive_cycle

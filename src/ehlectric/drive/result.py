@@ -5,14 +5,13 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import nullcontext
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from ehlectric.cases.drive_case import DriveCase
-from ehlectric.dataclass import dataclass
 from ehlectric.drive.drive_cycle import DriveDuty, run_drive_cycle
 from ehlectric.drive.drive_record import FILM, OFF, ON, VALUES, DriveSolution
 from ehlectric.drive.stored import dataset_of

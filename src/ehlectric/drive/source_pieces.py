@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 
 import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.cases.drive_inputs import Source
-from ehlectric.dataclass import dataclass
 from ehlectric.drive.discharges.films_and_source import Segments
 from ehlectric.drive.inverter import Steps
 from ehlectric.drive.waveform_file import Waveform

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import field, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +14,6 @@ from ehlectric.arrays import Array
 from ehlectric.bearing import KEYS as LIFE_KEYS
 from ehlectric.bearing import CycleLife, Path, StoredDuty, with_smooth_films
 from ehlectric.cases.drive_case import DriveCase
-from ehlectric.dataclass import dataclass
 from ehlectric.drive.drive_bearings import BearingElement
 from ehlectric.drive.drive_cycle import DriveDuty, DriveDutyRows, DriveStretch, Expected
 from ehlectric.drive.drive_record import COLUMNS, KEPT, DriveSolution, Record

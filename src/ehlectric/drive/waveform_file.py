@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path
 
 import numpy as np
 
 from ehlectric.arrays import Array, IntArray, Mask
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, printable, short, shown
 from ehlectric.quantities import units
 from ehlectric.quantities.result_warnings import ResultWarning

@@ -13,13 +13,12 @@ the places where the field may be largest, so that the estimate costs little.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar
 
 import numpy as np
 
 from ehlectric.arrays import Array, largest_nearby
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import ConvergenceError
 from ehlectric.formulas.akima import with_middles
 from ehlectric.quantities.field_metadata import number, stored

@@ -9,13 +9,13 @@ or narrower than the grid spacing.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
 import scipy
 
 from ehlectric.arrays import Array, IntArray, Mask
-from ehlectric.dataclass import dataclass
 from ehlectric.field.poisson import Across
 from ehlectric.formulas.polynomials import linear_interpolation
 

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import field
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.constants import EPSILON_0
-from ehlectric.dataclass import dataclass
 from ehlectric.field.field_accuracy import GapField, with_error
 from ehlectric.field.poisson import (
     Across,

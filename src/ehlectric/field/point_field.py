@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.constants import EPSILON_0
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 from ehlectric.field.field_accuracy import GapField, with_error
 from ehlectric.field.poisson import Across, mean_permittivity

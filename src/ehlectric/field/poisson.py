@@ -7,6 +7,7 @@ gap, on Gauss-Lobatto-Legendre nodes. The matrix is symmetric and banded, and is
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
@@ -14,7 +15,6 @@ import scipy
 
 from ehlectric.arrays import Array
 from ehlectric.constants import EPSILON_0
-from ehlectric.dataclass import dataclass
 from ehlectric.formulas.polynomials import derivative_matrix, interpolation, lobatto_nodes, lobatto_weights
 
 # Two Gauss points along an element: more points would not raise the order of linear elements.

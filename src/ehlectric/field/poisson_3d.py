@@ -9,13 +9,13 @@ the system is solved by preconditioned conjugate gradients.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 import scipy
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.constants import EPSILON_0
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import ConvergenceError
 from ehlectric.field.field_multigrid import NEIGHBOURS, GapMultigrid, neighbour_offsets
 from ehlectric.field.poisson import GAUSS, Across

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import subprocess
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, cast
 
@@ -20,7 +21,6 @@ from PIL import Image
 
 from ehlectric.arrays import Array, IntArray, Mask
 from ehlectric.contact import PointConditions
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, shown
 from ehlectric.figures.contact_maps import (
     Range,

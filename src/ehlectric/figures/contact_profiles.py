@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,6 @@ from numpy.typing import NDArray
 from ehlectric.arrays import Array, Mask
 from ehlectric.cases.case import Case
 from ehlectric.contact import PointConditions, PointResult, Result
-from ehlectric.dataclass import dataclass
 from ehlectric.field import PointField
 from ehlectric.figures.contact_findings import AnyContact, strength_limit
 from ehlectric.figures.data import WIDTH, Curve, Panel

@@ -5,14 +5,13 @@ alike.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ehlectric.arrays import Array, IntArray, Mask
-from ehlectric.dataclass import dataclass
 
 # Axes and colours are logarithmic where the values differ by more than this ratio.
 WIDE = 20.0

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import textwrap
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
@@ -16,7 +17,6 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
 from ehlectric.arrays import Array
-from ehlectric.dataclass import dataclass
 from ehlectric.drive import CHARGE, ENERGY, FILM, ON, PEAK, VOLTAGE, DriveResult, both_summary, end_summary
 from ehlectric.figures.bearing_figures import prefixed
 from ehlectric.figures.data import Along, Area, Curve, Panel, Upright, is_wide

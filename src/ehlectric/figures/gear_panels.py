@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 import textwrap
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.cases.defaults import HOW
-from ehlectric.dataclass import dataclass
 from ehlectric.figures import contact_findings
 from ehlectric.figures.data import Along, Area, Curve, Panel, Upright
 from ehlectric.gear import GearResult, name_of_place, state_of, weakest

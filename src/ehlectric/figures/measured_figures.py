@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +13,6 @@ from numpy.typing import NDArray
 from ehlectric.arrays import Array
 from ehlectric.cases.defaults import HOW
 from ehlectric.cases.film_factors import FilmFactors, factor_text
-from ehlectric.dataclass import dataclass
 from ehlectric.figures.data import is_wide
 from ehlectric.figures.figure_names import MEASURED_FIGURE, in_formats
 from ehlectric.figures.style import (

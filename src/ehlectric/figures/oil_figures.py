@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -24,7 +25,6 @@ from ehlectric.cases.oil_report import (
     law_behind,
     origin,
 )
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 from ehlectric.figures.figure_names import OIL_FIGURE_FILES
 from ehlectric.figures.style import (

@@ -7,7 +7,7 @@ import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import lru_cache
 from io import BytesIO
 from pathlib import Path
@@ -38,7 +38,6 @@ from matplotlib.transforms import Bbox, offset_copy
 
 from ehlectric.arrays import Array
 from ehlectric.contact import Conditions, PointConditions
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, printable, shown
 from ehlectric.figures.fallback_fonts import give_fonts
 from ehlectric.figures.figure_names import STYLES, in_formats, with_units_kept

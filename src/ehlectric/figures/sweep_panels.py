@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any
 
@@ -13,7 +13,6 @@ import scipy
 
 from ehlectric.arrays import Array, IntArray, Mask
 from ehlectric.bearing import CAPACITIVE, RESISTIVE
-from ehlectric.dataclass import dataclass
 from ehlectric.figures.data import (
     WIDTH,
     Along,

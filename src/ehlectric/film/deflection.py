@@ -7,13 +7,13 @@ pressure with influence coefficients, evaluated by zero-padded real FFTs in O(N 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 import scipy
 
 from ehlectric.arrays import Array, ComplexArray
-from ehlectric.dataclass import dataclass
 from ehlectric.film.mesh import Mesh
 from ehlectric.formulas.hertz import line_pressure, point_pressure
 

@@ -22,14 +22,13 @@ last two.
 
 from __future__ import annotations
 
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 import scipy
 
 from ehlectric.arrays import Array, IntArray
-from ehlectric.dataclass import dataclass
 from ehlectric.film.across_film import Across, Properties
 from ehlectric.film.hot_oil import Body, HotOil
 from ehlectric.film.mesh import Mesh, on_mesh, trapezoidal_weights

@@ -16,14 +16,13 @@ Another relation between flux and pressure gradient is one more function in ``FL
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import TypeAlias
 
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.dataclass import dataclass
 from ehlectric.film.mesh import Mesh, on_mesh
 
 # Difference of ln eta below which two nodes count as alike: the series of the mean is then exact to rounding.

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Any, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.dataclass import dataclass
 from ehlectric.film.far_field import load_deficit, pressure_deficit
 from ehlectric.film.film_errors import max_pressure_error, upstream_deficits
 from ehlectric.film.film_solver import RefinedSolution, Starvation, StarvedSolution

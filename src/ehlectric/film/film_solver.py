@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.dataclass import dataclass
 from ehlectric.film.far_field import side_deficit
 from ehlectric.film.film_errors import (
     LEAST_UNSEEN,

@@ -11,12 +11,13 @@ asperities, would be added here.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 import scipy
 from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
-from ehlectric.dataclass import dataclass
 from ehlectric.film.levels import Level
 
 

@@ -5,14 +5,13 @@ solved together, with the error of the temperature.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import TypeAlias
 
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.dataclass import dataclass
 from ehlectric.film.across_film import Across
 from ehlectric.film.energy_equation import (
     FrozenTemperature,

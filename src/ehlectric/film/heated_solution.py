@@ -8,7 +8,7 @@ temperature varies over longer distances than the film, and its error is stated 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -16,7 +16,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
-from ehlectric.dataclass import dataclass
 from ehlectric.film.across_film import Across
 from ehlectric.film.energy_equation import FrozenTemperature, energy_imbalance
 from ehlectric.film.film_errors import key_thicknesses

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import cache, cached_property
 
 import numpy as np
 from numpy.polynomial import chebyshev
 
 from ehlectric.arrays import Array
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 from ehlectric.film.shear_laws import Rheology
 from ehlectric.lubricant.oil import Oil

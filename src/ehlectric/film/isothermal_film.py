@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any, TypeVar
 
@@ -12,7 +12,6 @@ import scipy
 from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
-from ehlectric.dataclass import dataclass
 from ehlectric.film.far_field import lost_by_load, side_deficit
 from ehlectric.film.film_solution import FilmSolution, Shaped, stationary_film
 from ehlectric.film.film_solver import RefinedSolution, StarvedSolution, film_method

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import cache
 from typing import TypeAlias
 
@@ -10,7 +11,6 @@ import numpy as np
 import scipy
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.dataclass import dataclass
 from ehlectric.film.deflection import Deflection, Geometry
 from ehlectric.film.mesh import Mesh, Width
 from ehlectric.film.reynolds import Stencil, wedge_stencil

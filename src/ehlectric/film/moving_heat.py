@@ -18,10 +18,11 @@ Oxford 1959, section 2.9). Without motion the film therefore stays the stationar
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.dataclass import dataclass
 from ehlectric.film.energy_equation import Earlier, Heat, Stream, Surface, finite_heat
 from ehlectric.film.heated_film import HeatedGrid, OuterIteration, change_between, mid_film, node_weight
 from ehlectric.film.hot_oil import Thermal

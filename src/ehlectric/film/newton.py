@@ -8,13 +8,12 @@ Reynolds equation at the nodes with a full film, P = P_amb at the cavitated node
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from typing import Literal, TypeAlias
 
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.dataclass import dataclass
 from ehlectric.film.cavitation import full_film_nodes, with_refilled_nodes
 from ehlectric.film.face_flow import Coefficients, Flow, Fluid, flow
 from ehlectric.film.gap import Gap

@@ -18,12 +18,11 @@ P. M. E. Cann, F. Colin and G. Dalmaz, J. Tribol. 120 (1998) 126, doi:10.1115/1.
 
 from __future__ import annotations
 
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.dataclass import dataclass
 from ehlectric.film.cavitation import full_film_nodes
 from ehlectric.film.face_flow import Flow
 from ehlectric.film.levels import Level

@@ -10,7 +10,7 @@ patch the film equations are solved as in a whole domain.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -18,7 +18,6 @@ import scipy
 from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
-from ehlectric.dataclass import dataclass
 from ehlectric.film.mesh import Mesh, at_centre
 from ehlectric.film.newton import GridSolution
 from ehlectric.film.problem import FilmProblem

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.dataclass import dataclass
 from ehlectric.film.deflection import LINE, Geometry
 from ehlectric.film.face_flow import Fluid
 from ehlectric.film.hot_oil import Physics

@@ -12,11 +12,12 @@ of first order (eq. 7 of Morris et al. (2022), doi:10.3390/lubricants10050087), 
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 import scipy
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.dataclass import dataclass
 from ehlectric.film.face_flow import Flow
 from ehlectric.film.mesh import Mesh
 

@@ -21,13 +21,12 @@ of both in the same direction. It remains in pure rolling, where the inlet has t
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.dataclass import dataclass
 from ehlectric.film.across_film import (
     Across,
     Profile,

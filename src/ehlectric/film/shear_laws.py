@@ -12,13 +12,12 @@ is one entry of ``RHEOLOGY``.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import TypeAlias
 
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.dataclass import dataclass
 
 # Constants of a law by name, in SI units.
 Constants: TypeAlias = Mapping[str, float]

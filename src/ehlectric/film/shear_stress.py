@@ -30,12 +30,11 @@ convex function of t, so that there is one solution.
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.dataclass import dataclass
 from ehlectric.film.across_film import GAUSS, Quadrature, over_columns
 from ehlectric.film.shear_laws import Constants, Rheology, ShearLaw
 

@@ -11,11 +11,12 @@ doi:10.1137/080736272, with one window around the largest residual.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 import scipy
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.dataclass import dataclass
 from ehlectric.film.face_flow import Flow, Fluid, flow
 from ehlectric.film.gap import Gap
 from ehlectric.film.mesh import Mesh

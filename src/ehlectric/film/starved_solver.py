@@ -9,13 +9,12 @@ through the cavity, as in a starved film (``ehlectric.film.oil_content``) whose 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.dataclass import dataclass
 from ehlectric.film.dry_contact import dry_contact
 from ehlectric.film.levels import Level
 from ehlectric.film.mesh import at_centre

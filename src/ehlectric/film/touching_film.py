@@ -28,13 +28,12 @@ Hertz zone of a heavy contact, and the V-cycles of the film (``ehlectric.film.mu
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import fields, replace
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 import scipy
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.dataclass import dataclass
 from ehlectric.film.cavitation import full_film_nodes, with_refilled_nodes
 from ehlectric.film.face_flow import Flow, Fluid, flow
 from ehlectric.film.gap import Gap

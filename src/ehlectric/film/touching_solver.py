@@ -24,12 +24,11 @@ In the end it is infinite, so that the film is a solution of the stationary equa
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.dataclass import dataclass
 from ehlectric.film.dry_contact import dry_contact, relieved
 from ehlectric.film.face_flow import Fluid
 from ehlectric.film.levels import Level

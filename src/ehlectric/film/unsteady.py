@@ -34,14 +34,13 @@ equations of ``ehlectric.film.oil_content``.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import TypeAlias
 
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import ConvergenceError
 from ehlectric.film.energy_equation import Heat, Mixing
 from ehlectric.film.face_flow import Undrifted

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import cache, lru_cache
 from typing import Self
 
@@ -23,7 +24,6 @@ import scipy
 from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array, Numbers
-from ehlectric.dataclass import dataclass
 from ehlectric.formulas.gaussian import erfc, normal_share
 
 # Step and ends of the trapezoidal rule in u, where the height above the separation is

@@ -31,13 +31,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array, Numbers
 from ehlectric.constants import EPSILON_0
-from ehlectric.dataclass import dataclass
 from ehlectric.formulas.polynomials import gauss_legendre
 
 # Modes of the slot, and waves of the gap for each of them and for each ratio of slot pitch to opening. The

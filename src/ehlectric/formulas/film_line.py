@@ -7,12 +7,12 @@ each other, and from the film that ehlectric computes, by up to 40 %. Results sh
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import Generic, Protocol, TypeVar
 
 import numpy as np
 
 from ehlectric.arrays import Numbers, V, as_float
-from ehlectric.dataclass import dataclass
 
 
 @dataclass(frozen=True, kw_only=True)

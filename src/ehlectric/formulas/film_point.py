@@ -7,12 +7,11 @@ The x axis runs along entrainment, the y axis across it.
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ehlectric.arrays import Numbers, as_float
-from ehlectric.dataclass import dataclass
 from ehlectric.formulas.film_line import (
     BothThicknesses,
     CentralThickness,

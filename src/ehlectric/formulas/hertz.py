@@ -16,13 +16,13 @@ loses no accuracy for a circle.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array, N, Numbers, as_float
-from ehlectric.dataclass import dataclass
 from ehlectric.formulas.carlson import both_rd, complete_rd, complete_rd_pair, complete_rf
 
 

@@ -13,13 +13,13 @@ M. A. Chkifa, A. Cohen and C. Schwab, Found. Comput. Math. 14 (2014) 601, doi:10
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
 from functools import cache, cached_property
 from itertools import product
 
 import numpy as np
 
 from ehlectric.arrays import Array, IntArray, Mask
-from ehlectric.dataclass import dataclass
 
 # Function of several variables at m points, shape (variables, m) -> (m,).
 Function = Callable[[Array], Array]

@@ -8,11 +8,11 @@ third of a second to load.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from ehlectric.arrays import Array, IntArray
-from ehlectric.dataclass import dataclass
 
 # Points that are computed together: few enough for the processor's cache.
 _BLOCK = 1024

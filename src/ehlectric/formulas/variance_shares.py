@@ -9,13 +9,13 @@ B. Sudret, Reliab. Eng. Syst. Saf. 93 (2008) 964, doi:10.1016/j.ress.2007.04.002
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from itertools import combinations_with_replacement
 
 import numpy as np
 from numpy.polynomial.legendre import legvander
 
 from ehlectric.arrays import Array, IntArray
-from ehlectric.dataclass import dataclass
 
 # Largest degree of the polynomial, and points that a term has to have at least.
 _DEGREE, _POINTS = 3, 3

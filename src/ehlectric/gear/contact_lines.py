@@ -22,11 +22,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from dataclasses import dataclass
 
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.dataclass import dataclass
 from ehlectric.formulas.polynomials import lobatto_nodes, lobatto_weights
 from ehlectric.gear.contact_path import ContactPath
 

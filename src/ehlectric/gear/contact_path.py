@@ -15,9 +15,9 @@ across the line of contact, also of helical gears: the component along the line 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 from ehlectric.arrays import Numbers
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 from ehlectric.gear.geometry import GearPair
 

@@ -10,13 +10,12 @@ its term of sliding.
 from __future__ import annotations
 
 import math
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import partial
 
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.dataclass import dataclass
 from ehlectric.film import ContactFilm, contact_film
 from ehlectric.formulas.film_line import LineContact, pan_hamrock
 from ehlectric.formulas.hertz import line_half_width, line_max_pressure

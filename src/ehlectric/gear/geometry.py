@@ -15,8 +15,8 @@ j_n = 2 (S - x_1 - x_2) m_n sin alpha_n along the line of action.
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, shown
 
 # Steps of Newton's method for the inverse of the involute function, which doubles its digits in each.

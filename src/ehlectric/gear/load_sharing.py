@@ -26,12 +26,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 from ehlectric.gear.contact_lines import LineNodes, LineParts, PlaneOfAction, line_nodes, line_parts
 from ehlectric.gear.contact_path import ContactPath

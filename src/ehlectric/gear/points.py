@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import fields, replace
+from dataclasses import dataclass, fields, replace
 
-from ehlectric.dataclass import dataclass
 from ehlectric.gear.flank_films import FlankFilms
 from ehlectric.gear.solution import GearSolution
 

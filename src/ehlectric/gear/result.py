@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import time
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from ehlectric.cases.gear_case import GearCase
-from ehlectric.dataclass import dataclass
 from ehlectric.gear.gear_verdict import breakdown_margin, gear_verdict
 from ehlectric.gear.gear_warnings import gear_warnings
 from ehlectric.gear.points import path_points

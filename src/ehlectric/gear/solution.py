@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -14,7 +14,6 @@ from ehlectric.bearing import Solid
 from ehlectric.cases.case_oil import temperature_coefficient
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.gear_inputs import Gear, both
-from ehlectric.dataclass import dataclass
 from ehlectric.discharge.discharge_laws import Leakage, leakage
 from ehlectric.discharge.film_breakdown import dielectric_strength
 from ehlectric.errors import ConvergenceError, InputError

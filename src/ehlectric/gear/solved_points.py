@@ -8,14 +8,13 @@ contact, is a factor on all films.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.cases.grid_inputs import Grid
 from ehlectric.contact import line_conditions, solve_contact
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import ConvergenceError
 from ehlectric.gear.flank_films import FlankFilms, Flanks, flank_films
 

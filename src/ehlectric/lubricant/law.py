@@ -26,6 +26,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 from functools import cache
 from inspect import signature
 from typing import Any, Protocol
@@ -34,7 +35,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array, Mask, Numbers
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 from ehlectric.quantities.quantity import Bounds, Quantity, data_file
 from ehlectric.quantities.result_warnings import ResultWarning

@@ -5,7 +5,7 @@ pressure.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Protocol
 
@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array, Mask, Numbers, as_float
-from ehlectric.dataclass import dataclass
 from ehlectric.lubricant.law import PressureLaw, is_many
 from ehlectric.lubricant.viscosity import initial_alpha, reciprocal_asymptotic_alpha, unfinished_share
 from ehlectric.quantities.result_warnings import ResultWarning

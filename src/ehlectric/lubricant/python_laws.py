@@ -8,7 +8,7 @@ import hashlib
 import math
 import pickle
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, Self, TypeAlias
 
@@ -17,7 +17,6 @@ import scipy
 from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, short
 from ehlectric.lubricant.oil import BoundLaw, Oil
 from ehlectric.quantities.result_warnings import ResultWarning

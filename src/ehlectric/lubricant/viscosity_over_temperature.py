@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array, Mask, Numbers, as_float
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 from ehlectric.lubricant.law import Law, parameters_of, within
 from ehlectric.lubricant.viscosity import ROELANDS_CONSTANT

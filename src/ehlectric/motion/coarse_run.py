@@ -9,9 +9,9 @@ each with half the nodes of a line contact or a quarter of the nodes of a point 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from functools import cached_property
 
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import ConvergenceError
 from ehlectric.film import History, Instant, Mesh, MovingFilm, at_centre, lowest
 from ehlectric.motion.motion_touching import Toucher

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.contact import Spots, load_share_of
-from ehlectric.dataclass import dataclass
 from ehlectric.field import areas_by_zone
 from ehlectric.film import Mesh, State
 from ehlectric.motion.moving_contact import TransientContact

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import zip_longest
 from typing import Any, Literal
@@ -27,7 +27,6 @@ from ehlectric.cases.case import Case
 from ehlectric.contact import LINE as LINE_CONTACT
 from ehlectric.contact import POINT as POINT_CONTACT
 from ehlectric.contact import AnyKind, Conditions, PointConditions, domain_of, physics_of, surface_ratios
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 from ehlectric.field import Field, PointField
 from ehlectric.film import MOST_COURANT, Film, FilmProblem, FilmSolution, Mesh, PointFilm, semi_axis_across

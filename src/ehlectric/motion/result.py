@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ehlectric.dataclass import dataclass
 from ehlectric.motion.stored_run import MotionRun
 from ehlectric.motion.summary import summary_of
 from ehlectric.quantities.formats import amount

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -11,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import ConvergenceError
 from ehlectric.field import Field, PointField
 from ehlectric.film import (

@@ -15,7 +15,7 @@ from __future__ import annotations
 import json
 import sqlite3
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import partial
 from itertools import chain
 from typing import TYPE_CHECKING, Any, Self
@@ -24,7 +24,6 @@ import numpy as np
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.cases.case import Case
-from ehlectric.dataclass import dataclass
 from ehlectric.motion.moving_contact import KINDS, Kind
 from ehlectric.quantities.field_metadata import Stored, stored
 from ehlectric.runtime.file_rules import (

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import tomllib
 from contextlib import ExitStack, suppress
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar, Self
 
@@ -14,7 +15,6 @@ import numpy as np
 from ehlectric.arrays import Array, Mask
 from ehlectric.cases.case import Case
 from ehlectric.contact import Conditions, PointConditions, surface_ratios
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, WriteError
 from ehlectric.motion.moving_contact import KINDS, Kind, Schedule, schedule_of
 from ehlectric.motion.stored import FORM, SCHEMA, attributes_in, layout_of, solved_part

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,7 +14,6 @@ import scipy
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.contact import FIELD_ERROR, inaccurate_field, oil_supply, unknown_error
-from ehlectric.dataclass import dataclass
 from ehlectric.discharge.film_breakdown import dielectric_strength
 from ehlectric.film import MINIMUM_ORDER
 from ehlectric.motion.motion_touching import TouchHistory

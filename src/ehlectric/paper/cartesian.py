@@ -13,11 +13,12 @@ doi:10.1063/1.1710426).
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 import scipy
 
 from ehlectric.arrays import Array, IntArray
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import ConvergenceError
 
 # Largest number of nodes of the Cartesian grid, including nodes inside the bodies.

@@ -7,11 +7,10 @@ all along the line together. The integration constant H00 is computed by eq. (19
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 from ehlectric.film import (
     LINE,

@@ -14,13 +14,13 @@ the right sides of the full approximation scheme.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 import scipy
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.dataclass import dataclass
 from ehlectric.film import Fluid
 
 # Nodes coupled by eq. (7) at node i, as offsets from i.

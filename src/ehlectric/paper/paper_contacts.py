@@ -7,13 +7,12 @@ from __future__ import annotations
 import csv
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from importlib import resources
 from pathlib import Path
 
 from ehlectric.cases.case import Case
 from ehlectric.contact import DEFAULT_SOLVERS, Result, Solvers
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, shown
 from ehlectric.formulas.film_line import LineContact
 from ehlectric.paper import fas, sor

@@ -5,6 +5,7 @@ ehlectric.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,6 @@ from matplotlib.figure import Figure
 
 from ehlectric.arrays import Array
 from ehlectric.contact import Result
-from ehlectric.dataclass import dataclass
 from ehlectric.figures import line_figures as plot
 from ehlectric.figures.style import figure_of, new_panels, outlined, page_width
 from ehlectric.paper.paper_contacts import CONTACTS, PaperContact

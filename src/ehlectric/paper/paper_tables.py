@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import astuple
+from dataclasses import astuple, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ehlectric.contact import Result
-from ehlectric.dataclass import dataclass
 from ehlectric.paper.paper_contacts import PaperContact, of_paper, table_3
 from ehlectric.paper.study import Study
 from ehlectric.runtime.files import csv_of, write

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 from ehlectric.figures.figure_names import in_formats
 from ehlectric.figures.style import save_figure

@@ -6,13 +6,12 @@ The equations on the Cartesian grid are the equations of ``ehlectric.paper.carte
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy
 
 from ehlectric.arrays import Array
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import ConvergenceError
 from ehlectric.field import Field, FieldProblem, field_from_potential
 from ehlectric.formulas.polynomials import lobatto_nodes

@@ -6,7 +6,7 @@ The contacts are solved smooth and rough, with a constant permittivity, and by t
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -16,7 +16,6 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
 from ehlectric.contact import Result, field_problem, film_problem, resolve, solve
-from ehlectric.dataclass import dataclass
 from ehlectric.field import solve_field
 from ehlectric.film import solve_film
 from ehlectric.paper import fas, sor

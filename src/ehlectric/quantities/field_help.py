@@ -7,9 +7,9 @@ effects, which a test compares with solved examples, and of the sources of usual
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
-from ehlectric.dataclass import dataclass
 from ehlectric.quantities.inputs import (
     Input,
     attributes,

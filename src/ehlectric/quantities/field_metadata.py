@@ -6,10 +6,8 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
+from dataclasses import dataclass, fields
 from typing import Any
-
-from ehlectric.dataclass import dataclass
 
 # Keys of the metadata of a field.
 _ARRAY, _NUMBER = "stored", "stored number"

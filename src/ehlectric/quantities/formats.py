@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any
 
-from ehlectric.dataclass import dataclass
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.units import ZERO_CELSIUS, printed, rpm, unit_for
 from ehlectric.readable import readable

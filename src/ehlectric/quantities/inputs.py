@@ -9,11 +9,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any, Literal
 
-from ehlectric.dataclass import dataclass
 from ehlectric.quantities import units
 from ehlectric.quantities.quantity import Bounds, Quantity, data_file
 

@@ -7,10 +7,9 @@ only thresholds of this scale.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any
-
-from ehlectric.dataclass import dataclass
 
 # Lambda ratios below which lubrication is called boundary lubrication, and from which it is called full-film
 # lubrication.

@@ -8,13 +8,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import cache
 from importlib import resources
 from types import MappingProxyType
 from typing import Any, Literal, TypeAlias
 
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import printable
 from ehlectric.toml_files import contents
 

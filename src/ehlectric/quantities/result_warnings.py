@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from functools import cache, lru_cache
 from types import MappingProxyType
 from typing import Any, Literal, Self
 
-from ehlectric.dataclass import dataclass
 from ehlectric.quantities.quantity import data_file
 from ehlectric.readable import filled_in
 

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from types import MappingProxyType
 from typing import Any, NamedTuple, TypeAlias
 
-from ehlectric.dataclass import dataclass
 from ehlectric.quantities.formats import UNITS, USUAL, scale_of, suited
 from ehlectric.quantities.quantity import BOUNDS, Bound, Keys, Quantity, key_of
 from ehlectric.readable import formatted

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Any, Literal
-
-from ehlectric.dataclass import dataclass
 
 # "green": no breakdown expected; "yellow": breakdown possible within the uncertainty; "red": breakdown
 # expected, or surfaces that touch under a voltage; "grey": nothing to compare the breakdown voltage with.

@@ -6,7 +6,7 @@ import os
 import platform
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from importlib.metadata import version
 from itertools import groupby
@@ -25,7 +25,6 @@ from ehlectric.cases.library.library_oils import KINDS, Source, sources_of
 from ehlectric.cases.oil_inputs import Properties
 from ehlectric.cases.solved_case import SolvedCase
 from ehlectric.cases.table_edits import flattened
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, printable, shown
 from ehlectric.figures.figure_names import with_units_kept
 from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED, end_and_key, input_at

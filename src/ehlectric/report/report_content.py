@@ -5,12 +5,12 @@ result.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from io import BytesIO
 from typing import Literal, TypeAlias
 
 from matplotlib.figure import Figure
 
-from ehlectric.dataclass import dataclass
 from ehlectric.figures.figure_names import with_units_kept
 from ehlectric.figures.style import style as figure_style
 from ehlectric.quantities.result_warnings import ResultWarning, Severity

@@ -7,6 +7,7 @@ conditions.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import TypeVar
 
 from ehlectric.cases.bearing_case import BearingCase
@@ -15,7 +16,6 @@ from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.library.estimated_bearings import is_estimated
 from ehlectric.cases.solved_case import SolvedCase
-from ehlectric.dataclass import dataclass
 from ehlectric.quantities.quantity import data_file
 
 TEXTS = data_file("ehlectric.report", "report_texts.toml")

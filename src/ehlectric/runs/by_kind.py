@@ -6,12 +6,11 @@ The command line and the pages of the app both start here; nothing here prints.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, shown
 from ehlectric.runs.file_kinds import FileKind, InputFile, read_input
 from ehlectric.runs.result_folders import files_of_results, protect

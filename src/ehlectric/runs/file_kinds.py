@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Literal
 
 from ehlectric.cases.table import read_toml, tables_of_text
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 from ehlectric.runtime.reading import read_text
 

@@ -8,11 +8,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, shown, within
 from ehlectric.runtime.display import is_number
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ehlectric.cases.amounts import Amount
 from ehlectric.cases.defaults import QUICK, Contacts
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, shown
 from ehlectric.runtime.progress import Progress, silent
 

@@ -6,10 +6,10 @@ them, may be far from the solution; every row and every table with them states i
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from ehlectric.dataclass import dataclass
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.rows import Row
 from ehlectric.runtime.display import headline

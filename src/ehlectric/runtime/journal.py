@@ -11,10 +11,10 @@ import sqlite3
 import zlib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, closing, contextmanager, suppress
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Self
 
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import DamagedError, InputError, WriteError
 from ehlectric.runtime.file_rules import UnfitError, refusing
 from ehlectric.runtime.files import ADVICE, refuse_special

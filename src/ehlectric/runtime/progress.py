@@ -10,10 +10,10 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Generic, TypeAlias, TypeVar
 
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, printable, shown
 from ehlectric.quantities.result_warnings import ResultWarning
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from operator import attrgetter
 from types import MappingProxyType
@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.dataclass import dataclass
 from ehlectric.quantities.field_metadata import Stored, arrays_of, rules_of_numbers
 from ehlectric.quantities.result_warnings import (
     CODES_OF_TEXTS,

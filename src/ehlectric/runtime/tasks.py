@@ -6,11 +6,10 @@ import traceback
 from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Future, wait
 from contextlib import closing
-from dataclasses import field
+from dataclasses import dataclass, field
 from itertools import islice
 from typing import Any, Generic, TypeVar, cast
 
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import ConvergenceError, InputError, LostError, printable
 from ehlectric.runtime.memory import is_out_of_memory
 from ehlectric.runtime.worker_processes import Crew, cores, processes

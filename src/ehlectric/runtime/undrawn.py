@@ -6,9 +6,9 @@ import logging
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
+from dataclasses import dataclass
 from pathlib import Path
 
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, WriteError, printable
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.runtime.memory import is_out_of_memory, out_of_memory

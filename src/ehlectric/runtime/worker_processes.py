@@ -12,9 +12,9 @@ import sys
 import threading
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from ehlectric.dataclass import dataclass
 from ehlectric.runtime.locks import held_back
 from ehlectric.runtime.progress import LOGGER
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 import scipy
@@ -10,7 +11,6 @@ from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array
 from ehlectric.cases.roughness_inputs import Roughness
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 from ehlectric.surfaces.profiles import Profile, convolved
 

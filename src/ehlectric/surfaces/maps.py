@@ -7,14 +7,13 @@ equally spaced along x and along y, and the middle of a map lies at (0, 0). Prof
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Self
 
 import numpy as np
 import scipy
 
 from ehlectric.arrays import Array, IntArray, Mask
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 from ehlectric.surfaces.profiles import (
     FORM_DEGREES,

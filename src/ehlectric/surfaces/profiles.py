@@ -8,14 +8,13 @@ processing steps.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Generic, Literal, Protocol, Self, TypeAlias, TypeVar
 
 import numpy as np
 import scipy
 
 from ehlectric.arrays import Array
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 
 Form: TypeAlias = Literal["none", "mean", "line", "parabola"]

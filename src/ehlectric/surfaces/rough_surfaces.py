@@ -9,7 +9,7 @@ direction. Lengths are in metres.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import fields, replace
+from dataclasses import dataclass, fields, replace
 from functools import partial
 from itertools import chain
 from typing import Any, Literal, TypeAlias
@@ -19,7 +19,6 @@ import scipy
 
 from ehlectric.arrays import Array
 from ehlectric.cases.roughness_inputs import GENERATORS, SHAPES, Roughness
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, within
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.surfaces import generated_maps as map_generators

@@ -16,6 +16,7 @@ import struct
 import zipfile
 import zlib
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
 from typing import TypeAlias
@@ -24,7 +25,6 @@ from xml.etree import ElementTree
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, shown
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.runtime.memory import in_bytes

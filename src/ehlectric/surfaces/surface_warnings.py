@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from ehlectric.cases.roughness_inputs import Roughness
-from ehlectric.dataclass import dataclass
 from ehlectric.formulas.asperities import LEAST_BANDWIDTH, SpectralMoments, map_moments, profile_moments
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.surfaces.generated_profiles import Domain

@@ -6,13 +6,13 @@ A third column may have the validity of each point. A file that can be read in t
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
 
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, shown, within
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.unit_spelling import typed

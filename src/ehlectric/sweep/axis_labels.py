@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from ehlectric.arrays import Array
@@ -10,7 +12,6 @@ from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.input_keys import input_of, kind_of, unit_of
 from ehlectric.cases.solved_case import SolvedCase
-from ehlectric.dataclass import dataclass
 from ehlectric.quantities.formats import CELSIUS, Scale, scale_for
 from ehlectric.quantities.former_keys import successors
 from ehlectric.quantities.inputs import end_and_key

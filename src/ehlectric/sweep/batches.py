@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import closing
+from dataclasses import dataclass
 from itertools import islice
 from typing import Any
 
@@ -26,7 +27,6 @@ from ehlectric.bearing import (
 )
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.table import by_table
-from ehlectric.dataclass import dataclass
 from ehlectric.quantities.result_warnings import CODES, CODES_OF_TEXTS, TEXTS
 from ehlectric.runtime.files import now
 from ehlectric.runtime.tasks import finished_tasks

@@ -15,6 +15,7 @@ import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import closing, contextmanager, suppress
+from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path
 from types import MappingProxyType
@@ -36,7 +37,6 @@ from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.solved_case import SolvedCase, solved_case_of_dict
 from ehlectric.contact import portable, solve
-from ehlectric.dataclass import dataclass
 from ehlectric.drive import quick_drive
 from ehlectric.errors import ConvergenceError, InputError, LostError, MemoryLimitError, shown
 from ehlectric.gear import solve_gear

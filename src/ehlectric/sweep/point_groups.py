@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from itertools import product
 from typing import Any
 
@@ -11,7 +12,6 @@ from ehlectric.bearing import is_quick
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.input_keys import is_quantity
 from ehlectric.cases.table_edits import set_keys
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 from ehlectric.runtime.display import is_number
 from ehlectric.sweep.engine import Planned, case_key, hash_of, plan, planned_point, text_of

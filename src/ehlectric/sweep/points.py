@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar, Literal
 
@@ -11,7 +12,6 @@ import numpy as np
 
 from ehlectric.arrays import Mask
 from ehlectric.cases.solved_case import SolvedCase
-from ehlectric.dataclass import dataclass
 from ehlectric.quantities.result_warnings import CODES, CODES_OF_TEXTS, ResultWarning, warnings_of
 from ehlectric.runtime.display import Values, is_number, read_only_property
 

@@ -6,6 +6,7 @@ import json
 import tomllib
 from collections import Counter
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from functools import cached_property, partial
 from importlib.util import find_spec
 from pathlib import Path
@@ -16,7 +17,6 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.cases.input_keys import kind_of, of_both_ends, unit_of
 from ehlectric.cases.table import nearest
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 from ehlectric.quantities.former_keys import current_key
 from ehlectric.quantities.quantity import key_of

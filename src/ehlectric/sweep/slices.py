@@ -8,6 +8,7 @@ import math
 import re
 import warnings
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -21,7 +22,6 @@ from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.input_keys import kind_of, unit_of
 from ehlectric.cases.table import nearest
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, short, shown
 from ehlectric.quantities.former_keys import current_key
 from ehlectric.quantities.lubrication_states import conducts, is_shorted

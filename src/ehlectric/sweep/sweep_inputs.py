@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import product
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
@@ -36,7 +36,6 @@ from ehlectric.cases.table import (
     read_toml,
     similar_keys,
 )
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, printable, short, shown, within
 from ehlectric.formulas.sobol import sobol_points
 from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED, end_and_key, key_of_drive

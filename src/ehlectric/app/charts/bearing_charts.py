@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -18,7 +18,6 @@ from ehlectric.bearing import (
     lubrication_state,
 )
 from ehlectric.cases.defaults import OF_CONTACTS
-from ehlectric.dataclass import dataclass
 from ehlectric.figures.data import Panel, Upright
 from ehlectric.figures.speed_panels import breakdown_panel, capacitance_panel, speed_axis
 from ehlectric.quantities.formats import rpm_text, speed_text

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -23,7 +24,6 @@ from ehlectric.app.charts.plotly_panels import axis as plot_axis
 from ehlectric.app.view_models import Figure
 from ehlectric.arrays import Array
 from ehlectric.contact import PointResult, Result
-from ehlectric.dataclass import dataclass
 from ehlectric.figures.contact_profiles import (
     BEFORE,
     BEHIND,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -34,7 +35,6 @@ from ehlectric.app.charts.plotly_panels import (
 from ehlectric.app.view_models import Figure, Reach
 from ehlectric.arrays import Array
 from ehlectric.contact import PointResult
-from ehlectric.dataclass import dataclass
 from ehlectric.figures.contact_profiles import (
     BEFORE,
     BEHIND,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import cache
 from types import MappingProxyType
 from typing import Any, Literal
@@ -13,7 +13,6 @@ from typing import Any, Literal
 from ehlectric.app.catalogue import bearing
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.bearing_kinds import KEYS_OF_KINDS, KINDS_OF_BEARINGS, KindOfBearing
-from ehlectric.dataclass import dataclass
 from ehlectric.quantities.field_help import help_text
 from ehlectric.quantities.grouped_digits import certain
 from ehlectric.quantities.inputs import attributes, form, input_at, key_of_list

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from shutil import rmtree
 from typing import Generic, TypeVar
@@ -15,7 +16,6 @@ from ehlectric.app.pages.page_parts import JobBox, button, page_texts, say
 from ehlectric.app.session import Session
 from ehlectric.app.view_models import PageAnswer
 from ehlectric.app.work import Job
-from ehlectric.dataclass import dataclass
 
 A = TypeVar("A", bound=PageAnswer)
 

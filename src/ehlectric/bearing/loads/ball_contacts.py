@@ -7,6 +7,7 @@ It is therefore interpolated over the contact angle once for each geometry, with
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
@@ -15,7 +16,6 @@ from numpy.polynomial.chebyshev import chebpts1, chebvander
 
 from ehlectric.arrays import Array, Numbers, as_float
 from ehlectric.bearing.loads.geometry import BallBearing
-from ehlectric.dataclass import dataclass
 from ehlectric.formulas.hertz import dry_contact
 
 # Degree of the polynomial of log K. K changes smoothly, by a few percent over all angles: the relative error

@@ -18,6 +18,7 @@ Concepts of Bearing Technology, 5th ed., 2006, chapters 1 and 3, doi:10.1201/978
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any, ClassVar, TypeVar
 
 import numpy as np
@@ -53,7 +54,6 @@ from ehlectric.bearing.loads.ring import (
     joined,
     refuse_unbalanced,
 )
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 
 B = TypeVar("B", BallBearing, FourPointBearing)

@@ -16,11 +16,12 @@ computes.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from ehlectric.arrays import Array, Mask, Numbers
 from ehlectric.bearing.loads.ball_contacts import Contacts, Spans
-from ehlectric.dataclass import dataclass
 
 _TINY = np.finfo(float).tiny
 _MOST_STEPS = 60

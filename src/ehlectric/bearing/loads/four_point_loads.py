@@ -17,7 +17,7 @@ one Newton's method finds the places of the balls at any displacement, and then 
 
 from __future__ import annotations
 
-from dataclasses import fields
+from dataclasses import dataclass, fields
 from typing import TypeVar
 
 import numpy as np
@@ -27,7 +27,6 @@ from ehlectric.bearing.loads.ball_contacts import Contacts, Spans, stiffness_at
 from ehlectric.bearing.loads.ball_loads import BallEquilibrium, BallPoints, laws_of
 from ehlectric.bearing.loads.geometry import FourPointBearing
 from ehlectric.bearing.loads.ring import AIM, Batch, Operation, balance, chosen, joined, refuse_unbalanced
-from ehlectric.dataclass import dataclass
 
 # Points of operation that are computed together: few enough for the processor's cache.
 _BLOCK = 1024

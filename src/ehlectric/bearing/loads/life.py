@@ -7,12 +7,12 @@ ends them. Nothing here knows of damage by discharges.
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array, Numbers, as_float
-from ehlectric.dataclass import dataclass
 
 _MILLION = 1e6
 

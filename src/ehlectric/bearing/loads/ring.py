@@ -10,14 +10,13 @@ energy does not change even in its last digit.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import fields, replace
+from dataclasses import dataclass, fields, replace
 from typing import Any, Generic, Self, TypeAlias, TypeVar
 
 import numpy as np
 
 from ehlectric.arrays import Array, Booleans, IntArray, Mask, Numbers
 from ehlectric.bearing.loads.geometry import BallBearing, FourPointBearing, RollerBearing, Speeds
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import ConvergenceError, InputError
 
 # Force of the elements against displacements of the ring, shape (m, k), and its derivative by the

@@ -16,6 +16,7 @@ universally loaded bearings.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
@@ -23,7 +24,6 @@ import numpy as np
 from ehlectric.arrays import Array, IntArray, Mask, Numbers, as_float
 from ehlectric.bearing.loads.geometry import RollerBearing, Speeds, centrifugal_force, rolling_speeds
 from ehlectric.bearing.loads.ring import Batch, BearingEquilibrium, Operation, balance, refuse_unbalanced
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 from ehlectric.formulas.hertz import body_compliance, reduced_modulus
 from ehlectric.readable import readable

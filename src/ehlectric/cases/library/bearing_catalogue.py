@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any, Literal, get_args
 
 from ehlectric.cases import library
 from ehlectric.cases.amounts import Amount, amount_at
 from ehlectric.cases.bearing_kinds import KINDS_OF_BEARINGS
 from ehlectric.cases.library.library_oils import Kind, Source, sources_of, weakest
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, shown, within
 
 ClearanceClass = Literal["C2", "CN", "C3", "C4", "C5", "CM"]

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cache, lru_cache
 from typing import Any
 
 from ehlectric.cases import library
 from ehlectric.cases.library.bearing_catalogue import ClearanceClass
-from ehlectric.dataclass import dataclass
 
 # Kinds of bearings that a word in ``suffixes.csv`` stands for.
 _BALL_KINDS = ("deep-groove ball", "angular-contact ball", "four-point contact ball")

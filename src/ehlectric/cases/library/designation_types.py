@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
+from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import cache
 
@@ -12,7 +13,6 @@ from ehlectric.cases import library
 from ehlectric.cases.bearing_kinds import KINDS_OF_BEARINGS
 from ehlectric.cases.library.designations import Parts, known_bearings, parts_of, refused
 from ehlectric.cases.library.estimated_bearings import series
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, shown
 
 # Designations of some kinds, for a text that is like none.

@@ -10,13 +10,13 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cache, lru_cache
 
 from ehlectric.cases import library
 from ehlectric.cases.library.bearing_catalogue import ClearanceClass
 from ehlectric.cases.library.designation_suffixes import Suffix, known_suffix, parted
 from ehlectric.cases.library.estimated_bearings import series
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, shown
 
 # Types with the same rollers and raceways as another one: they differ in the flanges.

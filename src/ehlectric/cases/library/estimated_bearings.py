@@ -10,14 +10,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from typing import Any
 
 import scipy
 
 from ehlectric.cases import library
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 from ehlectric.formulas.load_ratings import (
     RATED_GROOVES,

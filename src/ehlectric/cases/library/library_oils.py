@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from typing import Any, Literal, get_args
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
@@ -11,7 +12,6 @@ from pydantic_core import CoreSchema, core_schema
 
 from ehlectric.cases import library
 from ehlectric.cases.amounts import scalar
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError, shown
 from ehlectric.lubricant.data_sheet import GRADES
 from ehlectric.runtime.display import is_number

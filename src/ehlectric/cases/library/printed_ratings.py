@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cache
 
 from ehlectric.cases import library
 from ehlectric.cases.library.bearing_catalogue import catalogue_bearing
 from ehlectric.cases.library.estimated_bearings import estimated_geometry, rating_factors, series
-from ehlectric.dataclass import dataclass
 
 
 @dataclass(frozen=True)

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import lru_cache, partial
 from typing import Any
 
 import numpy as np
 
 from ehlectric.arrays import Array, Mask, Numbers, as_float
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 from ehlectric.film.atlas.atlas_groups import SKEW, Ellipse, Groups, lubricant_coordinate
 from ehlectric.film.atlas.atlas_table import NAMES, Table, table

@@ -17,14 +17,13 @@ with H = h R/b^2 and H_Moes = (h/R) (eta0 u_s/(E' R))^(-1/2); R is the radius al
 from __future__ import annotations
 
 import math
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from ehlectric.arrays import Numbers, as_float
-from ehlectric.dataclass import dataclass
 from ehlectric.formulas.carlson import complete_rd
 from ehlectric.formulas.film_line import LineContact, moes
 from ehlectric.formulas.film_point import PointContact, load_exponent, nijenbanning_venner_moes

@@ -4,6 +4,7 @@ neighbours.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cached_property, lru_cache, reduce
 from importlib.resources import files
 from itertools import product
@@ -13,7 +14,6 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array, IntArray, Mask, Numbers
-from ehlectric.dataclass import dataclass
 from ehlectric.errors import InputError
 from ehlectric.formulas.tensor_spline import TensorSpline
 
