@@ -7,6 +7,7 @@ of columns and the documentation look them up by key, and have no labels, units 
 from __future__ import annotations
 
 import math
+import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cache
@@ -15,7 +16,6 @@ from types import MappingProxyType
 from typing import Any, Literal, TypeAlias
 
 from ehlectric.errors import printable
-from ehlectric.toml_files import contents
 
 # Sign of a value that is a bound only; empty for any other value.
 Bound: TypeAlias = Literal["", "≤", "≥"]
@@ -114,7 +114,7 @@ def data_file(package: str, name: str) -> dict[str, Any]:
     >>> sorted(data_file("ehlectric.quantities", "sheets.toml")["columns"])
     ['films', 'loads', 'page']
     """
-    return contents(resources.files(package).joinpath(name))
+    return tomllib.loads(resources.files(package).joinpath(name).read_text(encoding="utf-8"))
 
 
 def unbroken(text: str) -> str:
