@@ -13,7 +13,6 @@ from __future__ import annotations
 import datetime
 import re
 import time
-import tomllib
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -21,6 +20,8 @@ from copy import deepcopy
 from dataclasses import dataclass, field
 from typing import Any, Self
 from urllib.parse import parse_qsl, urlencode, urlsplit
+
+import tomli
 
 from ehlectric.cases.key_names import MOST_DEEP, refuse_deep, refuse_long_keys
 from ehlectric.errors import InputError, shown
@@ -236,7 +237,7 @@ def _quoted_parts(key: str) -> list[str]:
         raise wrong
     try:
         refuse_long_keys(f"{key} = 0")
-        table: Any = tomllib.loads(f"{key} = 0")
+        table: Any = tomli.loads(f"{key} = 0")
     except (ValueError, RecursionError):
         raise wrong from None
     parts = []
@@ -340,7 +341,7 @@ def _read(text: str) -> Any:
         return text
     try:
         refuse_long_keys(text)
-        table = tomllib.loads(f"value = {text}")
+        table = tomli.loads(f"value = {text}")
     except (ValueError, RecursionError):
         # Not TOML, or a number of thousands of digits.
         return text

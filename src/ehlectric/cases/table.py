@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import difflib
 import re
-import tomllib
 import unicodedata
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
@@ -14,6 +13,7 @@ from pathlib import Path
 from types import MappingProxyType, UnionType
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, Union, get_args, get_origin
 
+import tomli
 from pydantic import (
     AfterValidator,
     BaseModel,
@@ -393,18 +393,18 @@ def tables_of_text(text: str, name: object) -> dict[str, Any]:
     """
     try:
         refuse_long_keys(text)
-        table = tomllib.loads(text)
+        table = tomli.loads(text)
         refuse_deep(table)
     except InputError as error:
         raise InputError(name, str(error)) from None
-    except tomllib.TOMLDecodeError as error:
+    except tomli.TOMLDecodeError as error:
         raise InputError(name, f"is not TOML, {_syntax(str(error), text)}") from None
     except (ValueError, RecursionError):
         raise InputError(name, "is not TOML that can be read, some value is too long or too deep") from None
     return table
 
 
-# Place in the message of tomllib, and numbers in a line of TOML that stand without quotes.
+# Place in the message of tomli, and numbers in a line of TOML that stand without quotes.
 _PLACE = re.compile(r"\(at line (\d+), column \d+\)")
 _QUOTED = re.compile(r'"[^"]*"|\'[^\']*\'')
 _COMMA_NUMBER = re.compile(r"=\s*([-+]?\d+,\d+\b[^,\]#]*)")
@@ -414,7 +414,7 @@ _UNIT_NUMBER = re.compile(
 
 
 def _syntax(message: str, text: str) -> str:
-    """Message of tomllib about a text, with the wrong line and, for a number, how to write it."""
+    """Message of tomli about a text, with the wrong line and, for a number, how to write it."""
     place = _PLACE.search(message)
     lines = text.splitlines()
     if place is None or not (line := " ".join(lines[int(place[1]) - 1].split())):

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-import tomllib
 from collections.abc import Iterator, Mapping
 from difflib import get_close_matches
 from pathlib import Path
 from types import MappingProxyType
 
+import tomli
 import typer
 
 from ehlectric.commands.options import TEXTS, chosen, command
@@ -165,14 +165,14 @@ def _known(name: str) -> str:
 
 def _about(name: str) -> str:
     """One line about an example: its title."""
-    table = tomllib.loads((examples_folder() / f"{name}.toml").read_text(encoding="utf-8"))
+    table = tomli.loads((examples_folder() / f"{name}.toml").read_text(encoding="utf-8"))
     return str(table.get("title", ""))
 
 
 def _needed(file: str) -> Iterator[str]:
     """File of an example and the files that it names, relative to the folder of the examples."""
     yield file
-    table = tomllib.loads((examples_folder() / file).read_text(encoding="utf-8"))
+    table = tomli.loads((examples_folder() / file).read_text(encoding="utf-8"))
     if file in _MEASUREMENTS:
         yield _MEASUREMENTS[file]
     if isinstance(table.get("case"), str):
@@ -195,7 +195,7 @@ def _write_with_schema(source: Path, path: Path) -> Path:
     from ehlectric.runtime.files import refuse_special, write
 
     text = source.read_text(encoding="utf-8")
-    kind = kind_of_tables(tomllib.loads(text)) or "contact"
+    kind = kind_of_tables(tomli.loads(text)) or "contact"
     kind = "contact" if kind == "motion" else kind
     schema_file = path.parent / f"ehlectric-{kind}.schema.json"
     refuse_special(schema_file)

@@ -4,13 +4,13 @@ fields.
 
 from __future__ import annotations
 
-import tomllib
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar, Self
 
 import numpy as np
+import tomli
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.cases.case import Case
@@ -277,7 +277,7 @@ class MotionRun(Values):
         if missing or "case" not in dataset.attrs:
             name = missing[0] if missing else "case"
             raise InputError("dataset", got=f"one without {name!r}", takes="the dataset of moving roughness")
-        case = Case.from_dict(tomllib.loads(dataset.attrs["case"]))
+        case = Case.from_dict(tomli.loads(dataset.attrs["case"]))
         solved = {
             "step": np.isfinite(dataset["time"].values),
             "frame": np.isfinite(dataset["frame_time"].values),

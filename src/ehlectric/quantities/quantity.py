@@ -7,13 +7,14 @@ of columns and the documentation look them up by key, and have no labels, units 
 from __future__ import annotations
 
 import math
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cache
 from importlib import resources
 from types import MappingProxyType
 from typing import Any, Literal, TypeAlias
+
+import tomli
 
 from ehlectric.errors import printable
 
@@ -114,7 +115,7 @@ def data_file(package: str, name: str) -> dict[str, Any]:
     >>> sorted(data_file("ehlectric.quantities", "sheets.toml")["columns"])
     ['films', 'loads', 'page']
     """
-    return tomllib.loads(resources.files(package).joinpath(name).read_text(encoding="utf-8"))
+    return tomli.loads(resources.files(package).joinpath(name).read_text(encoding="utf-8"))
 
 
 def unbroken(text: str) -> str:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterator, Mapping
 from types import MappingProxyType
 from typing import Any, Literal
 
+import tomli
 from pydantic.json_schema import models_json_schema
 
 from ehlectric.cases.bearing_case import BearingCase
@@ -157,7 +157,7 @@ def _as_written(schema: dict[str, Any], kind: str) -> None:
 def _examples(kind: str) -> Iterator[dict[str, Any]]:
     """Tables of the examples of a kind of file."""
     for path in sorted(examples_folder().glob("*.toml")):
-        table = tomllib.loads(path.read_text(encoding="utf-8"))
+        table = tomli.loads(path.read_text(encoding="utf-8"))
         table_kind = kind_of_tables(table) or "contact"
         if table_kind == kind or (table_kind == "motion" and kind == "contact"):
             yield table

@@ -5,7 +5,6 @@ texts.
 from __future__ import annotations
 
 import json
-import tomllib
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -14,6 +13,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
+import tomli
 
 from ehlectric.arrays import Array
 from ehlectric.errors import DamagedError, InputError
@@ -215,7 +215,7 @@ def case_of(attributes: Mapping[Any, Any], read: Callable[[dict[str, Any]], C]) 
     """
     text = text_of(attributes, "case")
     try:
-        return read(tomllib.loads(text))
+        return read(tomli.loads(text))
     except InputError as error:
         raise UnfitError(f"its case is not valid, {error}") from None
     except (RecursionError, ValueError):

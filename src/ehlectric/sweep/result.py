@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import tomllib
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -13,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, ClassVar
 
 import numpy as np
+import tomli
 
 from ehlectric.arrays import Array
 from ehlectric.cases.input_keys import kind_of, of_both_ends, unit_of
@@ -287,7 +287,7 @@ class SweepResults(Shown, SweepPoints):
             for key, span in self.ranges.items()
         }
         axes = {key: [_written(key, value) for value in values] for key, values in self.axes.items()}
-        return tomli_w.dumps(table | {"case": tomllib.loads(case), "vary": axes | ranges})
+        return tomli_w.dumps(table | {"case": tomli.loads(case), "vary": axes | ranges})
 
     def to_xarray(self) -> xr.Dataset:
         """Return inputs and results over the varied keys in a "grid" design, as in sweep.nc."""

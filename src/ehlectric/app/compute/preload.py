@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import tomllib
+import tomli
 
 from ehlectric.app.compute.bearing_answers import quick_answer
 from ehlectric.runs.example_files import example_text
 
 # Units, files of the library and modules that are imported where they are used are read once, here.
-quick_answer(tomllib.loads(example_text("bearing_6208")))
+quick_answer(tomli.loads(example_text("bearing_6208")))

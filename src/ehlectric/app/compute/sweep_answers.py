@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import tomllib
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
@@ -11,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import tomli
 
 from ehlectric.app.charts.plotly_panels import STRIP, STRIP_AXIS, Plot, values
 from ehlectric.app.charts.sweep_charts import line_figure, map_figure
@@ -535,7 +535,7 @@ def point_table(
     Raises InputError if the inputs of the point are no valid case.
     """
     point_case = case.replace(inputs)
-    changed: dict[str, Any] = tomllib.loads(Inputs(table).toml())
+    changed: dict[str, Any] = tomli.loads(Inputs(table).toml())
     texts = {key: _text(key, value, (units or {}).get(key, "")) for key, value in inputs.items()}
     set_keys(changed, _in_tables(table, texts) if isinstance(case, DriveCase) else texts)
     try:
@@ -544,7 +544,7 @@ def point_table(
     except InputError:
         # As where a load replaces a Hertz pressure: the file must not have both.
         pass
-    return tomllib.loads(point_case.to_toml())
+    return tomli.loads(point_case.to_toml())
 
 
 def _written_unit(vary: Mapping[str, Any], key: str) -> str:

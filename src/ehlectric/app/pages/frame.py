@@ -5,13 +5,13 @@ begin.
 from __future__ import annotations
 
 import json
-import tomllib
 from collections.abc import Awaitable, Callable, Iterator, Mapping
 from contextlib import contextmanager
 from functools import cache
 from importlib import resources
 from typing import Any
 
+import tomli
 from nicegui import Client, events, ui
 
 from ehlectric.app.calls import FILES_UPLOADED
@@ -32,7 +32,7 @@ from ehlectric.runs.example_files import example_text
 @cache
 def start(name: str) -> Inputs:
     """Inputs of an example."""
-    return Inputs(tomllib.loads(example_text(name)))
+    return Inputs(tomli.loads(example_text(name)))
 
 
 BEARING = start("bearing_6208")

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import csv
-import tomllib
 from copy import deepcopy
 from functools import cache
 from importlib import resources
 from importlib.resources.abc import Traversable
 from typing import Any
+
+import tomli
 
 _FOLDER: Traversable = resources.files(__name__)
 
@@ -20,7 +21,8 @@ def _names(kind: str) -> list[str]:
 @cache
 def _listed(_folder: str, kind: str) -> tuple[str, ...]:
     """Names in the folder of the library, which is looked at once."""
-    return tuple(sorted(file.name.removesuffix(".toml") for file in (_FOLDER / f"{kind}s").iterdir()))
+    files = [file.name for file in (_FOLDER / f"{kind}s").iterdir()]
+    return tuple(sorted(name.removesuffix(".toml") for name in files if name.endswith(".toml")))
 
 
 def tables(kind: str, name: str) -> dict[str, Any]:
@@ -31,7 +33,7 @@ def tables(kind: str, name: str) -> dict[str, Any]:
 @cache
 def _read(kind: str, name: str) -> dict[str, Any]:
     path = _FOLDER / f"{kind}s" / f"{name}.toml"
-    return tomllib.loads(path.read_text(encoding="utf-8"))
+    return tomli.loads(path.read_text(encoding="utf-8"))
 
 
 def _table(kind: str, name: str) -> dict[str, Any]:
