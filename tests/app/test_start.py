@@ -1,6 +1,8 @@
 """Address that the server is bound to."""
 
 import socket
+import subprocess
+import sys
 
 import pytest
 
@@ -45,3 +47,17 @@ def test_an_address_of_another_machine_is_told(host):
     with pytest.raises(InputError) as caught:
         listen(host, 0).close()
     assert (caught.value.key, caught.value.got) == ("--host", host)
+
+
+def test_the_server_loads_no_client_and_no_physics():
+    code = """
+import sys
+from ehlectric.app import start
+with start._without(start._UNUSED):
+    import ehlectric.app.server
+print(*sys.modules)
+"""
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    loaded = set(run.stdout.split())
+    assert {"nicegui", "engineio"} < loaded
+    assert not loaded & {"aiohttp", "requests", "tornado", "plotly", "numpy", "scipy"}

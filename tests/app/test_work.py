@@ -10,7 +10,7 @@ from multiprocessing.forkserver import _forkserver
 import pytest
 
 from ehlectric.app.calls import BEARING_QUICK, Call
-from ehlectric.app.work import Limits, Work, limits_of
+from ehlectric.app.work import Limits, Work, key_of, limits_of
 from ehlectric.errors import InputError, LostError
 from ehlectric.runs.example_files import example_text
 from tests.helpers import calls
@@ -156,6 +156,15 @@ def test_an_answer_to_the_same_inputs_is_computed_once(tmp_path):
         return first == second == third, kept, answers_of_one, wrong_kept, len(begun)
 
     assert working(None, use) == (True, True, 1, False, 4)
+
+
+def test_an_answer_of_an_earlier_start_is_not_computed_again():
+    async def use(work):
+        work.keep({key_of(BEARING_QUICK, (TABLE, None)): "of an earlier start"})
+        share = work.share()
+        return share.has(BEARING_QUICK, TABLE, None), await share.quick(BEARING_QUICK, TABLE, None)
+
+    assert working(None, use) == (True, "of an earlier start")
 
 
 def test_the_answers_that_are_kept_are_few():

@@ -20,20 +20,20 @@ _ADDRESS = re.compile(r"ehlectric is at (http://\S+)")
 _PATIENT = """
 import sys
 from dataclasses import replace
-from ehlectric.app import work
+from ehlectric.app import session, work
 
-limits_of, warm = work.limits_of, work.Work.warm
+limits_of, keep_in_memory = work.limits_of, session.keep_in_memory
 
 def longer(**given):
     return replace(limits_of(**given), patience=600.0)
 
-def warm_and_patient(self):
-    warm(self)
+def keep_and_wait():
+    keep_in_memory()
     from ehlectric.app import server
     from ehlectric.app.pages import page_parts
     server._RECONNECT, page_parts._BRIEF = {away}, 60.0
 
-work.limits_of, work.Work.warm = longer, warm_and_patient
+work.limits_of, session.keep_in_memory = longer, keep_and_wait
 sys.argv[0] = "ehlectric"
 from ehlectric.__main__ import main
 main()

@@ -5,10 +5,9 @@ from __future__ import annotations
 import asyncio
 import signal
 import socket
-import threading
-import webbrowser
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from typing import Any
 
 import uvicorn
 from fastapi import FastAPI
@@ -16,6 +15,7 @@ from nicegui import Client, app, ui
 from starlette.middleware.gzip import GZipMiddleware
 from starlette.types import ASGIApp
 
+from ehlectric.app.kept_answers import write
 from ehlectric.app.pages import FIRST, PAGES
 from ehlectric.app.security import (
     MOST_PAGES,
@@ -39,6 +39,9 @@ _UNSEEN = 5.0
 # Messages that a browser gets again when it comes back; figures are in them, so they are few.
 _MESSAGES = 100
 
+# Time after which the processes load where no browser has opened a page [s].
+_UNVISITED = 2.0
+
 # Time that open requests have to end when the server is stopped [s].
 _GRACE = 1
 
@@ -51,8 +54,8 @@ _COMPRESSED, _LEVEL = 1000, 4
 _LARGEST_MESSAGE = 4_000_000
 
 
-def serve(guard: Guard, listening: socket.socket, work: Work, *, ready: Callable[[], None]) -> None:
-    """Serve the pages until the process is stopped; ``ready`` is called when requests are answered."""
+def serve(guard: Guard, listening: socket.socket, work: Work, answers: Mapping[str, Any]) -> None:
+    """Serve the pages until the process is stopped; ``answers`` are kept ones, by their keys."""
     config = uvicorn.Config(
         _application(guard, work),
         log_level="warning",
@@ -65,20 +68,15 @@ def serve(guard: Guard, listening: socket.socket, work: Work, *, ready: Callable
         timeout_graceful_shutdown=_GRACE,
     )
     log_in_single_lines()
-    _Server(config, work, ready).run(sockets=[listening])
-
-
-def open_browser(address: str) -> None:
-    """Open a browser while the server runs."""
-    threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
+    _Server(config, work, answers).run(sockets=[listening])
 
 
 class _Server(uvicorn.Server):
-    """Server that calls a function when it begins to answer requests, and then answers the first page."""
+    """Server that answers the first page before a browser asks for it."""
 
-    def __init__(self, config: uvicorn.Config, work: Work, ready: Callable[[], None]) -> None:
+    def __init__(self, config: uvicorn.Config, work: Work, answers: Mapping[str, Any]) -> None:
         super().__init__(config)
-        self._work, self._ready = work, ready
+        self._work, self._answers = work, answers
 
     @contextmanager
     def capture_signals(self) -> Iterator[None]:
@@ -95,10 +93,21 @@ class _Server(uvicorn.Server):
                     signal.signal(number, handler)
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        self._work.keep(self._answers)
         await super().startup(sockets)
-        self._ready()
-        # While a browser loads the page, which gets the answers that are kept.
-        self._first = asyncio.create_task(FIRST(self._work))
+        if self._answers:
+            # The processes load after the first page, which needs none of them, has loaded.
+            app.on_connect(self._work.warm)
+            asyncio.get_running_loop().call_later(_UNVISITED, self._work.warm)
+        else:
+            # While a browser loads the page, which gets the answers that are computed.
+            self._first = asyncio.create_task(self._answer_first())
+
+    async def _answer_first(self) -> None:
+        """Answer the first page, and keep its fullest answer for later starts."""
+        answers = await FIRST(self._work)
+        if answers:
+            await asyncio.to_thread(write, answers)
 
 
 def _application(guard: Guard, work: Work) -> ASGIApp:

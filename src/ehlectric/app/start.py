@@ -1,12 +1,18 @@
-"""Start of the app: the processes that compute begin to load before the server does."""
+"""Start of the app: its address is there at once, and the processes that compute load next to the server."""
 
 from __future__ import annotations
 
 import errno
 import os
 import socket
-from collections.abc import Callable
+import sys
+import threading
+import webbrowser
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from typing import Any
 
+from ehlectric.app.kept_answers import read
 from ehlectric.app.security import Guard
 from ehlectric.app.work import Limits, Work, clear_left_behind, take_temporary_files
 from ehlectric.errors import InputError
@@ -14,6 +20,10 @@ from ehlectric.runtime.locks import held_back
 
 # Ports that are tried where none is given.
 _PORTS = range(8080, 8180)
+
+# Clients of sockets and another server, which the library of sockets loads if it finds them. This server uses
+# none of them, and they would take a third of its start.
+_UNUSED = ("aiohttp", "requests", "tornado", "websocket")
 
 
 def start(
@@ -27,7 +37,7 @@ def start(
     """Serve the app until it is interrupted.
 
     The port is the first free one from 8080 upwards where it is None, and any free one where it is 0.
-    ``tell`` is called with a line that has the address of the app when it answers requests.
+    ``tell`` is called with a line that has the address of the app when it takes requests.
     """
     listening = listen(host, port)
     guard = Guard.of(host, listening.getsockname()[1])
@@ -38,16 +48,18 @@ def start(
         take_temporary_files(work.scratch.folder)
         # NiceGUI would write its files into the folder in which the command was typed.
         os.environ["NICEGUI_STORAGE_PATH"] = str(work.scratch.folder)
-        work.warm()
-        # The server loads while the processes load the physics.
-        from ehlectric.app.server import open_browser, serve
+        answers = read()
+        if not answers:
+            # The processes load the physics while the server loads.
+            work.warm()
+        # A browser starts meanwhile, and waits for the answer to its request.
+        tell(f"ehlectric is at {guard.address}  (Ctrl-C ends it)")
+        if browser:
+            threading.Thread(target=webbrowser.open, args=(guard.address,), daemon=True).start()
+        with _without(_UNUSED):
+            from ehlectric.app.server import serve
 
-        def ready() -> None:
-            tell(f"ehlectric is at {guard.address}  (Ctrl-C ends it)")
-            if browser:
-                open_browser(guard.address)
-
-        serve(guard, listening, work, ready=ready)
+        serve(guard, listening, work, answers)
     except KeyboardInterrupt:
         # This is how a user ends it.
         pass
@@ -55,6 +67,18 @@ def start(
         with held_back():  # What is left running here would be waited for at the exit.
             work.close()
         listening.close()
+
+
+@contextmanager
+def _without(packages: Iterable[str]) -> Iterator[None]:
+    """Context in which packages that are not loaded are taken as missing."""
+    hidden: dict[str, Any] = {name: None for name in packages if name not in sys.modules}
+    sys.modules.update(hidden)
+    try:
+        yield
+    finally:
+        for name in hidden:
+            del sys.modules[name]
 
 
 def listen(host: str, port: int | None) -> socket.socket:

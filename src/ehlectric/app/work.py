@@ -16,7 +16,7 @@ import logging
 import os
 import shutil
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -245,7 +245,7 @@ class Work:
         self.behind = asyncio.Semaphore(max(1, number - 1))
         # The last process that answered answers next: it has parts of the answers to the same inputs.
         self._idle: asyncio.LifoQueue[Worker] = asyncio.LifoQueue()
-        self._answers: dict[str, asyncio.Task[Returned | Raised]] = {}
+        self._answers: dict[str, asyncio.Future[Returned | Raised]] = {}
         for worker in self._quick:
             self._idle.put_nowait(worker)
         self._threads = ThreadPoolExecutor(number + self.limits.jobs, "ehlectric-work")
@@ -285,12 +285,12 @@ class Work:
 
     async def answer(self, function: Call[Any], values: tuple[Any, ...]) -> Returned | Raised:
         """Outcome of a function in one of the processes of immediate answers, or its kept outcome."""
-        key = _key(function, values)
+        key = key_of(function, values)
         if not key:
             return await self._answer(function, values)
         task = self._answers.pop(key, None)
         if task is None or task.cancelled():
-            task = asyncio.create_task(self._answer(function, values))
+            task = asyncio.ensure_future(self._answer(function, values))
         self._answers[key] = task  # the latest at the end
         if len(self._answers) > _KEPT:
             del self._answers[next(iter(self._answers))]
@@ -301,8 +301,14 @@ class Work:
 
     def has(self, function: Call[Any], values: tuple[Any, ...]) -> bool:
         """Whether the outcome of a function is kept."""
-        task = self._answers.get(_key(function, values))
+        task = self._answers.get(key_of(function, values))
         return task is not None and task.done()
+
+    def keep(self, answers: Mapping[str, Any]) -> None:
+        """Keep results by their keys, as if they had been computed."""
+        for key, result in answers.items():
+            self._answers[key] = asyncio.get_running_loop().create_future()
+            self._answers[key].set_result(Returned(result))
 
     async def _answer(self, function: Call[Any], values: tuple[Any, ...]) -> Returned | Raised:
         worker = await self._idle.get()
@@ -439,14 +445,14 @@ class Share:
             job.cancel()
 
 
-def _key(function: Call[Any], values: tuple[Any, ...]) -> str:
+def key_of(function: Call[Any], values: tuple[Any, ...]) -> str:
     """Key of an outcome that depends on nothing else than a call and plain values; empty for another.
 
     Examples
     --------
-    >>> _key(Call("duty_answers.look"), ({"title": "A"}, None))
+    >>> key_of(Call("duty_answers.look"), ({"title": "A"}, None))
     'duty_answers.look [{"title": "A"}, null]'
-    >>> _key(Call("duty_answers.look"), ({}, Path("folder")))
+    >>> key_of(Call("duty_answers.look"), ({}, Path("folder")))
     ''
     """
     try:

@@ -25,5 +25,5 @@ PAGES: tuple[Callable[[Work], None], ...] = (
     compare_page.add,
 )
 
-# Computes the answers to the inputs with which the first page begins.
-FIRST: Callable[[Work], Coroutine[Any, Any, None]] = bearing_page.BearingPage.answer_start
+# Computes the answers to the inputs with which the first page begins; returns the fullest one by its key.
+FIRST: Callable[[Work], Coroutine[Any, Any, dict[str, Any]]] = bearing_page.BearingPage.answer_start

@@ -21,9 +21,10 @@ from ehlectric.app.pages.frame import PAGE_PATIENCE, Toolbar, framed, session_of
 from ehlectric.app.pages.page_parts import Strip, button, heading, lines_html, mark, say
 from ehlectric.app.pages.result_parts import FigureBox, NoteList, NumberBox, Panel, behind
 from ehlectric.app.pages.solving import Solving
+from ehlectric.app.processes import Returned
 from ehlectric.app.session import Session
 from ehlectric.app.view_models import PageAnswer, notes_of
-from ehlectric.app.work import Work
+from ehlectric.app.work import Work, key_of
 from ehlectric.errors import InputError
 
 A = TypeVar("A", bound=PageAnswer)
@@ -71,10 +72,15 @@ class AnswerPage(Generic[A]):
         return max((n for n, call in enumerate(calls) if self.session.work.has(call, *values)), default=0)
 
     @classmethod
-    async def answer_start(cls, work: Work) -> None:
-        """Compute the answers to the inputs with which the page begins."""
+    async def answer_start(cls, work: Work) -> dict[str, A]:
+        """Compute the answers to the inputs with which the page begins; returns the fullest one by its key.
+
+        Returns none if they cannot be computed.
+        """
+        values = (dict(cls.start.table), None)
         for call in (cls.quick, *cls.later):
-            await work.answer(call, (dict(cls.start.table), None))
+            outcome = await work.answer(call, values)
+        return {key_of(call, values): outcome.result} if isinstance(outcome, Returned) else {}
 
     @classmethod
     def add(cls, work: Work) -> None:
