@@ -25,7 +25,8 @@ _PRELOADED = "ehlectric.app.compute.preload"
 # Modules of the other pages, which a process loads one by one when it was idle for a time [s]. Before the
 # first answer they would take as long as the answer itself.
 _OTHERS = tuple(
-    f"ehlectric.app.compute.{name}_answers" for name in ("contact", "drive", "sweep", "remedy", "compare")
+    f"ehlectric.app.compute.{name}_answers"
+    for name in ("contact", "drive", "gear", "sweep", "remedy", "compare")
 )
 _IDLE = 5.0
 

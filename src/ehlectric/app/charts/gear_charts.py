@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 
-from ehlectric.app.charts.plotly_panels import FILM_COLOURS, Plot, axis, plot, scatter, stack, values
+from ehlectric.app.charts.plotly_panels import FILM_COLOURS, INK, Plot, axis, plot, scatter, stack, values
+from ehlectric.arrays import Array
 from ehlectric.figures.data import with_unit
 from ehlectric.figures.gear_panels import (
-    ENDS_OF_FLANK,
     LAST_COLOUR,
     PHASE_AXIS,
     film_panels,
@@ -24,9 +24,10 @@ from ehlectric.figures.gear_panels import (
 from ehlectric.gear import GearResult, weakest
 from ehlectric.quantities.palette import ON_MAP, ORANGE, OUT_OF_RANGE
 from ehlectric.quantities.units import unit_for
+from ehlectric.readable import readable
 
-# Rows and columns of the map that a page receives, and its height [px].
-_ROWS, _COLUMNS, _HEIGHT = 90, 60, 430
+# Distance of the places on a flank that a page receives, in places of its map, and height of the map [px].
+_STEP, _HEIGHT = 4, 560
 
 
 def path_figure(result: GearResult) -> Plot:
@@ -45,11 +46,14 @@ def mesh_figure(result: GearResult) -> Plot:
 
 
 def _with_points(result: GearResult, made: Plot) -> Plot:
-    """Figure with the names of the points A to E above its panels, and each name once in its legend."""
+    """Figure with the names of the points A to E above its panels, and each name once in its legend, lines
+    before areas.
+    """
     seen: set[str] = set()
     for trace in made["data"]:
         name = trace.get("name", "")
         trace["showlegend"] = bool(name) and name not in seen
+        trace["legendrank"] = 1001 if "fill" in trace else 1000
         seen.add(name)
     look = {"yref": "paper", "y": 1.0, "yanchor": "bottom", "showarrow": False}
     letters = [{"x": place, "text": name, **look} for place, name in named_points(result)]
@@ -60,85 +64,109 @@ def _with_points(result: GearResult, made: Plot) -> Plot:
 
 def flank_figure(result: GearResult) -> Plot:
     """Map of the minimum film on the flank of gear 1, with lines of contact and the smallest film."""
-    g, y, films = flank_map(result)
-    rows = np.linspace(0, g.size - 1, _ROWS).round().astype(int)
-    columns = np.linspace(0, y.size - 1, _COLUMNS).round().astype(int)
-    most = LAST_COLOUR * float(np.nanmin(films))
-    factor, unit = unit_for(min(most, float(np.nanmax(films))), "m", least=1.0)
-    shown = factor * films[np.ix_(rows, columns)]
-    at: dict[str, Any] = {"x": values(1e3 * y[columns], 5), "y": values(1e3 * g[rows], 5)}
-    place, across = weakest(result.solution)
-    path, width = result.solution.path, result.solution.pair.face_width
-    thinnest, level = factor * float(np.nanmin(films)), factor * result.solution.summits
-    text = f"y = %{{x:,.4~r}} mm<br>g = %{{y:,.4~r}} mm<br>film %{{z:,.4~r}} {unit}<extra></extra>"
-    heat = at | {
-        "type": "heatmap",
-        "z": values(shown, 4),
-        "zmin": thinnest,
-        "zmax": min(factor * most, float(np.nanmax(shown))),
-        "colorscale": FILM_COLOURS,
-        "colorbar": {"title": {"text": with_unit("minimum film", unit), "side": "right"}, "thickness": 14},
-        "hovertemplate": text,
-        "hoverongaps": False,
-    }
-    traces: list[Plot] = [heat]
-    if thinnest < level < float(np.nanmax(shown)):
-        contours = {"coloring": "none", "start": level, "end": level, "size": 1.0}
-        look = {"color": "#ffffff", "width": 2, "dash": "dash"}
-        traces.append(
-            at
-            | {
-                "type": "contour",
-                "z": values(shown, 4),
-                "contours": contours,
-                "autocontour": False,
-                "line": look,
-                "showscale": False,
-                "hoverinfo": "skip",
-                "name": f"film of {summit_text(result)}",
-                "showlegend": True,
-            }
-        )
-    lines = [np.array([[np.nan], [np.nan]])]
-    for of_y, of_g in flank_lines(result):
-        lines += [1e3 * np.array([of_y, of_g])[:, ::8], lines[0]]
-    x, height = np.concatenate(lines[1:-1], axis=1)
-    traces.append(
-        scatter(x, height, line={"color": ON_MAP, "width": 2}, name="lines of contact at one phase")
+    shown = _Flank.of(result)
+    (place, across), path = weakest(result.solution), result.solution.path
+    cross = {"symbol": "x", "size": 12, "color": ORANGE, "line": {"color": ON_MAP, "width": 1}}
+    smallest = scatter(
+        [1e3 * across],
+        [1e3 * place],
+        marker=cross,
+        name="minimum film",
+        yaxis="y2",
+        cliponaxis=False,
+        hover=f"minimum film {readable(shown.least)} {shown.unit}",
     )
-    cross = {"symbol": "x", "size": 11, "color": ORANGE, "line": {"color": ON_MAP, "width": 1}}
-    traces.append(
-        scatter(
-            [1e3 * across],
-            [1e3 * place],
-            marker=cross,
-            name="minimum film",
-            cliponaxis=False,
-            hover=f"minimum film {thinnest:.4g} {unit}",
-        )
-    )
-    ends = [1e3 * path.start, 1e3 * path.end]
+    ends: Plot = {"range": [1e3 * path.start, 1e3 * path.end], "zeroline": False}
+    places, names = zip(*named_points(result), strict=True)
+    letters: Plot = {"overlaying": "y", "side": "right", "tickvals": list(places), "ticktext": list(names)}
+    dots = {"color": ON_MAP, "width": 1, "dash": "dot"}
     return plot(
-        traces,
+        [*shown.map(), *shown.limit(summit_text(result)), *_lines(result), smallest],
         height=_HEIGHT,
         hovermode="closest",
-        xaxis=axis("place y on the face width [mm]", zeroline=False, range=[0.0, 1e3 * width]),
-        yaxis=axis("place g on the path of contact [mm]", zeroline=False, range=ends),
-        plot_bgcolor=OUT_OF_RANGE if np.any(np.isnan(shown)) else "rgba(0,0,0,0)",
-        annotations=[*_names(result)],
+        xaxis=axis("place y on the face width [mm]", zeroline=False, range=[0.0, shown.width]),
+        yaxis=axis("place g on the path of contact [mm]", **ends),
+        yaxis2=axis(**ends, **letters, showgrid=False),
+        shapes=[
+            {"type": "line", "xref": "paper", "x0": 0, "x1": 1, "y0": place, "y1": place, "line": dots}
+            for place in places[1:-1]
+        ],
     )
 
 
-def _names(result: GearResult) -> list[Plot]:
-    """Names of the points A to E at the left edge of a map."""
-    low, high = 1e3 * result.solution.path.start, 1e3 * result.solution.path.end
-    look = {"xref": "paper", "x": 0.01, "xanchor": "left", "showarrow": False, "font": {"color": ON_MAP}}
-    room = 0.04 * (high - low)
-    return [
-        {
-            "y": min(max(place, low + room), high - room),
-            "text": f"{name}, {ENDS_OF_FLANK[name]}" if name in ENDS_OF_FLANK else name,
-            **look,
+@dataclass(frozen=True)
+class _Flank:
+    """Map of films on a flank as a page receives it."""
+
+    at: Plot  # places y and g of the pixels [mm]
+    films: Array  # in ``unit``; NaN without a load
+    unit: str
+    least: float
+    most: float  # film from which on the colour is the last one
+    summits: float  # height of the highest summits
+    width: float  # face width [mm]
+
+    @classmethod
+    def of(cls, result: GearResult) -> _Flank:
+        """Map of a gear pair, with every fourth of its places."""
+        g, y, films = flank_map(result)
+        least, highest = float(np.nanmin(films)), float(np.nanmax(films))
+        most = min(LAST_COLOUR * least, highest)
+        factor, unit = unit_for(most, "m", least=1.0)
+        at = {"x": values(1e3 * y[::_STEP], 5), "y": values(1e3 * g[::_STEP], 5)}
+        summits, width = factor * result.solution.summits, 1e3 * result.solution.pair.face_width
+        films = factor * films[::_STEP, ::_STEP]
+        return cls(at, films, unit, factor * least, factor * most, summits, width)
+
+    def map(self) -> list[Plot]:
+        """Colours of the films, and grey without a load."""
+        place = "y = %{x:,.4~r} mm<br>g = %{y:,.4~r} mm"
+        name = with_unit("minimum film", self.unit)
+        name += ",<br>thicker films have the last colour" if np.nanmax(self.films) > self.most else ""
+        bar = {"title": {"text": name, "side": "right"}}
+        about: Plot = self.at | {"type": "heatmap", "hoverongaps": False}
+        films = about | {
+            "z": values(self.films, 4),
+            "zmin": self.least,
+            "zmax": self.most,
+            "colorscale": FILM_COLOURS,
+            "colorbar": bar | {"thickness": 14, "xpad": 30},
+            "hovertemplate": f"{place}<br>film %{{z:,.4~r}} {self.unit}<extra></extra>",
         }
-        for place, name in named_points(result)
-    ]
+        without = np.isnan(self.films)
+        if not without.any():
+            return [films]
+        grey = {"colorscale": [[0.0, OUT_OF_RANGE], [1.0, OUT_OF_RANGE]], "showscale": False}
+        unloaded = about | grey | {"z": values(np.where(without, 1.0, np.nan))}
+        return [
+            films,
+            unloaded | {"name": "no load", "showlegend": True, "hovertemplate": f"{place}<br>no load"},
+        ]
+
+    def limit(self, name: str) -> list[Plot]:
+        """Line on which the film has the height of the highest summits; none if it has it nowhere."""
+        if not self.least < self.summits < float(np.nanmax(self.films)):
+            return []
+        contours = {"coloring": "none", "start": self.summits, "end": self.summits, "size": 1.0}
+        line: Plot = self.at | {
+            "type": "contour",
+            "z": values(self.films, 4),
+            "contours": contours,
+            "autocontour": False,
+            "showscale": False,
+            "hoverinfo": "skip",
+        }
+        return [
+            line | {"line": {"color": ON_MAP, "width": 6}, "showlegend": False},
+            line | {"line": {"color": ORANGE, "width": 3}, "name": f"film of {name}", "showlegend": True},
+        ]
+
+
+def _lines(result: GearResult) -> list[Plot]:
+    """Lines of contact, light within grey, which is seen in the legend of a light page."""
+    parts = [1e3 * np.array([y, g])[:, ::_STEP] for y, g in flank_lines(result)]
+    gap = np.full((2, 1), np.nan)
+    x, g = np.concatenate([piece for part in parts for piece in (part, gap)], axis=1)
+    edge, light = ({"color": colour, "width": width} for colour, width in ((INK, 5), (ON_MAP, 2)))
+    name = "lines of contact at one phase"
+    return [scatter(x, g, line=edge, name=name), scatter(x, g, line=light, showlegend=False)]

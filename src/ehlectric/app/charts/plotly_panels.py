@@ -138,10 +138,11 @@ def plain(title: str, unit: str) -> str:
 
     Examples
     --------
-    >>> plain(r"breakdown voltage $V_\mathrm{b}$", "V")
-    'breakdown voltage [V]'
+    >>> plain(r"breakdown voltage $V_\mathrm{b}$", "V"), plain("time with\nmetallic contact", "%")
+    ('breakdown voltage [V]', 'time with<br>metallic contact [%]')
     """
-    return "<br>".join(wrap(with_unit(_SYMBOL.sub("", title), unit), _TITLE))
+    lines = with_unit(_SYMBOL.sub("", title).rstrip(), unit).splitlines()
+    return "<br>".join(part for line in lines for part in wrap(line, _TITLE))
 
 
 def vertical(at: float, **more: Any) -> Plot:
@@ -305,8 +306,9 @@ def stack(along: Along, panels: Sequence[Panel], *, converged: bool = True, **mo
         name, hidden = axis_name(number), f"y{_HIDDEN + number}"
         domain = {"domain": ends_of_panel, "anchor": "x"}
         ends = axis_range(panel.ends, log=panel.log)
-        unit = f"{'<br>' if len(panels) > 1 else ' '}[{panel.unit}]" if panel.unit else ""
-        title = f"{plain(panel.title, '')}{unit}"
+        text = plain(panel.title, "")
+        unit = f"{'<br>' if len(panels) > 1 and '<br>' not in text else ' '}[{panel.unit}]"
+        title = f"{text}{unit if panel.unit else ''}"
         ticks = _row_names(panel.rows) if panel.rows else log_ticks(log=panel.log, ends=panel.ends)
         layout["yaxis" + name[1:]] = axis(title, **domain, **ends, **ticks)
         data += [_shaded(area, name, hidden) for area in panel.areas]

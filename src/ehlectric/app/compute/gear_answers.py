@@ -20,7 +20,13 @@ from ehlectric.cases.defaults import HOW, quick_way
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.errors import InputError
 from ehlectric.figures.data import with_unit
-from ehlectric.figures.gear_panels import film_finding, flank_finding, mesh_finding, path_finding
+from ehlectric.figures.gear_panels import (
+    film_finding,
+    flank_finding,
+    has_voltage,
+    mesh_finding,
+    path_finding,
+)
 from ehlectric.gear import GearResult, solve_gear
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.results import GEAR_BOOK
@@ -132,7 +138,7 @@ def points_table(summary: Summary) -> Table:
     cells = tuple(
         (with_unit(name, unit), *(number or _NO_LOAD for number in numbers)) for name, *numbers, unit in rows
     )
-    return Table("Points of the path of contact", ("", *points), cells)
+    return Table("Gear 1 touches with its root at A, and with its tip at E", ("", *points), cells)
 
 
 def geometry_table(summary: Summary) -> Table:
@@ -165,36 +171,30 @@ def _figures(result: GearResult, summary: Summary) -> dict[str, Figure]:
 
 
 def _drawn(result: GearResult, summary: Summary) -> Iterator[tuple[str, Figure]]:
-    films = "Dotted lines: points A to E. Gear 1 touches with its root at A, and with its tip at E."
+    """Figures by name, each with its finding."""
+    found = film_finding(result)
     yield (
         "film",
-        Figure("Film along the path of contact", film_finding(result), film_figure(result), caption=films),
+        Figure(
+            "Film along the path of contact",
+            found,
+            film_figure(result),
+            caption=f"{found}. Dotted lines: points A to E.",
+        ),
     )
+    found = flank_finding(result)
     yield (
         "flank",
         Figure(
             "Minimum film on the flank of gear 1",
-            flank_finding(result),
+            found,
             flank_figure(result),
-            caption=f"{flank_finding(result)}. Thick films have the last colour.",
+            caption=f"{found}. The root is at A, and the tip is at E.",
         ),
     )
-    yield (
-        "mesh",
-        Figure(
-            "Capacitance and breakdown voltage over one pitch",
-            mesh_finding(result),
-            mesh_figure(result),
-            caption=f"{mesh_finding(result)}.",
-        ),
-    )
-    yield (
-        "path",
-        Figure(
-            "Radii, speeds, load and pressure along the path",
-            path_finding(result),
-            path_figure(result),
-            points_table(summary),
-            caption=f"{path_finding(result)}.",
-        ),
-    )
+    found = mesh_finding(result)
+    names = "Capacitance and breakdown voltage" if has_voltage(result) else "Capacitance and contact"
+    yield "mesh", Figure(f"{names} over one pitch", found, mesh_figure(result), caption=f"{found}.")
+    found, table = path_finding(result), points_table(summary)
+    title = "Radii, speeds, load and pressure along the path of contact"
+    yield "path", Figure(title, found, path_figure(result), table, caption=f"{found}.")

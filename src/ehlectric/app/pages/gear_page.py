@@ -49,7 +49,11 @@ class GearPage(AnswerPage[GearAnswer]):
     kind = "gear"
     groups = GEAR_GROUPS
     elsewhere = (*LISTS, "contacts")
-    short: ClassVar[Mapping[str, str]] = {"mesh.margin": "", "mesh.breakdown_voltage": "breakdown at"}
+    short: ClassVar[Mapping[str, str]] = {
+        "mesh.margin": "",
+        "mesh.breakdown_voltage": "breakdown at",
+        "mesh.lambda_ratio": "",
+    }
     wait = 0.4
     quick, solved = GEAR_QUICK, GEAR_SOLVED
 
@@ -60,3 +64,7 @@ class GearPage(AnswerPage[GearAnswer]):
     def _show(self, inputs: Inputs, answer: GearAnswer) -> None:
         super()._show(inputs, answer)
         self.form.follow(answer.follows)
+
+    def _refuse(self, error: Exception) -> None:
+        super()._refuse(error)
+        self.form.follow({})

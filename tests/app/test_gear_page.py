@@ -1,0 +1,97 @@
+"""Page of a gear pair as a user sees it: from a drawing to the verdict, with the numbers of the command."""
+
+import re
+
+import pytest
+
+from tests.app.driving import field, number, type_into, wait_for_address, wait_for_number
+from tests.app.outputs import downloaded, summary_by_command
+from tests.helpers.places import EXAMPLES
+from tests.helpers.processes import wait_until
+
+pytestmark = pytest.mark.browser
+
+
+@pytest.fixture
+def gears(open_page, app_server):
+    page = open_page(app_server, "/gear")
+    page.get_by_test_id("number-mesh.margin").wait_for()
+    return page
+
+
+def level(page):
+    return page.get_by_test_id("verdict").get_attribute("data-level")
+
+
+@pytest.mark.slow
+@pytest.mark.gate
+def test_a_drawing_leads_to_the_numbers_of_the_command(gears, tmp_path):
+    page = gears
+    type_into(page, "gear.teeth.2", "68")
+    type_into(page, "gear.profile_shift.1", "")
+    type_into(page, "gear.centre_distance", "")
+    type_into(page, "gear.tip_diameter.1", "")
+    type_into(page, "gear.tip_diameter.2", "")
+    type_into(page, "gear.operation.pinion_torque", "60")
+    wait_for_address(page, "60 N*m")
+    # Without shifts the centre distance is m_n (z1 + z2)/(2 cos beta), 1.75 mm 91/(2 cos 25°) = 87.857 mm.
+    follows = field(page, "gear.centre_distance")
+    assert wait_until(lambda: follows.get_attribute("placeholder") == "87.8564 mm"), follows.get_attribute(
+        "placeholder"
+    )
+    mesh = summary_by_command("gear", downloaded(page, "download-toml", tmp_path), tmp_path)["mesh"]
+    wait_for_number(page, "mesh.margin", mesh["margin"])
+    assert number(page, "mesh.lambda_ratio") == pytest.approx(mesh["lambda_ratio"], rel=5e-3)
+    head = page.get_by_test_id("points").get_by_role("columnheader").all_inner_texts()
+    assert [text for text in head if text] == list("ABCDE")
+    for name in ("film", "flank", "mesh", "path"):
+        assert page.get_by_test_id(f"figure-{name}").filter(visible=True).count() == 1
+
+
+@pytest.mark.slow
+def test_states_of_the_mesh_have_words_and_colours(gears):
+    page = gears
+    assert level(page) == "red"
+    type_into(page, "gear.contact.voltage", "50 mV")
+    assert wait_until(lambda: level(page) == "green")
+    page.get_by_text("The film holds the voltage between both gears.").wait_for()
+    for gear in (1, 2):
+        type_into(page, f"gear.flank_ra.{gear}", "0.4")
+    page.get_by_test_id("verdict").filter(has_text="The mesh conducts").wait_for()
+    assert level(page) == "grey"
+    page.get_by_test_id("number-mesh.lambda_ratio").wait_for()
+
+
+@pytest.mark.slow
+def test_a_refusal_stands_next_to_its_field(gears):
+    page = gears
+    type_into(page, "gear.centre_distance", "95 mm")
+    error = page.get_by_test_id("error-gear-centre_distance")
+    error.filter(has_text="profile shift coefficient").wait_for()
+    type_into(page, "gear.centre_distance", "87 mm")
+    error.wait_for(state="hidden")
+    type_into(page, "gear.teeth.1", "many")
+    page.get_by_test_id("error-gear-teeth-1").filter(has_text="two whole numbers").wait_for()
+    page.get_by_test_id("undo").click()
+    page.locator("[data-testid=answer][aria-busy=false]").wait_for()
+    assert field(page, "gear.teeth.1").input_value() == "23"
+    assert field(page, "gear.teeth.2").input_value() == "67"
+
+
+@pytest.mark.slow
+def test_a_gear_file_opens_on_its_page(page):
+    page.get_by_test_id("upload-case").locator("input[type=file]").set_input_files(
+        EXAMPLES / "gear_spur.toml"
+    )
+    page.wait_for_url(re.compile("/gear"))
+    page.get_by_test_id("verdict").filter(has_text="The mesh conducts").wait_for()
+    assert field(page, "gear.flank_ra.1").input_value() == "0.3 µm"
+    assert field(page, "gear.flank_ra.2").get_attribute("placeholder") == "0.3 µm"
+
+
+@pytest.mark.slow
+def test_films_are_solved_on_request(gears):
+    page = gears
+    page.get_by_test_id("solve").click()
+    page.locator("[data-testid=answer][data-solved=true][aria-busy=false]").wait_for()
+    page.get_by_test_id("how").filter(has_text="Films solved").wait_for()
