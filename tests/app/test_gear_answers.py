@@ -132,8 +132,10 @@ def test_lists_of_alternatives_go_forth_and_back():
 @each(
     "changes, key",
     [
-        ({"gear.teeth": [23, "many"]}, "gear.teeth"),
-        ({"gear.teeth": ["", 67]}, "gear.teeth"),
+        ({"gear.teeth": [23, "many"]}, "gear.teeth.2"),
+        ({"gear.teeth": ["", 67]}, "gear.teeth.1"),
+        ({"gear.tip_diameter": ["48.96 mm"]}, "gear.tip_diameter"),
+        ({"gear.tip_diameter": ["48.96 mm", "200 mm"]}, "gear.tip_diameter.2"),
         ({"gear.centre_distance": "70 mm"}, "gear.centre_distance"),
         ({"gear.tip_relief_length": None}, "gear.tip_relief_length"),
         ({"gear.operation.pinion_torque": "0 N m"}, "gear.operation.pinion_torque"),

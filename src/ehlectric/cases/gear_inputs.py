@@ -14,7 +14,7 @@ from ehlectric.cases.amounts import Amount, AmountOrWord, Amounts, Count, amount
 from ehlectric.cases.mean_heights import rq_of
 from ehlectric.cases.oil_inputs import library_choice
 from ehlectric.cases.table import Table
-from ehlectric.errors import InputError, shown
+from ehlectric.errors import InputError, shown, within
 from ehlectric.quantities.inputs import inputs
 
 Sharing = Literal["stiffness", "rigid", "iso", "tip-relief"]
@@ -54,9 +54,13 @@ class OfBothGears(Amounts):
         several = isinstance(entry, list | tuple) or getattr(entry, "ndim", 0) == 1
         if self.single and not several:
             return self.each.parse(entry, written=written)
-        if several and len(entry) > 2:  # type: ignore[arg-type]
+        if not several or not self.least <= len(entry) <= 2:  # type: ignore[arg-type]
             raise InputError(got=shown(entry), takes=self.takes)
-        return super().parse(entry, written=written)
+        values = []
+        for number, item in enumerate(entry, 1):  # type: ignore[arg-type, var-annotated]
+            with within(str(number)):
+                values.append(self.each.parse(item, written=written))
+        return tuple(values)
 
 
 def _both(key: str, least: int = 1, *, single: bool = False) -> OfBothGears:
@@ -69,9 +73,11 @@ def _teeth(entry: object) -> tuple[int, int]:
     takes = "two whole numbers, of gear 1 and of gear 2; of a ring as gear 2 a negative one, as [20, -70]"
     if not isinstance(entry, list | tuple) or len(entry) != 2:
         raise InputError(got=shown(entry), takes=takes)
-    first = Count(_LEAST_TEETH, _MOST_TEETH, "teeth of gear 1").parse(entry[0])
+    with within("1"):
+        first = Count(_LEAST_TEETH, _MOST_TEETH, "teeth of gear 1").parse(entry[0])
     ring = isinstance(entry[1], int) and entry[1] < 0
-    second = Count(_LEAST_TEETH, _MOST_TEETH, "teeth of gear 2").parse(-entry[1] if ring else entry[1])
+    with within("2"):
+        second = Count(_LEAST_TEETH, _MOST_TEETH, "teeth of gear 2").parse(-entry[1] if ring else entry[1])
     return first, -second if ring else second
 
 

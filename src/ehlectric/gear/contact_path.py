@@ -116,13 +116,13 @@ def _check(path: ContactPath, pair: GearPair) -> None:
     """Refuse a path on which the flanks cannot run."""
     if path.start <= 0.0:
         raise InputError(
-            "gear.tip_diameter[1]",
+            "gear.tip_diameter.2",
             got=f"{1e3 * abs(pair.tip_diameter[1]):.4f} mm, with contact below the base circle of gear 1",
             takes="a tip circle that ends the contact above it, or a larger profile shift of gear 1",
         )
     if not pair.internal and path.end >= path.tangent_length:
         raise InputError(
-            "gear.tip_diameter[0]",
+            "gear.tip_diameter.1",
             got=f"{1e3 * pair.tip_diameter[0]:.4f} mm, with contact below the base circle of gear 2",
             takes="a tip circle that ends the contact above it, or a larger profile shift of gear 2",
         )

@@ -347,12 +347,12 @@ def _check_tips(pair: GearPair) -> None:
         tip, base = pair.tip_diameter[index], pair.base_diameter[index]
         if abs(tip) <= abs(base):
             raise InputError(
-                f"gear.tip_diameter[{index}]",
+                f"gear.tip_diameter.{index + 1}",
                 got=f"{1e3 * abs(tip):g} mm",
                 takes=f"more than the base circle, {1e3 * abs(base):.4f} mm",
             )
     for index in (0, 1):
-        tip, key = pair.tip_diameter[index], f"gear.tip_diameter[{index}]"
+        tip, key = pair.tip_diameter[index], f"gear.tip_diameter.{index + 1}"
         thickness = pair.tip_thickness[index]
         if thickness < 0.0:
             raise InputError(

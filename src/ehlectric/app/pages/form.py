@@ -79,7 +79,7 @@ class Form:
         """Show an error next to its field, and remove the one before."""
         key = error.key if isinstance(error, InputError) else None
         field = None if key is None else self._field_of(key)
-        exact = field is not None and field.key == key
+        exact = field is not None and key in (field.key, key_of_list(field.key))
         field_text = (
             in_field_unit(field, error.text) if field is not None and isinstance(error, InputError) else ""
         )
