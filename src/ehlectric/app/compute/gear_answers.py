@@ -172,29 +172,29 @@ def _figures(result: GearResult, summary: Summary) -> dict[str, Figure]:
 
 def _drawn(result: GearResult, summary: Summary) -> Iterator[tuple[str, Figure]]:
     """Figures by name, each with its finding."""
-    found = film_finding(result)
+    finding = film_finding(result)
     yield (
         "film",
         Figure(
             "Film along the path of contact",
-            found,
+            finding,
             film_figure(result),
-            caption=f"{found}. Dotted lines: points A to E.",
+            caption=f"{finding}. Dotted lines: points A to E.",
         ),
     )
-    found = flank_finding(result)
+    finding = flank_finding(result)
     yield (
         "flank",
         Figure(
             "Minimum film on the flank of gear 1",
-            found,
+            finding,
             flank_figure(result),
-            caption=f"{found}. The root is at A, and the tip is at E.",
+            caption=f"{finding}. The root is at A, and the tip is at E.",
         ),
     )
-    found = mesh_finding(result)
+    finding = mesh_finding(result)
     names = "Capacitance and breakdown voltage" if has_voltage(result) else "Capacitance and contact"
-    yield "mesh", Figure(f"{names} over one pitch", found, mesh_figure(result), caption=f"{found}.")
-    found, table = path_finding(result), points_table(summary)
+    yield "mesh", Figure(f"{names} over one pitch", finding, mesh_figure(result), caption=f"{finding}.")
+    finding, table = path_finding(result), points_table(summary)
     title = "Radii, speeds, load and pressure along the path of contact"
-    yield "path", Figure(title, found, path_figure(result), table, caption=f"{found}.")
+    yield "path", Figure(title, finding, path_figure(result), table, caption=f"{finding}.")
