@@ -97,6 +97,7 @@ class GearOperation(Table, book="gear.operation"):
     oil_temperature: float
     bulk_temperature: Annotated[float | str, AmountOrWord(_BULK, "iso")] = "iso"
     friction_coefficient: float | None = None
+    boundary_friction: float | None = None
     load_sharing: Sharing = "stiffness"
     application_factor: float = 1.0
     dynamic_factor: float = 1.0

@@ -16,6 +16,10 @@ from functools import partial
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
+from ehlectric.cases.contact_inputs import Body
+from ehlectric.cases.film_inputs import check_thermal_oil, thermal_properties
+from ehlectric.cases.gear_case import GearCase
+from ehlectric.errors import InputError
 from ehlectric.film import ContactFilm, contact_film
 from ehlectric.formulas.film_line import LineContact, pan_hamrock
 from ehlectric.formulas.hertz import line_half_width, line_max_pressure
@@ -36,7 +40,8 @@ class Flanks:
     ratio: float  # u = z2/z1
     pinion_speed: float  # omega_1 [rad/s], positive
     modulus: float  # reduced modulus E' [Pa]
-    oil: Oil  # oil at the temperature of the flanks
+    temperature: float  # temperature of the flanks, and of the oil that enters [K]
+    oil: Oil  # oil at this temperature
     # Temperature coefficient of the viscosity [1/K] and conductivity [W/(m K)] of the oil; without a slope
     # the films are isothermal.
     slope: float | None
@@ -67,7 +72,8 @@ class FlankFilms:
     max_pressure: Array = field(metadata=_positive("Pa"))  # Hertz pressure
     central: Array = field(metadata=_positive("m"))  # central film thickness
     minimum: Array = field(metadata=_positive("m"))  # smallest film thickness
-    heat_factor: Array = field(metadata=_positive(""))  # factor of inlet shear heating in both thicknesses
+    heat_factor: Array = field(metadata=_positive(""))  # factor of heat in both thicknesses
+    friction: Array = field(metadata=_positive(""))  # friction coefficient of the film; NaN if not solved
     error: Array = field(metadata=_positive(""))  # relative error of the isothermal films
     # Whether the atlas contains the contact.
     known: Mask = field(metadata=stored("place", "", "0 or 1", dtype="i1"))
@@ -128,7 +134,20 @@ def flank_films(flanks: Flanks, places: Array, load: Array, *, by_formula: bool 
         central=heat * central,
         minimum=heat * minimum,
         heat_factor=heat,
+        friction=np.full_like(speed, np.nan),
         error=np.asarray(error),
         known=np.broadcast_to(film.film.known, np.shape(radius)),
         atlas=film,
     )
+
+
+def without_heat(case: GearCase, temperature: float) -> InputError | None:
+    """Why the films of a gear pair are solved without heat: a thermal property that the file does not give;
+    None if it gives all. ``temperature`` of the flanks [K].
+    """
+    try:
+        check_thermal_oil(case.lubricant, temperature)
+        thermal_properties(Body.from_dict({"material": case.gear.material}), "gear.material")
+    except InputError as error:
+        return error
+    return None

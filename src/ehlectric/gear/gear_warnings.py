@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ehlectric.gear.flank_films import without_heat
 from ehlectric.gear.solution import GearSolution
 from ehlectric.quantities.result_warnings import ResultWarning
 
@@ -23,6 +24,9 @@ def gear_warnings(solution: GearSolution) -> Iterator[ResultWarning]:
         yield ResultWarning.of("load-factors-1")
     if gear.tip_relief is None and operation.load_sharing == "stiffness":
         yield ResultWarning.of("relief-unknown")
+    if solution.case.contacts == "solved" and solution.film_loss is None:
+        missing = without_heat(solution.case, solution.flanks.temperature)
+        yield ResultWarning.of("flank-films-without-heat", missing=str(missing))
     if ratio <= gear.summit_height:
         yield ResultWarning.of("flanks-touch", ratio=ratio, height=gear.summit_height)
     if solution.pair.normal_backlash is None:

@@ -9,7 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ehlectric.arrays import Array, Mask
+from ehlectric.arrays import Array, Mask, Numbers
 from ehlectric.bearing import Solid
 from ehlectric.cases.case_oil import temperature_coefficient
 from ehlectric.cases.gear_case import GearCase
@@ -17,7 +17,7 @@ from ehlectric.cases.gear_inputs import Gear, both
 from ehlectric.discharge.discharge_laws import Leakage, leakage
 from ehlectric.discharge.film_breakdown import dielectric_strength
 from ehlectric.errors import ConvergenceError, InputError
-from ehlectric.formulas.asperities import contact_probability
+from ehlectric.formulas.asperities import LOAD_SHARE, contact_probability
 from ehlectric.formulas.hertz import reduced_modulus
 from ehlectric.gear.contact_lines import PlaneOfAction
 from ehlectric.gear.contact_path import ContactPath, contact_path
@@ -33,6 +33,12 @@ from ehlectric.quantities.field_metadata import stored
 # Area of the contact of the disc machine on which the share of time was measured, if it is not given, and the
 # factor by which it may be wrong either way.
 REFERENCE_AREA, AREA_FACTOR = 1e-6, 3.0
+
+# Distance of a place next to B or D from it [m].
+_BESIDE = 1e-8
+
+# Part of the path of contact on both sides of C over which the friction of a film reverses.
+_REVERSAL = 0.05
 
 
 @dataclass(frozen=True)
@@ -153,8 +159,29 @@ class GearSolution:
     @property
     def sliding_power(self) -> float:
         """Mean over the phases of the integral of w abs(v_g) over all lines [W]."""
+        return self._mean_loss(1.0)
+
+    @property
+    def film_loss(self) -> float | None:
+        """Friction loss of the films, with the friction of solved films [W]; None without these."""
+        friction = self.films.friction
+        return None if np.all(np.isnan(friction)) else self._mean_loss(friction)
+
+    @property
+    def asperity_loss(self) -> float | None:
+        """Friction loss of asperities, which carry a share of the load that depends on lambda [W]; None
+        without their friction coefficient.
+        """
+        friction = self.case.gear.operation.boundary_friction
+        if friction is None:
+            return None
+        ratio = np.nan_to_num(self.films.central / self.rq)
+        return self._mean_loss(friction * LOAD_SHARE["zhou_hoeprich"].share(ratio))
+
+    def _mean_loss(self, friction: Numbers) -> float:
+        """Mean over the phases of the integral of mu w abs(v_g) over all lines [W]."""
         films = self.films
-        return self.loads.mean(self.loads.along(films.load * np.abs(films.sliding_speed)))
+        return self.loads.mean(self.loads.along(friction * films.load * np.abs(films.sliding_speed)))
 
 
 @dataclass(frozen=True)
@@ -199,7 +226,7 @@ def solve_gear_pair(case: GearCase) -> GearSolution:
         stiffness=mesh_stiffness(at.stiffness, at.plane.path.contact_ratio),
         modification=modification_of(gear),
     )
-    films = _films(case, at.plane, at.flanks, loads)
+    films, point_films = _films(case, at, loads)
     return GearSolution(
         case=case,
         pair=at.pair,
@@ -207,7 +234,7 @@ def solve_gear_pair(case: GearCase) -> GearSolution:
         flanks=at.flanks,
         loads=loads,
         films=replace(films, atlas=None),
-        point_films=replace(_point_films(case, at, loads, films), atlas=None),
+        point_films=replace(point_films, atlas=None),
         bulk_temperature=at.bulk_temperature,
         stiffness=at.stiffness,
         capacitance_of_lines=capacitance_per_length(at.flanks, films),
@@ -226,27 +253,39 @@ def _attempt(case: GearCase) -> GearSolution | InputError | ConvergenceError:
         return error
 
 
-def _films(case: GearCase, plane: PlaneOfAction, flanks: Flanks, loads: LineLoads) -> FlankFilms:
-    """Films on all lines in the way that the file asks for."""
+def _films(case: GearCase, pair: OperatingPair, loads: LineLoads) -> tuple[FlankFilms, FlankFilms]:
+    """Films on all lines, and films at the points A to E under the mean load that passes them, arrays of
+    shape (5,), in the way that the file asks for.
+    """
+    plane, flanks, by_formula = pair.plane, pair.flanks, case.contacts == "formula"
+    points = plane.path.points
+    mean = np.array([load_at(plane, loads, place, SIDES[name]) for name, place in points.items()])
+    films = flank_films(flanks, loads.places, loads.load, by_formula=by_formula)
+    at_points = flank_films(flanks, np.array(list(points.values())), mean, by_formula=by_formula)
     if case.contacts != "solved":
-        return flank_films(flanks, loads.places, loads.load, by_formula=case.contacts == "formula")
-    from ehlectric.gear.solved_points import corrected, solve_points  # late: the atlas needs no solver
+        return films, at_points
+    from ehlectric.gear.solved_points import solved_correction  # late: the atlas needs no solver
 
-    films = flank_films(flanks, loads.places, loads.load)
-    places, load = _places_to_solve(plane, loads, films)
-    points = list(solve_points(flanks, places, load))
-    return corrected(films, flank_films(flanks, places, load), points)
+    places, load = _to_solve(plane, loads, films)
+    correction = solved_correction(case, flanks, places[load > 0.0], load[load > 0.0])
+    return correction.applied(films), correction.applied(at_points)
 
 
-def _places_to_solve(plane: PlaneOfAction, loads: LineLoads, films: FlankFilms) -> tuple[Array, Array]:
-    """Places of the points of the path that carry load, and of the smallest film, with their loads."""
-    places, load = [float(loads.places[films.thinnest])], [float(loads.load[films.thinnest])]
-    for name, place in plane.path.points.items():
-        mean = load_at(plane, loads, place, SIDES[name])
-        if mean > 0.0:
-            places.append(place)
-            load.append(mean)
-    return np.array(places), np.array(load)
+def _to_solve(plane: PlaneOfAction, loads: LineLoads, films: FlankFilms) -> tuple[Array, Array]:
+    """Places of the films to solve, and their loads: the smallest film, A to E, the other sides of B and D,
+    where the load of a spur pair jumps, and both sides of C, between which the friction reverses.
+    """
+    points, at = plane.path.points, films.thinnest
+    sides = [(name, side, 0.0) for name, side in SIDES.items()]
+    sides += [(name, -SIDES[name], _BESIDE) for name in "BD"]
+    places = [points[name] + side * beside for name, side, beside in sides]
+    load = [load_at(plane, loads, points[name], side) for name, side, _ in sides]
+    reversal = [points["C"] + side * _REVERSAL * plane.path.length for side in (-1.0, 1.0)]
+    load_at_pitch_point = load[list(SIDES).index("C")]
+    return (
+        np.array([loads.places[at], *places, *reversal]),
+        np.array([loads.load[at], *load, load_at_pitch_point, load_at_pitch_point]),
+    )
 
 
 def drawing_of(gear: Gear) -> Drawing:
@@ -314,28 +353,8 @@ def _flanks(case: GearCase, pair: GearPair, path: ContactPath, temperature: floa
         ratio=pair.ratio,
         pinion_speed=case.gear.operation.pinion_speed,
         modulus=reduced_modulus(compliance, compliance),
+        temperature=temperature,
         oil=oil,
         slope=None if slope is None else float(slope),
         conductivity=float(ASSUMED_CONDUCTIVITY if known is None else known),
     )
-
-
-def _point_films(case: GearCase, pair: OperatingPair, loads: LineLoads, films: FlankFilms) -> FlankFilms:
-    """Films at the points A to E under the mean over the phases of the load there, arrays of shape (5,).
-
-    Where films are solved, the ratio of solved film and film of the atlas on the nearest line corrects them.
-    """
-    plane, flanks = pair.plane, pair.flanks
-    points = plane.path.points
-    places = np.array(list(points.values()))
-    load = np.array([load_at(plane, loads, place, SIDES[name]) for name, place in points.items()])
-    at = flank_films(flanks, places, load, by_formula=case.contacts == "formula")
-    if case.contacts != "solved":
-        return at
-    assert films.atlas is not None
-    known = np.flatnonzero(~np.isnan(films.minimum))
-    nearest = known[np.argmin(np.abs(films.places.flat[known] - places[:, None]), axis=1)]
-    heat = films.heat_factor.flat[nearest]
-    central = films.central.flat[nearest] / np.ravel(films.atlas.central_thickness)[nearest] / heat
-    minimum = films.minimum.flat[nearest] / np.ravel(films.atlas.minimum_thickness)[nearest] / heat
-    return replace(at, central=at.central * central, minimum=at.minimum * minimum)

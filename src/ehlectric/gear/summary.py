@@ -57,6 +57,8 @@ def _gear(solution: GearSolution) -> dict[str, Any]:
         "bulk_temperature": solution.bulk_temperature,
         "loss_factor": factor,
         "loss": None if friction is None else friction * solution.sliding_power,
+        "film_loss": solution.film_loss,
+        "asperity_loss": solution.asperity_loss,
     }
 
 
@@ -125,6 +127,7 @@ def point_summary(solution: GearSolution, point: PathPoint) -> dict[str, float |
         "central_thickness": films.central,
         "minimum_thickness": films.minimum,
         "lambda_ratio": films.minimum / solution.rq,
+        "friction": films.friction,
     }
     values = {name: float(np.ravel(value)[0]) for name, value in numbers.items()}
     return {name: None if math.isnan(value) else value for name, value in values.items()}

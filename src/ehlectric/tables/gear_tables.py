@@ -30,10 +30,15 @@ def _seldom(_: Summary) -> tuple[str, str]:
 
 
 def point_rows(summary: Summary) -> Iterator[tuple[str, ...]]:
-    """Yield the heads of the table of points, then a row for each quantity with its value at each point."""
+    """Yield the heads of the table of points, then a row for each quantity that a point has, with its value
+    at each point.
+    """
     yield "path of contact", *PATH_POINTS, ""
     for name, about in POINT_KEYS.items():
-        rows = [row_of(f"point.{name}", about, summary["points"][point][name]) for point in PATH_POINTS]
+        values = [summary["points"][point].get(name) for point in PATH_POINTS]
+        if all(value is None for value in values):
+            continue
+        rows = [row_of(f"point.{name}", about, value) for value in values]
         yield about.label, *(row.shown for row in rows), rows[0].unit
 
 
