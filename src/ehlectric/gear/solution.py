@@ -35,7 +35,7 @@ from ehlectric.quantities.field_metadata import stored
 REFERENCE_AREA, AREA_FACTOR = 1e-6, 3.0
 
 # Distance of a place next to B or D from it [m].
-_BESIDE = 1e-8
+_JUMP = 1e-8
 
 # Part of the path of contact on both sides of C over which the friction of a film reverses.
 _REVERSAL = 0.05
@@ -272,13 +272,13 @@ def _films(case: GearCase, pair: OperatingPair, loads: LineLoads) -> tuple[Flank
 
 
 def _to_solve(plane: PlaneOfAction, loads: LineLoads, films: FlankFilms) -> tuple[Array, Array]:
-    """Places of the films to solve, and their loads: the smallest film, A to E, the other sides of B and D,
-    where the load of a spur pair jumps, and both sides of C, between which the friction reverses.
+    """Places and loads at which films are solved: the smallest film, A to E, both sides of C, between which
+    the friction reverses, and the other sides of B and D, where the load on a spur pair jumps.
     """
     points, at = plane.path.points, films.thinnest
     sides = [(name, side, 0.0) for name, side in SIDES.items()]
-    sides += [(name, -SIDES[name], _BESIDE) for name in "BD"]
-    places = [points[name] + side * beside for name, side, beside in sides]
+    sides += [(name, -SIDES[name], _JUMP) for name in "BD"]
+    places = [points[name] + side * shift for name, side, shift in sides]
     load = [load_at(plane, loads, points[name], side) for name, side, _ in sides]
     reversal = [points["C"] + side * _REVERSAL * plane.path.length for side in (-1.0, 1.0)]
     load_at_pitch_point = load[list(SIDES).index("C")]
