@@ -85,10 +85,10 @@ def solved_correction(case: GearCase, flanks: Flanks, places: Array, load: Array
 
 def _solved(case: GearCase, flanks: Flanks, films: FlankFilms) -> Iterator[SolvedFilm]:
     """Solve the films at the places of films of the atlas, arrays of shape (n,)."""
-    solve_one = _isothermal if without_heat(case, flanks.temperature) else _heated
+    solved_film = _isothermal if without_heat(case, flanks.temperature) else _heated
     for k, place in enumerate(films.places.tolist()):
         try:
-            yield solve_one(case, flanks, films, k)
+            yield solved_film(case, flanks, films, k)
         except ConvergenceError as error:
             raise ConvergenceError(f"{error}, at {1e3 * place:.4g} mm of the path of contact") from None
 
