@@ -14,8 +14,8 @@ LEAST_MEMORY, MEMORY_OF_CORE = 750_000_000, 20_000_000
 _TOO_LITTLE, _INTERRUPTED = 2, 130
 
 # New objects after which Python searches them for cycles, for the first time and later. Loading the
-# libraries makes about 100,000 that stay: with the usual 700 the searches take a tenth of a short command.
-_LOADED_OBJECTS, _NEW_OBJECTS = 150_000, 10_000
+# libraries makes up to 150,000 that stay: with the usual 700 the searches take a tenth of a short command.
+_LOADED_OBJECTS, _NEW_OBJECTS = 200_000, 10_000
 
 
 def main() -> None:
