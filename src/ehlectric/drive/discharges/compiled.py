@@ -38,7 +38,7 @@ def compiled(function: F) -> F:
     before, folder = config.CACHE_DIR, _folder(config.CACHE_DIR)
     config.CACHE_DIR = str(folder or before)
     try:
-        return _jit(function, cache=folder is not None)
+        return _jit(function, cache=folder is not None, no_cfunc_wrapper=True)
     finally:
         config.CACHE_DIR = before
 
@@ -49,10 +49,19 @@ def inner(function: F) -> F:
     It is kept in the functions that call it. A function takes numbers of films and flags as variables:
     numba compiles it once more for each constant among its arguments.
     """
-    return _jit(function, no_cpython_wrapper=True, no_cfunc_wrapper=True)
+    return _jit(function, **_INNER)
 
 
-def _jit(function: F, **options: bool) -> F:
+def inlined(function: F) -> F:
+    """Compile a function as a part of its caller, which takes less time where it is called at one place."""
+    return _jit(function, inline="always", **_INNER)
+
+
+# Without what only Python and C need for a call.
+_INNER = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+
+
+def _jit(function: F, **options: bool | str) -> F:
     jit: Any = numba.njit
     # A division by zero gives what it gives in numpy. References to arrays are not counted, which took more
     # than half of the time of a simulation: compiled functions get all arrays from their caller.

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.drive.discharges.compiled import compiled, inner
+from ehlectric.drive.discharges.compiled import compiled, inlined, inner
 from ehlectric.drive.discharges.films_and_source import Films, Integers, Segments
 from ehlectric.drive.discharges.voltages_in_time import (
     FALLS,
@@ -150,7 +150,7 @@ def state_of(films: Films, state: State) -> int:
     return int((number * films.positions[0] + state.place[0]) * films.positions[1] + state.place[1])
 
 
-@inner
+@inlined
 def threshold(films: Films, state: State, b: int) -> float:
     """Voltage at which a film breaks down now [V]; below the voltage of extinction there is no arc."""
     return float(max(films.scale[b, state.place[b]] * state.draw[b], films.extinction[b]))
@@ -248,7 +248,7 @@ def measure(
         meters.traced[0] = row + 1
 
 
-@inner
+@inlined
 def _widen(meters: Meters) -> None:
     """Double the width of all bins: each takes the time of two neighbours, from zero outwards."""
     half = meters.histogram.shape[1] // 2
@@ -355,7 +355,7 @@ def work_of(size: int, events: int) -> Work:
     )
 
 
-@inner
+@inlined
 def _most_used(state: State) -> int:
     """Largest number of random numbers of a film that are used."""
     return int(max(max(state.used[0, 0], state.used[0, 1]), max(state.used[1, 0], state.used[1, 1])))
@@ -382,7 +382,7 @@ def _burning_panel(piece: Complex, t: float, left: float) -> float:
     return h
 
 
-@inner
+@inlined
 def _burn(
     course: PieceVoltages, films: Films, state: State, t: float, h: float, first: tuple[float, float]
 ) -> None:
@@ -435,7 +435,7 @@ def _measure(meters: Meters, rough: float, piece: Complex, course: PieceVoltages
         t, first, shaft = after, then, at_end[2]
 
 
-@inner
+@inlined
 def _measure_shaft(meters: Meters, duration: float, first: float, middle: float, last: float) -> None:
     """Measure a shaft voltage that goes on a parabola, from its begin, middle and end [V]."""
     bend = 0.5 * (first + last) - middle
@@ -452,7 +452,7 @@ def _stretch(ends: Array, first: float, last: float) -> None:
     ends[0], ends[1] = min(ends[0], first, last), max(ends[1], first, last)
 
 
-@inner
+@inlined
 def _turn(bend: float, first: float, last: float) -> float:
     """Bend [V] of a parabola that turns back between its ends, zero for another one."""
     return abs(bend) if 4.0 * abs(bend) > abs(last - first) else 0.0
@@ -529,7 +529,7 @@ def _piece(circuits: Modes, films: Films, state: State, source: Source, left: fl
     return t, what, film
 
 
-@inner
+@inlined
 def _replace(circuits: Modes, films: Films, state: State, b: int, volts: float, charges: Array
              ) -> None:  # fmt: skip
     """Move the elements of a bearing to their next position; the charges of all nodes stay."""
@@ -548,7 +548,7 @@ def _replace(circuits: Modes, films: Films, state: State, b: int, volts: float, 
         state.x[i] = value
 
 
-@inner
+@inlined
 def _ignite(state: State, b: int, now: float, volts: float) -> None:
     """Let the film of a bearing break down."""
     state.phase[b] = ARC
@@ -571,7 +571,7 @@ def _insulate(films: Films, state: State, b: int, now: float, work: Work) -> Non
     next_film(films, state, b)
 
 
-@inner
+@inlined
 def _scheduled(circuits: Modes, films: Films, state: State, b: int, now: float, source: float,
                work: Work) -> None:  # fmt: skip
     """Do what the clocks of a bearing say."""
@@ -594,7 +594,7 @@ def _scheduled(circuits: Modes, films: Films, state: State, b: int, now: float, 
         state.clocks[b, TOUCH] = waits(state, b, films.touch[b, 1 if touching else 0])
 
 
-@inner
+@inlined
 def _touch(films: Films, state: State, b: int, now: float, work: Work) -> None:
     """Let asperities of a bearing touch, or part; an arc ends where they touch."""
     if state.phase[b] == TOUCHING:
@@ -606,7 +606,7 @@ def _touch(films: Films, state: State, b: int, now: float, work: Work) -> None:
     state.phase[b] = TOUCHING
 
 
-@inner
+@inlined
 def _start_clocks(films: Films, state: State, b: int) -> None:
     """Set the clocks of a bearing that are not set yet, and draw its first threshold."""
     if not math.isnan(state.clocks[b, POSITION]):
@@ -618,7 +618,7 @@ def _start_clocks(films: Films, state: State, b: int) -> None:
     next_film(films, state, b)
 
 
-@inner
+@inlined
 def _until_next(state: State, left: float) -> tuple[float, bool]:
     """Time to the next change [s], and whether it is the end of the segment, of which some time is left."""
     ends = True
@@ -629,7 +629,7 @@ def _until_next(state: State, left: float) -> tuple[float, bool]:
     return left, ends
 
 
-@inner
+@inlined
 def _pass_time(circuits: Modes, state: State, t: float, silent: float) -> None:
     """Let a time pass on all clocks, and let the source ring on; below an amplitude it is silent."""
     for b in range(2):

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
-from ehlectric.drive.discharges.compiled import inner
+from ehlectric.drive.discharges.compiled import inlined, inner
 from ehlectric.drive.motor_circuit import Complex, Modes
 
 # Size of lambda t below which phi2 is summed from its series.
@@ -157,7 +157,7 @@ def curvature_bound(piece: Complex, film: int, t: float) -> float:
     return bound
 
 
-@inner
+@inlined
 def states_at(circuits: Modes, c: int, piece: Complex, x: Array) -> None:
     """States x of the circuit at the time to which the piece was moved."""
     n = x.size
