@@ -32,7 +32,7 @@ from ehlectric.cases import contact_inputs, library, roughness_inputs
 from ehlectric.cases import table as validation
 from ehlectric.cases.amounts import Amount, Amounts, Count
 from ehlectric.cases.gear_inputs import OfBothGears
-from ehlectric.cases.input_keys import TABLES, descriptions
+from ehlectric.cases.input_keys import descriptions, tables_of_files
 from ehlectric.cases.library.bearing_catalogue import CatalogueBearing, bearing_catalogue
 from ehlectric.cases.library.library_oils import Grade, Source
 from ehlectric.cases.oil_inputs import LAWS
@@ -44,7 +44,7 @@ from ehlectric.quantities.lubrication_states import bands
 from ehlectric.quantities.units import printed
 from ehlectric.sweep import sweep_inputs
 
-_TABLES = {**TABLES, "sweep": sweep_inputs.Sweep}
+_TABLES = {**tables_of_files(), "sweep": sweep_inputs.Sweep}
 # Keys that take a name, by what the names stand in.
 _NAMES: dict[str, Iterable[str]] = {
     **LAWS,

@@ -5,7 +5,7 @@ import pytest
 from ehlectric import InputError
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
-from ehlectric.cases.input_keys import TABLES, describe, descriptions, input_field
+from ehlectric.cases.input_keys import describe, descriptions, input_field, tables_of_files
 from ehlectric.cases.table import Table, table_of
 from ehlectric.quantities.inputs import form
 from ehlectric.sweep.sweep_inputs import Sweep
@@ -15,7 +15,7 @@ from tests.helpers.each import each
 LISTED = {
     key for name in ("bearing", "line", "point", "drive") for keys in form(name).values() for key in keys
 } - {"title"}
-ALL = {**TABLES, "sweep": Sweep}
+ALL = {**tables_of_files(), "sweep": Sweep}
 
 
 @each("table", ALL)
@@ -33,7 +33,9 @@ def test_every_table_of_a_file_is_among_them(model):
                 yield inner
                 yield from tables(inner)
 
-    assert all(any(issubclass(found, known) for known in TABLES.values()) for found in tables(model))
+    assert all(
+        any(issubclass(found, known) for known in tables_of_files().values()) for found in tables(model)
+    )
     assert issubclass(model, Table)
 
 
@@ -62,7 +64,7 @@ def test_a_key_that_is_none_is_refused_with_the_nearest_one(key, nearest):
 
 
 def test_descriptions_are_plain_text_with_units():
-    for table in TABLES:
+    for table in tables_of_files():
         for leaf in descriptions(table):
             key = f"{table}.{leaf}".replace("contact.body.", "contact.body_1.")
             text = describe(key)

@@ -7,7 +7,7 @@ from ehlectric.app.form_fields.contact_fields import groups_of
 from ehlectric.app.form_fields.drive_fields import DRIVE_GROUPS
 from ehlectric.cases.amounts import Amount, Count
 from ehlectric.cases.drive_case import case_of_dict
-from ehlectric.cases.input_keys import TABLES, input_field, input_of
+from ehlectric.cases.input_keys import input_field, input_of, tables_of_files
 from ehlectric.cases.measurements import CYCLE
 from ehlectric.cases.oil_inputs import law_parameters
 from ehlectric.cases.table import annotation_of, number_of
@@ -25,9 +25,9 @@ from ehlectric.quantities.inputs import (
 from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.sweep_inputs import Sweep
 from tests.helpers.each import each
-from tests.helpers.moving_cases import TABLES as CONTACTS
+from tests.helpers.moving_cases import tables_of_files() as CONTACTS
 
-MODELS = {**TABLES, "sweep": Sweep}
+MODELS = {**tables_of_files(), "sweep": Sweep}
 FORMS = {
     "bearing": BEARING_GROUPS,
     "line": groups_of("line"),

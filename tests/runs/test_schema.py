@@ -6,7 +6,7 @@ import tomllib
 import pytest
 from jsonschema import Draft7Validator
 
-from ehlectric.cases.input_keys import TABLES, descriptions
+from ehlectric.cases.input_keys import descriptions, tables_of_files
 from ehlectric.commands.start_commands import TEMPLATES, template
 from ehlectric.runs.file_kinds import kind_of_tables
 from ehlectric.runs.json_schema import SCHEMAS, schema_of
@@ -97,7 +97,7 @@ def test_every_key_is_explained(kind):
 
 
 def test_every_table_has_texts():
-    assert all(descriptions(name) for name in TABLES)
+    assert all(descriptions(name) for name in tables_of_files())
 
 
 @pytest.mark.slow

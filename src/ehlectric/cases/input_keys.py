@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import Any
 
 from pydantic.fields import FieldInfo
@@ -12,8 +12,6 @@ from pydantic.fields import FieldInfo
 from ehlectric.cases.amounts import Amount, AmountOrWord, Amounts, Count
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
-from ehlectric.cases.drive_case import DriveCase
-from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.oil_inputs import law_parameters
 from ehlectric.cases.table import (
     Table,
@@ -53,11 +51,24 @@ def _tables_in(model: type[Table]) -> Iterator[type[Table]]:
             yield from _tables_in(inner)
 
 
-# Tables of case, bearing, gear and drive files by their names in the book of inputs. The table of sweep files
-# is in the package sweep.
-TABLES: Mapping[str, type[Table]] = {
-    table.BOOK: table for file in (DriveCase, GearCase, BearingCase, Case) for table in _tables_in(file)
-}
+def _files() -> Iterator[type[Table]]:
+    """Files of all kinds. Those of gear pairs and drives, which few commands need, are imported last."""
+    yield from (Case, BearingCase)
+    from ehlectric.cases.gear_case import GearCase
+
+    yield GearCase
+    from ehlectric.cases.drive_case import DriveCase
+
+    yield DriveCase
+
+
+@cache
+def tables_of_files() -> Mapping[str, type[Table]]:
+    """Tables of case, bearing, gear and drive files by their names in the book of inputs.
+
+    The table of sweep files is in the package sweep.
+    """
+    return {table.BOOK: table for file in reversed([*_files()]) for table in _tables_in(file)}
 
 
 def input_of(key: str) -> Quantity | None:
@@ -82,7 +93,7 @@ def _entry(table: str, name: str) -> Quantity | None:
 
 
 def descriptions(table: str) -> dict[str, str]:
-    """Return what the keys of a table in ``TABLES``, or of "sweep", mean, in Markdown.
+    """Return what the keys of a table of ``tables_of_files``, or of "sweep", mean, in Markdown.
 
     Examples
     --------
@@ -204,8 +215,14 @@ def _model_of(name: str) -> type[Table]:
     if name in _OF_BEARINGS:
         return BearingCase
     if name == "gear":
+        from ehlectric.cases.gear_case import GearCase
+
         return GearCase
-    return DriveCase if name in (*_OF_DRIVES, *ENDS) else Case
+    if name not in (*_OF_DRIVES, *ENDS):
+        return Case
+    from ehlectric.cases.drive_case import DriveCase
+
+    return DriveCase
 
 
 def is_of_drive(key: str) -> bool:
@@ -239,7 +256,7 @@ def _in_a_table(key: str) -> bool:
     name = inner.partition(".")[0]
     if end:
         return name in BearingCase.known_keys()
-    return any(name in model.known_keys() for model in (Case, BearingCase, GearCase, DriveCase))
+    return any(name in file.known_keys() for file in _files())
 
 
 def unit_of(key: str) -> str:

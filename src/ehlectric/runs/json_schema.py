@@ -14,7 +14,7 @@ from ehlectric.cases.case import Case
 from ehlectric.cases.discharge_inputs import BearingDischarge
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.gear_case import GearCase
-from ehlectric.cases.input_keys import TABLES, descriptions, phrase
+from ehlectric.cases.input_keys import descriptions, phrase, tables_of_files
 from ehlectric.cases.table import Table, name_key
 from ehlectric.errors import InputError, shown
 from ehlectric.quantities.inputs import ENDS
@@ -62,8 +62,12 @@ def schema_of(kind: str) -> dict[str, Any]:
     if kind not in SCHEMAS:
         raise InputError("kind", got=shown(kind), takes=f"one of {', '.join(SCHEMAS)}")
     model = SCHEMAS[kind]
-    described: dict[str, type[Table]] = {**TABLES, **({_SWEEP: model} if kind == _SWEEP else {})}
-    models: list[type[Table]] = [*TABLES.values(), *(table_model for _, table_model in _ALIKE), model]
+    described: dict[str, type[Table]] = {**tables_of_files(), **({_SWEEP: model} if kind == _SWEEP else {})}
+    models: list[type[Table]] = [
+        *tables_of_files().values(),
+        *(table_model for _, table_model in _ALIKE),
+        model,
+    ]
     keys: list[tuple[type[Table], _Mode]] = [
         (table_model, "validation") for table_model in dict.fromkeys(models)
     ]
