@@ -25,7 +25,7 @@ from ehlectric.quantities.inputs import (
 from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.sweep_inputs import Sweep
 from tests.helpers.each import each
-from tests.helpers.moving_cases import tables_of_files() as CONTACTS
+from tests.helpers.moving_cases import TABLES as CONTACTS
 
 MODELS = {**tables_of_files(), "sweep": Sweep}
 FORMS = {
