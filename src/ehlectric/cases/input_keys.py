@@ -52,7 +52,7 @@ def _tables_in(model: type[Table]) -> Iterator[type[Table]]:
 
 
 def _files() -> Iterator[type[Table]]:
-    """Files of all kinds. Those of gear pairs and drives, which few commands need, are imported last."""
+    """Files of all kinds. Gear pairs and drives, which few commands need, are imported last."""
     yield from (Case, BearingCase)
     from ehlectric.cases.gear_case import GearCase
 
