@@ -31,7 +31,19 @@ def at_pitch_point(drawing, torque, modulus=STEEL_206, **changes):
 
 # Load stages of ISO 14635-1, quoted from memory: an unverified source. Stage 1 is printed as 146, which is
 # 0.8 % above the pressure of its torque; all other stages are proportional to the root of the torque.
-STAGES_A = {35.3: 474.0, 94.1: 773.0, 183.4: 1080.0, 302.0: 1386.0, 534.5: 1841.0}
+STAGES_A = {
+    13.7: 295.0,
+    35.3: 474.0,
+    60.8: 621.0,
+    94.1: 773.0,
+    135.5: 927.0,
+    183.4: 1080.0,
+    239.3: 1232.0,
+    302.0: 1386.0,
+    372.6: 1539.0,
+    450.1: 1691.0,
+    534.5: 1841.0,
+}
 
 
 @pytest.mark.parametrize("torque", STAGES_A)

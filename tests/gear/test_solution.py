@@ -66,6 +66,25 @@ def test_equal_loads_of_both_pairs_lose_the_factor_of_ohlendorf():
     assert solution.sliding_power / power == pytest.approx(expected, rel=5e-3)
 
 
+def test_the_loss_factor_of_three_pairs_in_contact_is_the_sum_over_lines():
+    """With a transverse contact ratio above 2 the load is shared by two and three pairs."""
+    drawing = {
+        "normal_module": "2 mm",
+        "teeth": [50, 60],
+        "normal_pressure_angle": "15 deg",
+        "profile_shift": [0.0, 0.0],
+        "centre_distance": "110 mm",
+        "tip_diameter": ["104.6 mm", "124.6 mm"],
+    }
+    solution = solve_gear_pair(
+        case_of(**drawing, operation__load_sharing="rigid", operation__pinion_torque="100 N m")
+    )
+    assert solution.path.contact_ratio > 2.1
+    power = 100.0 * solution.flanks.pinion_speed
+    expected = loss_factor(solution.pair, solution.path)
+    assert solution.sliding_power / power == pytest.approx(expected, rel=5e-3)
+
+
 def test_the_temperature_of_the_flanks_by_hand():
     """First stage of an e-axle at 188.5 kW with a friction coefficient of 0.03: 23 K."""
     rise = bulk_temperature(353.15, 150.0 * 1256.637, 0.03, 0.12729, 87e-3, 25e-3) - 353.15

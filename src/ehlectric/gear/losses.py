@@ -5,7 +5,13 @@ Ohlendorf and the loss are
 
     H_v = pi (u + 1)/(z_1 u cos beta_b) (1 - eps_alpha + eps_1^2 + eps_2^2)          P_v = mu P H_v,
 
-for transverse contact ratios of 1 to 2. ISO/TS 6336-22 estimates the bulk temperature of the flanks as
+for transverse contact ratios of 1 to 2. It is the loss of pairs that share the load equally: with the number
+n of pairs that touch, and tip contact ratios as distances from C,
+
+    H_v = 2 pi (u + 1)/(z_1 u cos beta_b) integral of abs(eps)/n d eps, from -eps_2 to eps_1,
+
+which holds for larger contact ratios too, and is used for them. ISO/TS 6336-22 estimates the bulk temperature
+of the flanks as
 
     theta_M = theta_oil + 7400 K (P mu H_v/(a b))^0.72 X_S/1.2        P [kW], a and b [mm],
 
@@ -15,6 +21,7 @@ standard was not at hand: its constants are an unverified source.
 
 from __future__ import annotations
 
+import itertools
 import math
 
 from ehlectric.gear.contact_path import ContactPath
@@ -30,7 +37,25 @@ def loss_factor(pair: GearPair, path: ContactPath) -> float:
     second = (path.pitch_point - path.start) / path.base_pitch
     ratio = pair.ratio
     scale = math.pi * (ratio + 1.0) / (pair.teeth[0] * ratio * math.cos(pair.base_helix_angle))
+    if path.contact_ratio > 2.0:
+        return scale * _of_equal_loads(first, second)
     return scale * (1.0 - path.contact_ratio + first * first + second * second)
+
+
+def _of_equal_loads(first: float, second: float) -> float:
+    """Twice the integral of abs(eps)/n over the path of contact, from -second to first, dimensionless.
+
+    The number n of pairs changes where a pair a whole number of base pitches away begins or ends its contact.
+    """
+    whole = range(math.ceil(first + second))
+    ends = {0.0, *(k - second for k in whole), *(first - k for k in whole), first, -second}
+    edges = sorted(end for end in ends if -second <= end <= first)
+    total = 0.0
+    for low, high in itertools.pairwise(edges):
+        middle = 0.5 * (low + high)
+        pairs = math.floor(middle + second) + math.floor(first - middle) + 1
+        total += abs(high * abs(high) - low * abs(low)) / pairs
+    return total
 
 
 def bulk_temperature(
