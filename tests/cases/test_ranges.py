@@ -2,7 +2,8 @@
 
 import pytest
 
-from ehlectric.cases.bearing_case import BearingCase, InputRange
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.input_ranges import InputRange
 from tests.helpers.bearings import BALLS, bearing_case, changed
 
 STRENGTH, TEMPERATURE = "discharge.dielectric_strength", "bearing.temperature"

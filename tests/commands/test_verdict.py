@@ -5,7 +5,7 @@ from rich.console import Console
 from ehlectric.commands.terminal import print_verdict
 from ehlectric.quantities.statement import Statement
 from ehlectric.quantities.verdict import Verdict
-from ehlectric.tables.bearing_tables import input_range
+from ehlectric.tables.probability_rows import input_range
 from tests.helpers.each import each
 
 # A verdict whose one line is longer than a terminal is wide.

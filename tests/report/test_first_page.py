@@ -24,7 +24,7 @@ from ehlectric.report.pdf import first_page, pdf_of
 from ehlectric.report.report_content import Light, Numbers, Picture, Table, Text
 from ehlectric.report.written_report import html_of
 from ehlectric.runtime.display import is_number
-from ehlectric.tables.bearing_tables import input_range
+from ehlectric.tables.probability_rows import input_range
 from tests.helpers.drives import drive_with_remedy
 from tests.helpers.places import EXAMPLES
 from tests.helpers.readable import number_in

@@ -19,7 +19,7 @@ from ehlectric.bearing.quick_contacts import is_quick, required_quick_case
 from ehlectric.bearing.solution import BearingSolution, film_error, lambda_ratio
 from ehlectric.bearing.solving import POSITIONS, solution_of_prepared
 from ehlectric.cases import library
-from ehlectric.cases.bearing_case import BearingCase, InputRange
+from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.film_factors import (
     FilmFactors,
     fitted_columns,
@@ -28,6 +28,7 @@ from ehlectric.cases.film_factors import (
     slope_of,
     temperature_warnings,
 )
+from ehlectric.cases.input_ranges import InputRange
 from ehlectric.cases.measurements import MeasuredCapacitance, Measurement, capacitance_of
 from ehlectric.discharge.film_capacitance import LEAST_RATIO
 from ehlectric.errors import ConvergenceError, InputError

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -13,8 +13,9 @@ from ehlectric.arrays import Numbers
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.bearing_inputs import Bearing
 from ehlectric.cases.bearing_kinds import has_rollers
-from ehlectric.cases.case_oil import depends_on_temperature
+from ehlectric.cases.case_oil import Lubricant, depends_on_temperature
 from ehlectric.cases.input_keys import input_of
+from ehlectric.cases.input_ranges import InputRange
 from ehlectric.cases.library.bearing_catalogue import clearance_range
 from ehlectric.cases.library.estimated_bearings import (
     ESTIMATE_ERRORS,
@@ -90,8 +91,7 @@ def changes_of(case: BearingCase) -> tuple[Change, ...]:
     table = case.to_dict()
     changes = {change.key: change for change in usual_changes(case, table)}
     for entry in case.ranges or ():
-        value = float(value_at(table, entry.key))
-        changes[entry.key] = Change(entry.key, _label(entry.key), value, (entry.low, entry.high))
+        changes[entry.key] = stated_change(table, entry)
     return tuple(changes.values())
 
 
@@ -111,20 +111,10 @@ def temperature_is_unused(case: BearingCase) -> bool:
 def usual_changes(case: BearingCase, table: Mapping[str, Any]) -> Iterator[Change]:
     """Changes of strength, temperature, clearance or contact angle, load, geometry, summits, and motor."""
     bearing = case.bearing
-    for key in STRENGTHS:
-        strength = value_at(table, key)
-        if strength is not None:
-            yield Change(key, _label(key), strength, _part(strength, STRENGTH_UNKNOWN), _OF_STRENGTH)
-    if case.discharge.strength_table is not None:
-        label = "factor on the dielectric strength"
-        yield Change(OF_TABLE, label, 1.0, _part(1.0, STRENGTH_UNKNOWN), _OF_STRENGTH)
+    yield from strength_changes(table)
     if not temperature_is_unused(case):
         yield _temperature(bearing)
-    oil = case.lubricant.temperature
-    if oil is not None and oil.iso_vg is not None:
-        label = f"{_label(_AT_40)} (limits of ISO VG {oil.iso_vg})"
-        at_40 = oil.at_40()
-        yield Change(_AT_40, label, float(at_40), _part(float(at_40), GRADE_WIDTH), _OF_GRADE)
+    yield from grade_changes(case.lubricant)
     yield from _clearance(bearing)
     # Cones of tapered rollers are ground to their angle; the angle of balls also follows from their
     # clearance.
@@ -133,16 +123,56 @@ def usual_changes(case: BearingCase, table: Mapping[str, Any]) -> Iterator[Chang
         yield Change(key, _label(key), angle, _around(angle, ANGLE), _OF_ANGLE)
     yield _load(bearing)
     yield from _geometry(bearing)
-    if bearing.summit_height > 0.0:
-        # Smooth films, of a height of 0, are asked for as a bound.
-        key, height = "bearing.summit_height", bearing.summit_height
-        low, high = _around(height, SUMMITS)
-        yield Change(key, _label(key), height, (low, min(high, HIGHEST)), _OF_SUMMITS)
+    yield from summit_changes("bearing.summit_height", bearing.summit_height)
     for name in ("winding_rotor", "rotor_frame"):
         key = f"motor.{name}_capacitance"
         capacitance = value_at(table, key)
         if capacitance is not None:
             yield Change(key, _label(key), capacitance, _part(capacitance, MOTOR), _OF_MOTOR)
+
+
+def strength_changes(table: Mapping[str, Any]) -> Iterator[Change]:
+    """Changes of the dielectric strength of a case with the given tables."""
+    for key in STRENGTHS:
+        strength = value_at(table, key)
+        if strength is not None:
+            yield Change(key, _label(key), strength, _part(strength, STRENGTH_UNKNOWN), _OF_STRENGTH)
+    if value_at(table, "discharge.strength_table") is not None:
+        label = "factor on the dielectric strength"
+        yield Change(OF_TABLE, label, 1.0, _part(1.0, STRENGTH_UNKNOWN), _OF_STRENGTH)
+
+
+def grade_changes(lubricant: Lubricant) -> Iterator[Change]:
+    """Change of the viscosity at 40 degC within the limits of a viscosity grade; none without one."""
+    oil = lubricant.temperature
+    if oil is not None and oil.iso_vg is not None:
+        label = f"{_label(_AT_40)} (limits of ISO VG {oil.iso_vg})"
+        at_40 = oil.at_40()
+        yield Change(_AT_40, label, float(at_40), _part(float(at_40), GRADE_WIDTH), _OF_GRADE)
+
+
+def summit_changes(key: str, height: float) -> Iterator[Change]:
+    """Change of the height of the summits, in units of the composite Rq; none of smooth films."""
+    if height > 0.0:
+        # Smooth films, of a height of 0, are asked for as a bound.
+        low, high = _around(height, SUMMITS)
+        yield Change(key, _label(key), height, (low, min(high, HIGHEST)), _OF_SUMMITS)
+
+
+def load_change(key: str, value: float) -> Change:
+    """Change of a load that is larger than 0."""
+    return Change(key, _label(key), value, _part(value, LOAD), _OF_LOAD)
+
+
+def temperature_change(key: str, value: float) -> Change:
+    """Change of a temperature."""
+    return Change(key, _label(key), value, _around(value, TEMPERATURE), _OF_TEMPERATURE)
+
+
+def stated_change(table: Mapping[str, Any], entry: InputRange) -> Change:
+    """Change of an input of a case with the given tables to the ends of its range in the file."""
+    value = float(value_at(table, entry.key))
+    return Change(entry.key, _label(entry.key), value, (entry.low, entry.high))
 
 
 def _load(bearing: Bearing) -> Change:
@@ -152,20 +182,19 @@ def _load(bearing: Bearing) -> Change:
     larger = max(loads, key=loads.__getitem__)
     both = {f"bearing.{name}_load": load for name, load in loads.items() if load}
     key, value = f"bearing.{larger}_load", loads[larger]
-    label = _label(key)
+    change = load_change(key, value)
     if len(both) < 2:
-        return Change(key, label, value, _part(value, LOAD), _OF_LOAD)
+        return change
     other = "axial" if larger == "radial" else "radial"
-    label = f"{label} ({other} in proportion)"
-    return Change(key, label, value, _part(value, LOAD), _OF_LOAD, scaled=both)
+    return replace(change, label=f"{change.label} ({other} in proportion)", scaled=both)
 
 
 def _temperature(bearing: Bearing) -> Change:
     """Change of the temperature of the oil, and by the same step of all other parts that have their own."""
     known = {f"bearing.{name}": value for name, value in bearing.all_temperatures().items()}
-    key, value = next(iter(known.items()))
-    label = _label(key) + (" (of all other parts by the same)" if len(known) > 1 else "")
-    return Change(key, label, value, _around(value, TEMPERATURE), _OF_TEMPERATURE, shifted=known)
+    change = temperature_change(*next(iter(known.items())))
+    label = change.label + (" (of all other parts by the same)" if len(known) > 1 else "")
+    return replace(change, label=label, shifted=known)
 
 
 def _clearance(bearing: Bearing) -> Iterator[Change]:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
-from typing import Any, TypeVar
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
@@ -209,6 +209,46 @@ _Spread = TypeVar("_Spread", bound=MarginSpread)
 
 
 @dataclass(frozen=True)
+class Names:
+    """Key, label and range of an uncertain input; see ``UncertainInput``."""
+
+    key: str
+    label: str
+    low: float | None
+    high: float | None
+    assumed: bool
+    reason: str
+
+    @classmethod
+    def of(cls, change: Change, assumed: Mapping[str, str]) -> Names:
+        """Names of a changed input. ``assumed``, reasons of usual ranges by their key."""
+        known = change.key in assumed
+        return cls(change.key, change.label, *change.ends, assumed=known, reason=assumed.get(change.key, ""))
+
+
+class Sampled(Protocol):
+    """Uncertain inputs as numbers from 0 to 1: columns for which margins are computed, then factors."""
+
+    @property
+    def left_out(self) -> tuple[str, ...]:
+        """Ranges that are not in the distribution, and why."""
+
+    @property
+    def width(self) -> int:
+        """Number of uncertain inputs."""
+
+    @property
+    def number(self) -> int:
+        """Number of columns for which margins are computed."""
+
+    def log_factors(self, at: Array) -> Array:
+        """Logarithms of the factors on the margin at points from 0 to 1, shape (n, width - number)."""
+
+    def names(self) -> Iterable[Names]:
+        """Names of the uncertain inputs, in the order of the columns."""
+
+
+@dataclass(frozen=True)
 class Design:
     """Uncertain inputs of a bearing, and how its margin follows from numbers from 0 to 1 for each of them."""
 
@@ -302,6 +342,19 @@ class Design:
             columns.append(np.log(-np.log1p(-at[:, k])) / self.shape)
         return np.stack(columns, axis=-1)
 
+    def names(self) -> Iterator[Names]:
+        """Names of the uncertain inputs, in the order of the columns."""
+        by = {"atlas": "stated error of the atlas", "formula": "stated error of the formula"}
+        reason = by.get(self.case.contacts, "estimated error of the solved films")
+        films = [Names(FILMS, "films", *self.films, assumed=True, reason=reason)]
+        computed, factors = (
+            [Names.of(change, self.assumed) for change in changes]
+            for changes in (self.computed, self.factors)
+        )
+        yield from (*computed, *films, *factors) if self.rough else (*computed, *factors, *films)
+        if self.shape is not None:
+            yield Names(SCATTER, "scatter of the dielectric strength", None, None, assumed=False, reason="")
+
 
 def uncertainty_of(
     solution: BearingSolution,
@@ -324,15 +377,31 @@ def uncertainty_of(
     """
     design, touching = Design.of(solution), bool(conducts(solution))
     stages = STAGES if samples is None else (samples,)
+    uncertainty, computed, at = refined(
+        design, lambda at: _computed(design, margins, at), stages=stages, seed=seed, touching=touching
+    )
+    return _with_reason(uncertainty, design, margins, computed, at)
+
+
+def refined(
+    design: Sampled, compute: Callable[[Array], Array], *, stages: Sequence[int], seed: int, touching: bool
+) -> tuple[Uncertainty, Array, Array]:
+    """Distribution of the margin over a design that is refined from stage to stage, numbers of its points.
+
+    ``compute``, margins at points from 0 to 1, shape (n, width), without the factors of the design, shape
+    (n,): 0 where surfaces touch, NaN without a result. ``touching``, whether the level of the verdict follows
+    ``touching_rule``. The design is refined until the sampling error of the probability cannot change this
+    level, and the shares of the inputs predict 99 % of the variance. Returns also the margins and the points.
+    """
     at, computed = sobol_points(design.width, stages[-1], seed), np.empty(0)
     for count in stages:
-        computed = np.concatenate([computed, _computed(design, margins, at[computed.size : count])])
+        computed = np.concatenate([computed, compute(at[computed.size : count])])
         inputs, predicted = _inputs(design, computed, at[:count])
         spread = spread_at(design, computed, at[:count], seed)
         uncertainty = Uncertainty(**vars(spread), inputs=inputs, predicted=predicted)
         if predicted >= _PREDICTED and uncertainty.chance.is_settled(touching=touching):
             break
-    return _with_reason(uncertainty, design, margins, computed, at)
+    return uncertainty, computed, at
 
 
 def _with_reason(
@@ -372,7 +441,7 @@ def spread_of_result(solution: BearingSolution, samples: int, seed: int = SEED) 
     return _with_reason(spread_at(design, computed, at, seed), design, margins, computed, at)
 
 
-def spread_at(design: Design, computed: Array, at: Array, seed: int) -> MarginSpread:
+def spread_at(design: Sampled, computed: Array, at: Array, seed: int) -> MarginSpread:
     """Distribution of the margin from margins at points from 0 to 1, shape (n, width).
 
     ``computed``, margins without the factors, 0 where surfaces touch, NaN without a result, shape (n,).
@@ -385,7 +454,7 @@ def spread_at(design: Design, computed: Array, at: Array, seed: int) -> MarginSp
     return MarginSpread(margins, touching, failed, len(at), seed, design.left_out)
 
 
-def _with_factors(design: Design, computed: Array, at: Array) -> Array:
+def _with_factors(design: Sampled, computed: Array, at: Array) -> Array:
     """Margins with the factors of the design; see ``spread_at``."""
     if not np.any(np.isfinite(computed)):
         raise InputError.worded(None, NO_MARGINS)
@@ -427,7 +496,7 @@ def _computed(design: Design, margins: QuickMargins, at: Array, speed: Array | N
     return np.asarray(margins.margin_factor * design.film_scale(at) * margin)
 
 
-def _inputs(design: Design, computed: Array, at: Array) -> tuple[tuple[UncertainInput, ...], float]:
+def _inputs(design: Sampled, computed: Array, at: Array) -> tuple[tuple[UncertainInput, ...], float]:
     """Uncertain inputs with their shares of the variance of ln(margin), the largest first, and the share of
     this variance that is predicted.
     """
@@ -444,40 +513,10 @@ def _inputs(design: Design, computed: Array, at: Array) -> tuple[tuple[Uncertain
     whole = variance + float(np.sum(separate)) or 1.0
     shares = [*zip(variance * first, variance * total, strict=True), *zip(separate, separate, strict=True)]
     inputs = [
-        UncertainInput(*names, first_order=float(part / whole), total=float(all_ / whole))
-        for names, (part, all_) in zip(_names(design), shares, strict=True)
+        UncertainInput(**vars(names), first_order=float(part / whole), total=float(all_ / whole))
+        for names, (part, all_) in zip(design.names(), shares, strict=True)
     ]
     return tuple(sorted(inputs, key=lambda part: -part.total)), 1.0 - missed / whole
-
-
-def _names(design: Design) -> Iterator[tuple[str, str, float | None, float | None, bool, str]]:
-    """Key, label, range and reason of each uncertain input, in the order of the design."""
-    by = {"atlas": "stated error of the atlas", "formula": "stated error of the formula"}
-    films = (
-        (
-            FILMS,
-            "films",
-            *design.films,
-            True,
-            by.get(design.case.contacts, "estimated error of the solved films"),
-        ),
-    )
-    computed, factors = (
-        [
-            (
-                change.key,
-                change.label,
-                *change.ends,
-                change.key in design.assumed,
-                design.assumed.get(change.key, ""),
-            )
-            for change in changes
-        ]
-        for changes in (design.computed, design.factors)
-    )
-    yield from (*computed, *films, *factors) if design.rough else (*computed, *factors, *films)
-    if design.shape is not None:
-        yield SCATTER, "scatter of the dielectric strength", None, None, False, ""
 
 
 def margin_band(

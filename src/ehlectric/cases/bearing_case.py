@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Required, Self, TypedDict, Unpack
 
 import numpy as np
 from pydantic import field_serializer, field_validator, model_validator
-from pydantic.fields import FieldInfo
 
 from ehlectric.arrays import Array
 from ehlectric.cases import library
@@ -32,6 +30,16 @@ from ehlectric.cases.defaults import DEFAULT_FILM, DEFAULT_SUMMITS, Contacts
 from ehlectric.cases.discharge_inputs import BearingDischarge
 from ehlectric.cases.duty_inputs import Duty
 from ehlectric.cases.grid_inputs import Solver
+from ehlectric.cases.input_ranges import (
+    InputRange,
+    check_ranges,
+    drop_ranges,
+    field_of_values,
+    flat_changes,
+    quantity_at,
+    ranges_of,
+    table_of_ranges,
+)
 from ehlectric.cases.key_names import refuse_deep
 from ehlectric.cases.keywords import Fields, Keys, keys_of, split, takes
 from ehlectric.cases.library.bearing_catalogue import NORMAL_CLASS, with_class
@@ -42,19 +50,14 @@ from ehlectric.cases.table import (
     CaseFile,
     Table,
     Title,
-    field_within,
-    nearest_key,
     number_of,
-    parser_of,
-    table_of,
     with_name_keys,
 )
-from ehlectric.cases.table_edits import displace, flattened, nested, set_keys
+from ehlectric.cases.table_edits import displace, nested, set_keys
 from ehlectric.errors import InputError, shown, within
 from ehlectric.quantities.alternatives import ALTERNATIVES, DIMENSIONS
 from ehlectric.quantities.formats import amount, operating_point
-from ehlectric.quantities.rows import value_at
-from ehlectric.runtime.display import headline, is_number
+from ehlectric.runtime.display import headline
 
 # Tables and keys of a bearing file that a case of a contact does not have.
 _TABLES = ("motor", "contacts", "ranges", "duty")
@@ -75,84 +78,10 @@ def bearing_key(table: Mapping[str, Any]) -> str | None:
     return next((key for key in table if key in _TABLES or key in only_bearing), None)
 
 
-@dataclass(frozen=True)
-class InputRange:
-    """Range of an input, within which its true value is taken to lie."""
-
-    key: str
-    # low and high: ends of the range, in SI units; ``low`` is below ``high``
-    low: float
-    high: float
-
-
-def ranges_of(tables: Any, model: type[Table]) -> tuple[InputRange, ...]:
-    """Ranges of inputs in SI units, from dotted keys or nested tables with lists of two values.
-    Raises InputError where a key is unknown or is not a number, or its values
-    are not two that increase.
-
-    Examples
-    --------
-    >>> from ehlectric.cases.bearing_case import BearingCase
-    >>> ranges_of({"bearing.radial_load": ["1 kN", "2 kN"]}, BearingCase)
-    (InputRange(key='bearing.radial_load', low=1000.0, high=2000.0),)
-    """
-    if not isinstance(tables, Mapping):
-        raise InputError(got=shown(tables), takes="a table of keys, each with a list of two values")
-    ranges: dict[str, InputRange] = {}
-    for key, value in _flat(tables):
-        if key in ranges:
-            raise InputError(key, got="it twice", takes="it once")
-        ranges[key] = _range(key, value, model)
-    return tuple(ranges.values())
-
-
-def _flat(tables: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
-    """Dotted keys with their values, from dotted keys and nested tables in any mixture."""
-    for name, value in tables.items():
-        if isinstance(value, Mapping):
-            yield from _flat(value, f"{prefix}{name}.")
-        else:
-            yield prefix + name, value
-
-
-def _range(key: str, value: Any, model: type[Table]) -> InputRange:
-    parse, leaf = parser_of(_field(key, model), key), key.rpartition(".")[2]
-    if isinstance(value, str) or not isinstance(value, Sequence) or len(value) != 2:
-        raise InputError(key, got=shown(value), takes="a list of two values, the smaller one first")
-    ends = []
-    for end in value:
-        parsed = getattr(parse(end), leaf)
-        if not is_number(parsed):
-            raise InputError(key, got=shown(end), takes="numbers: only they have a range")
-        # A whole number stays one: no other is allowed where it counts something.
-        ends.append(parsed)
-    low, high = ends
-    if not low < high:
-        raise InputError(key, got=f"{shown(value[0])} and {shown(value[1])}", takes="the smaller one first")
-    return InputRange(key, low, high)
-
-
-def _field(key: str, model: type[Table], takes: str = "a list of two values") -> FieldInfo:
-    """Field of a dotted key that takes some values."""
-    field = field_within(model, key)
-    if field is None or key == "ranges":
-        raise InputError.unknown(key, nearest_key(key, model))
-    if table_of(field.annotation) is not None:
-        raise InputError(key, "is a table", takes=f"one of its keys with {takes}")
-    return field
-
-
-def _quantity(model: type[Table], key: str) -> Amount | None:
-    """Quantity of a dotted key; None for a key that is none."""
-    field = field_within(model, key)
-    quantity = None if field is None else number_of(field)
-    return quantity if isinstance(quantity, Amount) else None
-
-
 def _array_of(key: str, values: Any, model: type[Table]) -> Array:
     """Numbers of a dotted key at many points, SI units, shape (n,), each within the bounds of the key."""
     takes = "an array, with a number for each point"
-    quantity = number_of(_field(key, model, takes))
+    quantity = number_of(field_of_values(key, model, takes))
     if not isinstance(quantity, Amount):
         raise InputError(key, got=takes, takes="one value for all points: it is no quantity of a point")
     try:
@@ -203,9 +132,6 @@ def _far_points(arrays: Mapping[str, Array]) -> list[int]:
 
 # Tables in which a key that changes replaces its alternatives.
 _ALTERNATIVES = {table: ALTERNATIVES[table] for table in ("bearing", "lubricant", "discharge")}
-
-# Relative error by which a value that is rounded may lie outside of its range.
-_ROUNDING = 1e-9
 
 # Keys of [discharge] that a bearing file may not have.
 _NOT_OF_BEARINGS = ("length",)
@@ -289,7 +215,9 @@ class BearingCase(CaseFile, book="bearing_file"):
     @classmethod
     def _with_uncertainties(cls, tables: Any) -> Any:
         """Inputs that are written with their uncertainty have their middle, and ``ranges`` has their ends."""
-        return with_stated_ranges(tables, partial(_quantity, cls)) if isinstance(tables, Mapping) else tables
+        return (
+            with_stated_ranges(tables, partial(quantity_at, cls)) if isinstance(tables, Mapping) else tables
+        )
 
     def all_inputs(self) -> dict[str, Any]:
         """Return the tables in SI units, also with the Rq that follows from an Ra."""
@@ -309,7 +237,7 @@ class BearingCase(CaseFile, book="bearing_file"):
 
     @field_serializer("ranges")
     def _as_table(self, ranges: tuple[InputRange, ...] | None) -> dict[str, list[int | float]] | None:
-        return None if ranges is None else {entry.key: [entry.low, entry.high] for entry in ranges}
+        return table_of_ranges(ranges)
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -328,7 +256,7 @@ class BearingCase(CaseFile, book="bearing_file"):
                 "lubricant.density",
                 f"missing; supply {self.bearing.supply!r} needs it for the kinematic viscosity",
             )
-        self._check_ranges()
+        check_ranges(self.ranges, self.to_dict)
         return self
 
     def _set_defaults(self) -> None:
@@ -342,20 +270,6 @@ class BearingCase(CaseFile, book="bearing_file"):
         if "summit_height" not in given:
             bearing.__dict__["summit_height"] = 0.0 if bearing.isothermal else DEFAULT_SUMMITS
         self.__dict__["bearing"] = bearing
-
-    def _check_ranges(self) -> None:
-        """Check that each range is one of a number of the file, and contains it."""
-        table = self.to_dict() if self.ranges else {}
-        for span in self.ranges or ():
-            value, key = value_at(table, span.key), f"ranges.{span.key}"
-            if not is_number(value):
-                raise InputError(key, got="a range", takes=f"a number for {span.key} in the file too")
-            if not span.low - _ROUNDING * abs(span.low) <= value <= span.high + _ROUNDING * abs(span.high):
-                raise InputError(
-                    key,
-                    got=f"{span.low:.6g} to {span.high:.6g}",
-                    takes=f"a range that contains the value of the file, {value:.6g} (in SI units)",
-                )
 
     def _check_connected(self) -> None:
         """Check that one table says what is connected to the shaft, where a pit needs it."""
@@ -505,7 +419,7 @@ class BearingCase(CaseFile, book="bearing_file"):
             ``title="A"``. Other keys of a table stay; ``ranges`` is replaced as a whole.
         """
         refuse_deep({**tables, "changes": changes})
-        named = with_name_keys(_flat_changes(tables) | dict(changes or {}), BearingCase)
+        named = with_name_keys(flat_changes(tables) | dict(changes or {}), BearingCase)
         changes = _with_named_class(_with_class(_with_typed_base(named)))
         table = open_tables(self)
         clearance = changes.get("bearing.clearance_class")
@@ -520,12 +434,7 @@ class BearingCase(CaseFile, book="bearing_file"):
         displace_oil(table["lubricant"], nested(changes, "lubricant"))
         displace(table, changes, _ALTERNATIVES)
         set_keys(table, changes)
-        if "ranges" in table and "ranges" not in changes:
-            table["ranges"] = {
-                key: ends
-                for key, ends in table["ranges"].items()
-                if key not in changes and is_number(value_at(table, key))
-            }
+        drop_ranges(table, changes)
         bearing = table["bearing"]
         classed = isinstance(bearing, Mapping) and bearing.get("clearance_class") is not None
         if classed and "bearing.radial_clearance" not in changes:
@@ -556,12 +465,6 @@ def _check_together(case: BearingCase, arrays: Mapping[str, Array]) -> None:
     if np.any(idle):
         with at_index(keys[0], int(np.argmax(idle))):
             raise InputError.missing(keys[0], "a load, radial or axial")
-
-
-def _flat_changes(tables: Mapping[str, Any]) -> dict[str, Any]:
-    """New values by dotted key; ``ranges``, whose own keys are dotted, stays a table."""
-    ranges = {"ranges": tables["ranges"]} if "ranges" in tables else {}
-    return flattened({name: table for name, table in tables.items() if name != "ranges"}) | ranges
 
 
 def _with_class(changes: dict[str, Any]) -> dict[str, Any]:

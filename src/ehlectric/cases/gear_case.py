@@ -3,19 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
-from pydantic import model_validator
+from pydantic import field_serializer, field_validator, model_validator
 
 from ehlectric.cases.case_oil import Lubricant
 from ehlectric.cases.defaults import Contacts
 from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.cases.gear_inputs import Gear
+from ehlectric.cases.input_ranges import (
+    InputRange,
+    check_ranges,
+    drop_ranges,
+    flat_changes,
+    quantity_at,
+    ranges_of,
+    table_of_ranges,
+)
 from ehlectric.cases.key_names import refuse_deep
 from ehlectric.cases.oil_inputs import displace_oil
+from ehlectric.cases.stated_ranges import with_stated_ranges
 from ehlectric.cases.table import CaseFile, Title, with_name_keys
-from ehlectric.cases.table_edits import displace, flattened, nested, set_keys
+from ehlectric.cases.table_edits import displace, nested, set_keys
 from ehlectric.errors import InputError
 from ehlectric.quantities.alternatives import ALTERNATIVES
 from ehlectric.quantities.formats import amount, operating_point
@@ -45,6 +56,8 @@ class GearCase(CaseFile, book="gear_file"):
         are solved at the points of the path of contact and at the smallest film.
     discharge : mapping, optional
         Dielectric strength and conductivity of the oil.
+    ranges : mapping, optional
+        Ranges of uncertain inputs by dotted key, each a list of two values.
     """
 
     if TYPE_CHECKING:
@@ -56,6 +69,25 @@ class GearCase(CaseFile, book="gear_file"):
     gear: Gear
     lubricant: Lubricant
     discharge: Discharge = Discharge()
+    ranges: tuple[InputRange, ...] | None = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _with_uncertainties(cls, tables: Any) -> Any:
+        """Inputs that are written with their uncertainty have their middle, and ``ranges`` has their ends."""
+        return (
+            with_stated_ranges(tables, partial(quantity_at, cls)) if isinstance(tables, Mapping) else tables
+        )
+
+    @field_validator("ranges", mode="plain")
+    @classmethod
+    def _parsed(cls, tables: Any) -> tuple[InputRange, ...] | None:
+        """Ranges of inputs in SI units."""
+        return None if tables is None else ranges_of(tables, cls) or None
+
+    @field_serializer("ranges")
+    def _as_table(self, ranges: tuple[InputRange, ...] | None) -> dict[str, list[int | float]] | None:
+        return table_of_ranges(ranges)
 
     @classmethod
     def of_file(cls, table: dict[str, Any], path: Path) -> Self:  # noqa: ARG003
@@ -85,6 +117,7 @@ class GearCase(CaseFile, book="gear_file"):
                 got="a strength over pressure",
                 takes="dielectric_strength, or a table over temperature: the field in the film is not solved",
             )
+        check_ranges(self.ranges, self.to_dict)
         return self
 
     def _speeds(self, table: dict[str, Any]) -> Iterator[tuple[dict[str, Any], str]]:
@@ -112,11 +145,12 @@ class GearCase(CaseFile, book="gear_file"):
             New values by table, as in ``gear={"helix_angle": 0.0}``.
         """
         refuse_deep({**tables, "changes": changes})
-        changes = with_name_keys(flattened(tables) | dict(changes or {}), GearCase)
+        changes = with_name_keys(flat_changes(tables) | dict(changes or {}), GearCase)
         table = self.to_dict()
         if "lubricant.base" in changes:
             table["lubricant"] = {}
         displace_oil(table["lubricant"], nested(changes, "lubricant"))
         displace(table, changes, {name: ALTERNATIVES[name] for name in ("gear", "lubricant", "discharge")})
         set_keys(table, changes)
+        drop_ranges(table, changes)
         return self.from_dict(table)

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import Protocol
 
 import numpy as np
 
+from ehlectric.cases.gear_inputs import Conduction
 from ehlectric.discharge.breakdown_rule import (
     TOUCHING_AT_TIMES,
+    Chance,
     code_of,
     level_of,
     strength_interval,
@@ -26,10 +30,20 @@ _INSULATING, _CONDUCTING = 0.01, 0.99
 
 def state_of(solution: GearSolution) -> str:
     """State of the mesh: what its conduction is set to, or by the share of time in which it conducts."""
-    conduction = solution.case.gear.contact.conduction
+    share = solution.loads.mean(solution.contact_time_share())
+    return state_at(share, solution.case.gear.contact.conduction)
+
+
+def state_at(share: float, conduction: Conduction) -> str:
+    """State of a mesh at a share of time with metallic contact.
+
+    Examples
+    --------
+    >>> state_at(0.5, "by-film"), state_at(0.5, "never")
+    ('conducts at times', 'insulates')
+    """
     if conduction != "by-film":
         return CONDUCTS if conduction == "always" else INSULATES
-    share = solution.loads.mean(solution.contact_time_share())
     return CONDUCTS if share >= _CONDUCTING else INSULATES if share <= _INSULATING else AT_TIMES
 
 
@@ -43,8 +57,20 @@ def breakdown_margin(solution: GearSolution) -> float | None:
     return float(np.min(breakdown)) / voltage
 
 
-def gear_verdict(solution: GearSolution) -> Verdict:
-    """Verdict on a solved gear pair.
+class _Probable(Protocol):
+    """Distribution of the margin of a mesh."""
+
+    @property
+    def chance(self) -> Chance:
+        """Probability and interval as a verdict says them."""
+
+    @property
+    def conduction_probability(self) -> float:
+        """Probability that the mesh conducts."""
+
+
+def gear_verdict(solution: GearSolution, uncertainty: _Probable | None = None) -> Verdict:
+    """Verdict on a solved gear pair, whose level follows the probability of breakdown if it is known.
 
     Grey without a strength or a voltage between both gears. A mesh that conducts has no voltage to break
     down. Without a range of the strength, a margin that a change by 20 % or the error of the film takes
@@ -63,15 +89,16 @@ def gear_verdict(solution: GearSolution) -> Verdict:
     if state == CONDUCTS:
         values = {} if given else {"share": share, "lambda_ratio": ratio}
         answer = Statement.of("mesh-conducts-given" if given else "mesh-conducts", **values)
-        facts = (Fact("mesh.contact_time_share", share),)
-        return replace(no_verdict(answer, code="mesh-conducts"), at=at, assumptions=assumed, facts=facts)
+        of_share = (Fact("mesh.contact_time_share", share),)
+        return replace(no_verdict(answer, code="mesh-conducts"), at=at, assumptions=assumed, facts=of_share)
     if breakdown is None:
         return replace(
             no_verdict(Statement.of("no-strength")), at=at, reasons=(of_state,), assumptions=assumed
         )
-    first = float(np.min(breakdown))
+    first, probable = float(np.min(breakdown)), tuple(_probability(uncertainty))
     if not first:
-        return _touching(solution, of_state, assumed)
+        chance = None if uncertainty is None else uncertainty.chance
+        return _touching(solution, (of_state, *probable), assumed, chance)
     margin, voltage = breakdown_margin(solution), solution.case.gear.contact.voltage
     if margin is None or voltage is None:
         answer = Statement.of("mesh-breakdown", breakdown=first)
@@ -80,7 +107,17 @@ def gear_verdict(solution: GearSolution) -> Verdict:
     weakest, strongest = strength_interval(margin)
     interval = min(weakest, margin * (1.0 - error)), max(strongest, margin * (1.0 + error))
     level = level_of(*interval)
-    code = code_of(level, likely=margin < 1.0)
+    code, doubts = code_of(level, likely=margin < 1.0), strength_doubt(solution.case.discharge, margin)
+    facts: tuple[Fact, ...] = (Fact("mesh.breakdown_voltage", first), Fact("mesh.margin", margin, interval))
+    if uncertainty is not None:
+        chance = uncertainty.chance
+        level, code, doubts = chance.level, chance.code, (*chance.statements(), *probable)
+        known = None if chance.failed or math.isinf(chance.high) else (chance.low, chance.high)
+        facts = (
+            Fact("mesh.breakdown_voltage", first),
+            Fact("mesh.margin", margin, known),
+            Fact("uncertainty.breakdown_probability", chance.probability, chance.bounds),
+        )
     if level == "green" and state == AT_TIMES:
         level, code = "yellow", TOUCHING_AT_TIMES
     return Verdict(
@@ -88,18 +125,31 @@ def gear_verdict(solution: GearSolution) -> Verdict:
         code,
         Statement.of("mesh-voltages", voltage=voltage, breakdown=first, margin=margin),
         at,
-        facts=(Fact("mesh.breakdown_voltage", first), Fact("mesh.margin", margin, interval)),
-        reasons=(of_state, *strength_doubt(solution.case.discharge, margin)),
+        facts=facts,
+        reasons=(of_state, *doubts),
         assumptions=assumed,
         bound="best",
     )
 
 
-def _touching(solution: GearSolution, of_state: Statement, assumed: tuple[Statement, ...]) -> Verdict:
+def _probability(uncertainty: _Probable | None) -> Iterator[Statement]:
+    """Statement on the probability that the mesh conducts; none where it does so at no point."""
+    if uncertainty is not None and uncertainty.conduction_probability > 0.0:
+        yield Statement.of("mesh-conducts-in-cases", probability=uncertainty.conduction_probability)
+
+
+def _touching(
+    solution: GearSolution,
+    reasons: tuple[Statement, ...],
+    assumed: tuple[Statement, ...],
+    chance: Chance | None,
+) -> Verdict:
     """Verdict on a mesh whose summits touch, for which no voltage is computed."""
-    level, code = touching_rule(None, driven=solution.case.gear.contact.voltage is not None)
+    if chance is not None:
+        reasons += (Statement.of("probability-of-touching", probability=chance.stated),)
+    level, code = touching_rule(chance, driven=solution.case.gear.contact.voltage is not None)
     answer = Statement.of("mesh-touching", height=solution.case.gear.summit_height)
-    return Verdict(level, code, answer, _operating_point(solution), reasons=(of_state,), assumptions=assumed)
+    return Verdict(level, code, answer, _operating_point(solution), reasons=reasons, assumptions=assumed)
 
 
 def _operating_point(solution: GearSolution) -> Statement:
@@ -118,6 +168,9 @@ def _assumptions(solution: GearSolution) -> Iterator[Statement]:
     operation = solution.case.gear.operation
     yield Statement.of("mesh-film", law=operation.load_sharing, factor=operation.load_factor)
     if solution.case.discharge.has_strength:
-        yield strength_clause(solution.case.discharge)
+        stated = {entry.key: (entry.low, entry.high) for entry in solution.case.ranges or ()}
+        yield strength_clause(solution.case.discharge, stated.get("discharge.dielectric_strength"))
+        if not {"gear.flank_ra", "gear.composite_rq"} & stated.keys():
+            yield Statement.of("exact-roughness", rq=solution.rq)
     if isinstance(operation.bulk_temperature, str):
         yield Statement.of("mesh-bulk", temperature=solution.bulk_temperature)

@@ -85,10 +85,7 @@ class GearSolution:
     @property
     def strength(self) -> float | None:
         """Dielectric strength of the oil at ambient pressure [V/m]; None without one."""
-        discharge = self.case.discharge
-        if not discharge.has_strength:
-            return None
-        return float(np.asarray(dielectric_strength(discharge, np.zeros(()))))
+        return strength_of(self.case)
 
     @property
     def thinnest(self) -> tuple[int, ...]:
@@ -144,17 +141,12 @@ class GearSolution:
         lambda: ln(1 - p) is the integral of ln(1 - p(lambda)) over the Hertz area over the reference area.
         ``area_factor``, factor on the reference area.
         """
-        given = self.case.gear.contact.reference_area
-        return -np.expm1(self._open / (area_factor * (REFERENCE_AREA if given is None else given)))
+        return -np.expm1(self._open / (area_factor * reference_area_of(self.case)))
 
     @cached_property
     def _open(self) -> Array:
         """Integral of ln(1 - p(lambda)) over the Hertz area at each phase, shape (p,) [m^2]."""
-        share = contact_probability(np.nan_to_num(self.films.central / self.rq, nan=math.inf))
-        with np.errstate(divide="ignore"):
-            closed = np.log1p(-share)
-        width = 2.0 * np.nan_to_num(self.films.half_width)
-        return self.loads.along(np.where(width > 0.0, width * closed, 0.0))
+        return open_area(self.loads, self.films, self.rq)
 
     @property
     def sliding_power(self) -> float:
@@ -182,6 +174,30 @@ class GearSolution:
         """Mean over the phases of the integral of mu w abs(v_g) over all lines [W]."""
         films = self.films
         return self.loads.mean(self.loads.along(friction * films.load * np.abs(films.sliding_speed)))
+
+
+def strength_of(case: GearCase) -> float | None:
+    """Dielectric strength of the oil of a case at ambient pressure [V/m]; None without one."""
+    if not case.discharge.has_strength:
+        return None
+    return float(np.asarray(dielectric_strength(case.discharge, np.zeros(()))))
+
+
+def reference_area_of(case: GearCase) -> float:
+    """Contact area on which the share of time with metallic contact was measured [m^2]."""
+    given = case.gear.contact.reference_area
+    return REFERENCE_AREA if given is None else given
+
+
+def open_area(loads: LineLoads, films: FlankFilms, rq: float) -> Array:
+    """Integral of ln(1 - p(lambda)) over the Hertz area at each phase, shape (p,) [m^2]; see
+    ``GearSolution.contact_time_share``. ``rq``, composite roughness over the factor on all films [m].
+    """
+    share = contact_probability(np.nan_to_num(films.central / rq, nan=math.inf))
+    with np.errstate(divide="ignore"):
+        closed = np.log1p(-share)
+    width = 2.0 * np.nan_to_num(films.half_width)
+    return loads.along(np.where(width > 0.0, width * closed, 0.0))
 
 
 @dataclass(frozen=True)
@@ -218,14 +234,8 @@ def solve_gear_pair(case: GearCase) -> GearSolution:
     """Mesh of a gear pair at its operating point. Raises InputError for drawings that cannot run, and for an
     oil without a value at the temperature of the flanks.
     """
-    gear, at = case.gear, OperatingPair.of(case)
-    loads = line_loads(
-        at.plane,
-        _normal_force(gear, at.pair),
-        gear.operation.load_sharing,
-        stiffness=mesh_stiffness(at.stiffness, at.plane.path.contact_ratio),
-        modification=modification_of(gear),
-    )
+    at = OperatingPair.of(case)
+    loads = loads_of(case, at)
     films, point_films = _films(case, at, loads)
     return GearSolution(
         case=case,
@@ -251,6 +261,27 @@ def _attempt(case: GearCase) -> GearSolution | InputError | ConvergenceError:
         return solve_gear_pair(case)
     except (InputError, ConvergenceError) as error:
         return error
+
+
+def loads_of(case: GearCase, at: OperatingPair) -> LineLoads:
+    """Loads on the lines of contact of a gear pair at its operating point."""
+    gear = case.gear
+    return line_loads(
+        at.plane,
+        _normal_force(gear, at.pair),
+        gear.operation.load_sharing,
+        stiffness=mesh_stiffness(at.stiffness, at.plane.path.contact_ratio),
+        modification=modification_of(gear),
+    )
+
+
+def tabulated_films(case: GearCase) -> tuple[LineLoads, FlankFilms]:
+    """Loads and films on the lines of contact of a case whose films are not solved. Raises InputError as
+    ``solve_gear_pair`` does.
+    """
+    at = OperatingPair.of(case)
+    loads = loads_of(case, at)
+    return loads, flank_films(at.flanks, loads.places, loads.load, by_formula=case.contacts == "formula")
 
 
 def _films(case: GearCase, pair: OperatingPair, loads: LineLoads) -> tuple[FlankFilms, FlankFilms]:

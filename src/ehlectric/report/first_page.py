@@ -28,7 +28,7 @@ from ehlectric.report.appendix import given_inputs, input_text, named
 from ehlectric.report.report_content import Block, Light, Numbers, Part, Picture, Section, Table, Text
 from ehlectric.report.report_facts import alarms_of, pictures_of
 from ehlectric.report.report_texts import SENTENCES, TEXTS
-from ehlectric.tables.bearing_tables import input_range
+from ehlectric.tables.probability_rows import input_range
 from ehlectric.version import __version__
 
 # Largest numbers of large numbers, of inputs that decide a margin, and of assumptions.

@@ -10,6 +10,8 @@ from ehlectric.tables.gear_tables import gear_rows
 
 def preview(case: GearCase) -> Preview:
     """Preview of a gear pair, whose films are not solved."""
-    result = solve_gear(case if case.contacts != "solved" else case.replace({"contacts": "atlas"}))
+    result = solve_gear(
+        case if case.contacts != "solved" else case.replace({"contacts": "atlas"}), probable=False
+    )
     summary = result.summary()
     return Preview(case.title, tuple(gear_rows(summary)), summary, result.warnings, result.verdict)

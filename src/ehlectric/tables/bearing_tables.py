@@ -5,16 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from ehlectric.bearing import FILMS, OF_TABLE
 from ehlectric.cases.defaults import HOW
-from ehlectric.cases.input_keys import unit_of
 from ehlectric.cases.mean_heights import GAUSSIAN
 from ehlectric.quantities.formats import (
     SELDOM,
-    UNITS,
     amount,
     rpm_text,
-    scale_for,
     scale_of,
     speed_text,
     time_share_text,
@@ -40,8 +36,15 @@ from ehlectric.quantities.sheets import (
     LOAD_COLUMNS,
     VALUES,
 )
-from ehlectric.readable import SAME_NUMBER, at_an_end, chance_text, formatted, ratio_text, readable
+from ehlectric.readable import formatted, ratio_text, readable
 from ehlectric.tables.measured_tables import columns_table, status_rows
+from ehlectric.tables.probability_rows import (
+    input_range,
+    left_out_of_probability,
+    probability_note,
+    probability_value,
+    shares_of_spread,
+)
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -424,50 +427,6 @@ def _median_note(summary: Summary) -> str:
     return median if error is None else f"{median}, sampling error {readable(100.0 * error, 2)} %"
 
 
-def _probability(key: str) -> Callable[[Summary], Any]:
-    """Probability of breakdown; its bounds if points or rows without a result leave it open."""
-
-    def value(summary: Summary) -> Any:
-        probability = value_at(summary, key)
-        low, high = (value_at(summary, f"{key}_{end}") for end in ("low", "high"))
-        # Results of earlier versions have no bounds.
-        if low is None or high is None or high - low < SAME_NUMBER:
-            error = value_at(summary, f"{key}_error")
-            if probability is None or error is None or not at_an_end(probability, error):
-                return probability
-            return chance_text(probability, error).removesuffix(" %"), "%"
-        return " to ".join(readable(100.0 * end, 2) for end in (low, high)), "%"
-
-    return value
-
-
-def _probability_note(summary: Summary) -> str:
-    uncertainty = summary["uncertainty"]
-    if uncertainty.get("failed"):
-        return f", {uncertainty['failed']} of {uncertainty['samples']} points have no result"
-    if at_an_end(uncertainty["breakdown_probability"], uncertainty["breakdown_probability_error"]):
-        return ""
-    return f", sampling error {readable(100.0 * uncertainty['breakdown_probability_error'], 2)} %"
-
-
-def _shares(summary: Summary) -> Iterator[Row]:
-    """Rows of the shares of the uncertain inputs in the spread of the margin, the largest first."""
-    for index in (summary.get("uncertainty") or {}).get("indices", ()):
-        if index["total"] >= _LEAST_SHARE:
-            name, _, remark = index["label"].partition(" (")
-            within = "" if index["low"] is None else f", {input_range(index)}"
-            assumed = ", a usual range" if index["assumed"] and index["key"] != FILMS else ""
-            note = f"{', ' + remark.removesuffix(')') if remark else ''}{assumed}"
-            share = f"{readable(100.0 * index['total'], 2)} % of the spread"
-            yield Row(f"{name}{within}", share, note=note, key=f"uncertainty.indices.{index['key']}")
-
-
-def _left_out_of_probability(summary: Summary) -> Iterator[Row]:
-    """Rows of ranges that are not in the probability, and why."""
-    for text in (summary.get("uncertainty") or {}).get("left_out", ()):
-        yield Row("not in the probability", note=text, key="uncertainty.left_out")
-
-
 def _left_out(summary: Summary) -> Iterator[Row]:
     for text in (summary.get("margin") or {}).get("left_out", ()):
         yield Row("not computed", note=text, key="margin.left_out")
@@ -494,30 +453,6 @@ def _stretches(summary: Summary) -> Iterator[Row]:
             key=f"duty.stretches.{place}.{name}",
         )
 
-
-def input_range(effect: Mapping[str, Any]) -> str:
-    """Range of the input of an effect as text, in the unit that is printed.
-
-    Examples
-    --------
-    >>> input_range({"key": "bearing.temperature", "low_input": 333.15, "high_input": 353.15})
-    '60 to 80 °C'
-    >>> input_range({"key": "discharge.dielectric_strength", "low_input": 12e6, "high_input": 18e6})
-    '12 to 18 V/µm'
-    """
-    low, high = (effect.get(f"{end}_input", effect.get(end)) for end in ("low", "high"))
-    ends, unit = (low, high), "" if effect["key"] in (OF_TABLE, FILMS) else unit_of(effect["key"])
-    scale = _SCALES.get(unit) or scale_for(max(map(abs, ends)), unit)
-    low, high = (readable(scale.of(end), 4) for end in ends)
-    return f"{low} to {high} {scale.unit}".rstrip()
-
-
-# Units that are printed whatever the size of a value, by their SI units.
-_SCALES = {UNITS[unit][0]: scale_of(unit) for unit in ("°C", "deg", "V/µm", "N", "mm²/s")}
-
-
-# Least share of the spread of an input that has a row.
-_LEAST_SHARE = 0.005
 
 _WORDS = RowTexts(
     notes={
@@ -549,7 +484,7 @@ _WORDS = RowTexts(
         "life.fatigue_load_limit": _fatigue_limit_note,
         "life.reliable_life": _reliability_note,
         "life.reliable_reference_life": _reliability_note,
-        "uncertainty.breakdown_probability": _probability_note,
+        "uncertainty.breakdown_probability": probability_note,
         "uncertainty.margin_range": _median_note,
     },
     values={
@@ -577,7 +512,7 @@ _WORDS = RowTexts(
         "margin.range": _range,
         "uncertainty.margin_range": _margin_range,
         **{
-            key: _probability(key)
+            key: probability_value(key)
             for key in (
                 *("uncertainty.breakdown_probability", "duty.breakdown_probability"),
                 "duty.turning_breakdown_probability",
@@ -605,8 +540,8 @@ _WORDS = RowTexts(
     rows={
         "margin.effects": _effects,
         "margin.left_out": _left_out,
-        "uncertainty.indices": _shares,
-        "uncertainty.left_out": _left_out_of_probability,
+        "uncertainty.indices": shares_of_spread,
+        "uncertainty.left_out": left_out_of_probability,
         "duty.stretches": _stretches,
     },
     holds={

@@ -10,6 +10,12 @@ from ehlectric.quantities.results import GEAR_BOOK, PATH_POINTS, POINT_KEYS
 from ehlectric.quantities.rows import Row, RowTexts, Summary, row_of, sheet_rows, value_at
 from ehlectric.quantities.sheets import GEAR
 from ehlectric.tables.measured_tables import columns_table
+from ehlectric.tables.probability_rows import (
+    left_out_of_probability,
+    probability_note,
+    probability_value,
+    shares_of_spread,
+)
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -19,10 +25,21 @@ if TYPE_CHECKING:
 _SHARES = ("mesh.contact_time_share", "mesh.contact_time_share_low", "mesh.contact_time_share_high")
 
 
+_PROBABILITY = "uncertainty.breakdown_probability"
+
+
 def gear_rows(summary: Summary) -> list[Row]:
     """Rows of the key figures of a gear pair."""
     seldom = {key: _seldom for key in _SHARES if 0.0 < value_at(summary, key) < SELDOM}
-    return list(sheet_rows(GEAR, GEAR_BOOK, summary, RowTexts(values=seldom)))
+    return list(sheet_rows(GEAR, GEAR_BOOK, summary, _WORDS | RowTexts(values=seldom)))
+
+
+# Texts next to the numbers of a gear pair.
+_WORDS = RowTexts(
+    notes={_PROBABILITY: probability_note},
+    values={_PROBABILITY: probability_value(_PROBABILITY)},
+    rows={"uncertainty.indices": shares_of_spread, "uncertainty.left_out": left_out_of_probability},
+)
 
 
 def _seldom(_: Summary) -> tuple[str, str]:

@@ -76,7 +76,8 @@ from ehlectric.runs.by_kind import run_bearing
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.progress import Progress
 from ehlectric.runtime.worker_processes import cores
-from ehlectric.tables.bearing_tables import contact_cells, contact_heads, input_range, total_rows
+from ehlectric.tables.bearing_tables import contact_cells, contact_heads, total_rows
+from ehlectric.tables.probability_rows import input_range
 
 EFFECT_HEADS = ("one input changed", "lowest margin", "with", "highest margin", "with")
 

@@ -53,7 +53,7 @@ def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> GearA
     or its gears cannot run together.
     """
     case = gear_case(table, session)
-    return answer_of(solve_gear(case.replace({"contacts": quick_way(case.contacts)})))
+    return answer_of(solve_gear(case.replace({"contacts": quick_way(case.contacts)}), probable=False))
 
 
 def solve_pair(
