@@ -313,7 +313,9 @@ def results(key, value):
     written = field.from_text(f"{value!r} {field.unit}".strip())
     if "gear" in inputs_of(key):
         case = with_lists(Inputs(inputs_of(key)), {key: written})
-        return dict(flat(solve_gear(GearCase.from_dict(changed(inputs_of(key), case))).summary()))
+        return dict(
+            flat(solve_gear(GearCase.from_dict(changed(inputs_of(key), case)), probable=False).summary())
+        )
     table = changed(inputs_of(key), {key: written})
     kind = DriveCase if "drive" in table else BearingCase if "bearing" in table else Case
     result = solve(kind.from_dict(table))

@@ -59,11 +59,15 @@ def keys_of(table, before=""):
 
 
 def test_the_summary_has_the_keys_of_the_book():
-    summary = ehlectric.solve_gear(case_of()).summary()
+    case = case_of(contact__voltage="5 V", flank_ra="0.05 um")
+    summary = ehlectric.solve_gear(case).summary()
     keys = {key for key in keys_of(summary) if not key.startswith("inputs.")}
     described = {key for key in GEAR_KEYS if not key.startswith(("lubricant.", "summary."))}
     assert keys - {"inputs"} <= described | {key.removeprefix("summary.") for key in GEAR_KEYS}
-    assert {key for key in described if "." in key} <= keys
+    listed = {key for key in described if key.startswith("uncertainty.indices.")}
+    assert {key for key in described if "." in key} - listed <= keys
+    (first, *_) = summary["uncertainty"]["indices"]
+    assert {f"uncertainty.indices.{name}" for name in first} == listed
 
 
 REFUSED = {

@@ -27,7 +27,7 @@ def helical():
 
 @each("changes", [{}, RELIEVED, {"contacts": "formula"}])
 def test_a_loaded_result_equals_the_saved_one(changes, tmp_path, monkeypatch):
-    result = solve_gear(spur_case(**changes))
+    result = solve_gear(spur_case(**changes), probable=False)
     files = save(result, tmp_path)
     assert [file.name for file in files] == ["summary.json", "path.csv", "mesh.csv", "gear.nc"]
     with monkeypatch.context() as patched:

@@ -50,7 +50,7 @@ def results(folder):
 def test_points_are_the_solutions_of_single_pairs(results):
     assert [point.status for point in results.points] == ["solved"] * 8
     for point in results.points[::3]:
-        alone = solve_gear(CASE.replace(point.inputs)).summary()
+        alone = solve_gear(CASE.replace(point.inputs), probable=False).summary()
         kept = ("gear", "mesh", "points", "warning_codes", "verdict_level")
         assert {key: point.summary[key] for key in kept} == {key: alone[key] for key in kept}
 

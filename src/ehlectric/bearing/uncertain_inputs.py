@@ -152,7 +152,7 @@ def grade_changes(lubricant: Lubricant) -> Iterator[Change]:
 
 
 def summit_changes(key: str, height: float) -> Iterator[Change]:
-    """Change of the height of the summits, in units of the composite Rq; none of smooth films."""
+    """Change of the height of summits, divided by the composite Rq; none of smooth films."""
     if height > 0.0:
         # Smooth films, of a height of 0, are asked for as a bound.
         low, high = _around(height, SUMMITS)

@@ -42,7 +42,7 @@ class GearResult(Shown):
     seconds : float
         Computing time [s].
     probable : bool
-        Whether the verdict and the summary contain the probability of breakdown, which takes some seconds.
+        Whether the verdict and the summary contain the probability of breakdown, which takes several seconds.
     version : str
         Version of ehlectric that solved it.
     """
@@ -109,9 +109,7 @@ class GearResult(Shown):
 
     def _uncertainty(self) -> dict[str, Any]:
         """Table ``uncertainty`` of the summary; none of a result without probability."""
-        if not self.probable:
-            return {}
-        return {"uncertainty": None if self.uncertainty is None else self.uncertainty.summary()}
+        return {} if self.uncertainty is None else {"uncertainty": self.uncertainty.summary()}
 
     def points(self) -> list[dict[str, Any]]:
         """Table of the points A, B, C, D and E of the path of contact, SI units."""
@@ -146,7 +144,7 @@ class GearResult(Shown):
 
     def to_xarray(self) -> xr.Dataset:
         """Return the dataset of the result, as gear.nc contains it; SI units."""
-        return layout_of(self.solution, self.seconds, self.version).dataset()
+        return layout_of(self.solution, self.seconds, self.version, probable=self.probable).dataset()
 
     def key_numbers(self) -> tuple[str, ...]:
         """Return teeth, capacitance and lambda ratio as texts."""
@@ -169,7 +167,7 @@ def solve_gear(case: GearCase, *, probable: bool = True) -> GearResult:
     case : GearCase
         Drawing, load, oil and dielectric strength.
     probable : bool, optional
-        Whether the verdict and the summary contain the probability of breakdown, which takes some seconds.
+        Whether the verdict and the summary contain the probability of breakdown, which takes several seconds.
 
     Returns
     -------

@@ -10,7 +10,7 @@ from ehlectric.cases.gear_case import GearCase
 from ehlectric.gear.result import GearResult, solve_gear
 from ehlectric.gear.stored import SCHEMA, layout_of, solution_of
 from ehlectric.quantities.results import PHASE_COLUMNS, POINT_KEYS
-from ehlectric.runtime.file_rules import check_format, refusing
+from ehlectric.runtime.file_rules import check_format, number_of, refusing
 from ehlectric.runtime.files import Content, column_head, csv_of, json_of, plain, write_together
 from ehlectric.runtime.folders import RESULT_LOCK, alone_in
 from ehlectric.runtime.netcdf import check_readable, content_of, load_library
@@ -48,7 +48,7 @@ def save(result: GearResult, folder: str | Path, *, replaced: Sequence[str] = ()
     heads = ["point", *(column_head(name, about.unit) for name, about in POINT_KEYS.items())]
     phase = result.over_phase()
     columns = [column_head(name, unit) for name, unit in PHASE_COLUMNS.items()]
-    layout = layout_of(result.solution, result.seconds, result.version)
+    layout = layout_of(result.solution, result.seconds, result.version, probable=result.probable)
     contents: dict[str, Content] = {
         SUMMARY: json_of(plain(result.summary())),
         PATH: csv_of(heads, (row.values() for row in result.points())),
@@ -68,4 +68,5 @@ def result_of(dataset: xr.Dataset, path: Path) -> GearResult:
     check_format(dataset.attrs, SCHEMA, path, "the result of a gear pair")
     with refusing(path):
         solution, seconds, version = solution_of(dataset)
-    return GearResult(solution, seconds, version)
+        probable = number_of(dataset.attrs, "probable", "0 or 1") == 1.0
+    return GearResult(solution, seconds, version, probable)

@@ -38,8 +38,11 @@ _PARTS = (_SOLUTION, _LOADS, _FILMS, _POINT_FILMS)
 _ROUNDING = 1e-9
 
 
-def layout_of(solution: GearSolution, seconds: float, version: str) -> Layout:
-    """Variables and attributes of a gear.nc, SI units, from which ``solution_of`` makes an equal solution."""
+def layout_of(solution: GearSolution, seconds: float, version: str, *, probable: bool) -> Layout:
+    """Variables and attributes of a gear.nc, SI units, from which ``solution_of`` makes an equal solution.
+
+    ``probable``, whether the result contains the probability of breakdown.
+    """
     return Layout(
         {
             **_SOLUTION.written(solution),
@@ -48,7 +51,13 @@ def layout_of(solution: GearSolution, seconds: float, version: str) -> Layout:
             **_POINT_FILMS.written(solution.point_films),
             _POINT: (_POINT, list(POINTS)),
         },
-        {"schema": SCHEMA, "version": version, "case": solution.case.to_toml(), "seconds": seconds},
+        {
+            "schema": SCHEMA,
+            "version": version,
+            "case": solution.case.to_toml(),
+            "seconds": seconds,
+            "probable": int(probable),
+        },
         storage={name: {"compression": "gzip"} for name in (*_FILMS.rules, "capacitance_of_lines")},
     )
 

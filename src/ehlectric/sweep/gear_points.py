@@ -12,8 +12,8 @@ from ehlectric.bearing import Columns
 from ehlectric.cases.bearing_case import at_index
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.input_keys import input_field
-from ehlectric.errors import ConvergenceError, InputError
-from ehlectric.gear import gear_summary, gear_warnings, solve_gear_pair
+from ehlectric.errors import InputError
+from ehlectric.gear import gear_summary, gear_warnings, solve_gear_pairs
 from ehlectric.sweep.result import array_of
 from ehlectric.sweep.sweep_inputs import check_varied, stored_value
 
@@ -27,12 +27,15 @@ def gear_columns(case: GearCase, given: Mapping[str, Any], number: int) -> tuple
     """
     quick = case if case.contacts != "solved" else case.replace({"contacts": "atlas"})
     inputs = {key: _parsed(key, values, case) for key, values in given.items()}
-    columns = Columns(number)
+    columns, cases = Columns(number), dict[int, GearCase]()
     for point in range(number):
         try:
-            solution = solve_gear_pair(quick.replace({key: values[point] for key, values in inputs.items()}))
-        except (InputError, ConvergenceError) as error:
+            cases[point] = quick.replace({key: values[point] for key, values in inputs.items()})
+        except InputError as error:
             columns.reasons[point] = str(error)
+    for point, solution in zip(cases, solve_gear_pairs(cases.values()), strict=True):
+        if isinstance(solution, Exception):
+            columns.reasons[point] = str(solution)
             continue
         codes = ((warning.code, True) for warning in gear_warnings(solution))
         columns.add(np.array([point]), gear_summary(solution), codes)

@@ -1,4 +1,4 @@
-"""Rows of the probability of breakdown of a bearing or a gear mesh, and of its uncertain inputs."""
+"""Rows of the probability that a bearing or a gear mesh breaks down, and of its uncertain inputs."""
 
 from __future__ import annotations
 
