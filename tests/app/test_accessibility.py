@@ -135,13 +135,14 @@ _DESCRIBED = """one => one.getAttribute('aria-describedby').split(' ')
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("path", ["/", "/drive", "/contact"])
+@pytest.mark.parametrize("path", ["/", "/drive", "/gear", "/contact"])
 def test_fields_have_names_units_and_errors_in_the_accessibility_tree(open_page, app_server, path):
     page = open_page(app_server, path)
     page.locator(".form .field").first.wait_for()
     for one in page.evaluate(_NAMELESS):
         assert one["name"], one
-    name, unit = ("Entrainment speed", "m/s") if path == "/contact" else ("Radial load", "N")
+    named = {"/contact": ("Entrainment speed", "m/s"), "/gear": ("Normal module", "mm")}
+    name, unit = named.get(path, ("Radial load", "N"))
     box = page.get_by_role("textbox", name=name, exact=True).first
     box.wait_for()
     assert box.evaluate(_DESCRIBED) == [f"in {unit}"]
@@ -158,6 +159,7 @@ def test_fields_have_names_units_and_errors_in_the_accessibility_tree(open_page,
     [
         ("bearing", "Breakdown likely", "Margin (first breakdown / shaft voltage)"),
         ("drive", "Discharges expected", "Discharges per second"),
+        ("gear", "Breakdown expected", "Margin"),
     ],
 )
 def test_the_answer_is_a_live_region_with_headings_and_named_figures(
@@ -198,7 +200,12 @@ new PerformanceObserver((list) => {
 @pytest.mark.slow
 @pytest.mark.parametrize("width", [1280, 400])
 @pytest.mark.parametrize(
-    ("path", "slider"), [("/", "slider-bearing-radial_load"), ("/drive", "slider-drive-speed")]
+    ("path", "slider"),
+    [
+        ("/", "slider-bearing-radial_load"),
+        ("/drive", "slider-drive-speed"),
+        ("/gear", "slider-gear-face_width"),
+    ],
 )
 def test_nothing_jumps_when_numbers_arrive(open_page, app_server, path, slider, width):
     page = open_page(app_server, "/compare", width=width)

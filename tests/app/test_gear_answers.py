@@ -7,10 +7,10 @@ import pytest
 from ehlectric import GearCase, InputError, solve_gear
 from ehlectric.app.compute.gear_answers import meaning_of, quick_answer, solve_pair
 from ehlectric.app.compute.page_files import uploaded
+from ehlectric.app.compute.sweep_answers import choices
 from ehlectric.app.form_fields import GEAR_GROUPS
 from ehlectric.app.form_fields.field_defaults import default_of
 from ehlectric.app.form_fields.field_rules import Memory, changed
-from ehlectric.app.form_fields.gear_fields import LISTS
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.frame import GEAR
 from ehlectric.quantities.sheets import GEAR_CARDS
@@ -174,6 +174,10 @@ def test_solved_films_are_those_of_the_command(tmp_path):
     assert (tmp_path / "out" / "gear.nc").is_file()
 
 
-def test_lists_are_shown_by_fields():
-    for name in LISTS:
-        assert {f"{name}.1", f"{name}.2"} <= FIELDS.keys()
+def test_a_sweep_can_vary_torque_and_speed():
+    offered = choices(dict(GEAR.table))
+    ends = {one.key: (one.low, one.high) for one in offered.variables}
+    # A third and three times the values of the example.
+    assert ends["gear.operation.pinion_torque"] == ("10 N m", "90 N m")
+    assert ends["gear.operation.pinion_speed"] == ("4700 rpm", "42000 rpm")
+    assert (offered.kind, "mesh.margin" in offered.values) == ("gear", True)

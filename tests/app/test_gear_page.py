@@ -93,3 +93,12 @@ def test_films_are_solved_on_request(gears):
     page.get_by_test_id("solve").click()
     page.locator("[data-testid=answer][data-solved=true][aria-busy=false]").wait_for()
     page.get_by_test_id("how").filter(has_text="Films solved").wait_for()
+
+
+@pytest.mark.slow
+def test_a_sweep_begins_with_the_gears_of_the_page(gears):
+    page = gears
+    page.get_by_test_id("vary").click()
+    page.wait_for_url(re.compile("/sweep"))
+    page.get_by_test_id("vary-0").locator("option", has_text="Torque of gear 1").wait_for(state="attached")
+    assert "/gear?" in page.get_by_role("link", name="Open the base case on its page").get_attribute("href")

@@ -15,7 +15,7 @@ from tests.helpers.processes import alive, wait_until
 
 pytestmark = pytest.mark.browser
 
-PATHS = ("/", "/contact", "/contact?contact.geometry=point", "/sweep", "/compare")
+PATHS = ("/", "/gear", "/contact", "/contact?contact.geometry=point", "/sweep", "/compare")
 
 
 @pytest.mark.slow

@@ -401,14 +401,14 @@ def sweep_inputs(inputs: Inputs) -> Inputs | None:
     """
     if isinstance(inputs.value("case"), Mapping):
         return inputs
-    if any(inputs.value(table) for table in ("bearing", "drive_end", "contact")):
+    if any(inputs.value(table) for table in ("bearing", "drive_end", "gear", "contact")):
         others = ("vary", "show", "case", "token")
         return Inputs({"case": {key: value for key, value in inputs.table.items() if key not in others}})
     return None
 
 
 def case_of_link(link: str) -> dict[str, Any] | None:
-    """Tables of the case in a link to a bearing, contact or sweep page; None where it has none.
+    """Tables of the case in a link to the page of a case or a sweep; None where it has none.
 
     Examples
     --------

@@ -121,9 +121,7 @@ class _Flank:
     def map(self) -> list[Plot]:
         """Colours of the films, and grey without a load."""
         place = "y = %{x:,.4~r} mm<br>g = %{y:,.4~r} mm"
-        name = with_unit("minimum film", self.unit)
-        name += ",<br>thicker films have the last colour" if np.nanmax(self.films) > self.most else ""
-        bar = {"title": {"text": name, "side": "right"}}
+        bar = {"title": {"text": with_unit("minimum film", self.unit), "side": "right"}}
         about: Plot = self.at | {"type": "heatmap", "hoverongaps": False}
         films = about | {
             "z": values(self.films, 4),

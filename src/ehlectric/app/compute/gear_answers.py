@@ -21,6 +21,7 @@ from ehlectric.cases.gear_case import GearCase
 from ehlectric.errors import InputError
 from ehlectric.figures.data import with_unit
 from ehlectric.figures.gear_panels import (
+    LAST_COLOUR,
     film_finding,
     flank_finding,
     has_voltage,
@@ -189,7 +190,8 @@ def _drawn(result: GearResult, summary: Summary) -> Iterator[tuple[str, Figure]]
             "Minimum film on the flank of gear 1",
             finding,
             flank_figure(result),
-            caption=f"{finding}. The root is at A, and the tip is at E.",
+            caption=f"{finding}. The root is at A, and the tip is at E. Films above {LAST_COLOUR:g} times "
+            "the minimum film have one colour.",
         ),
     )
     finding = mesh_finding(result)

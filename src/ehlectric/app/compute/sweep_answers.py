@@ -16,7 +16,7 @@ from ehlectric.app.charts.plotly_panels import STRIP, STRIP_AXIS, Plot, values
 from ehlectric.app.charts.sweep_charts import line_figure, map_figure
 from ehlectric.app.compute import answer_parts
 from ehlectric.app.compute.answer_parts import gauge_text, page_warnings_of, run_case_of
-from ehlectric.app.form_fields import BEARING_GROUPS
+from ehlectric.app.form_fields import BEARING_GROUPS, GEAR_GROUPS
 from ehlectric.app.form_fields.drive_fields import DRIVE_GROUPS
 from ehlectric.app.form_fields.field import Field
 from ehlectric.app.page_inputs import Inputs, number_of_text
@@ -54,7 +54,7 @@ from ehlectric.quantities.quantity import key_of
 from ehlectric.quantities.result_warnings import CODES
 from ehlectric.quantities.rows import value_at
 from ehlectric.quantities.sheets import SWEEPS, at_ends
-from ehlectric.quantities.units import in_unit, rpm, si_unit, split
+from ehlectric.quantities.units import in_unit, rounded, rpm, si_unit, split
 from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import capital, ratio_text, readable
 from ehlectric.runs.by_kind import run_sweep
@@ -314,7 +314,7 @@ def sweep_of(table: Mapping[str, Any]) -> Sweep:
     """
     case = table.get("case")
     if not isinstance(case, Mapping):
-        raise InputError.missing("case", "a table with the inputs of a bearing, a drive or a contact")
+        raise InputError.missing("case", "a table with the inputs of a bearing, drive, gear pair or contact")
     try:
         run_case_of(case)
     except InputError as error:
@@ -355,7 +355,8 @@ def _variables(table: Mapping[str, Any], case: SolvedCase) -> Iterator[Variable]
         fields = _drive_fields()
     else:
         written, resolved = Inputs(table).flat(), flattened(case.to_dict())
-        fields = {field.key: field for group in BEARING_GROUPS for field in group.fields}
+        groups = GEAR_GROUPS if isinstance(case, GearCase) else BEARING_GROUPS
+        fields = {field.key: field for group in groups for field in group.fields}
     numbers = [key for key, value in resolved.items() if is_number(value) and _may_vary(key, case)]
 
     def rank(key: str) -> tuple[int, int, int]:
@@ -452,10 +453,10 @@ def _is_valid(text: str, key: str) -> bool:
 
 
 def _short(number: float, key: str) -> str:
-    """Number with two digits that count, in full up to a million; a whole number of a count."""
+    """Number with two digits that count, as a file takes it; a whole number of a count."""
     if isinstance(kind_of(key), Count):
         return str(round(number))
-    return readable(number, 2)
+    return rounded(number, 2)
 
 
 def _in_si(value: float, key: str) -> tuple[float, str]:

@@ -8,7 +8,7 @@ from typing import Any
 from ehlectric.app.form_fields.field import equal, given, group_of, unequal
 from ehlectric.app.form_fields.oil_fields import oil
 from ehlectric.app.page_inputs import Inputs
-from ehlectric.quantities.inputs import attributes, form, key_of_list
+from ehlectric.quantities.inputs import form, key_of_list
 
 _BULK = "gear.operation.bulk_temperature"
 _sheet = given("lubricant.temperature")
@@ -27,9 +27,6 @@ GEAR_GROUPS = tuple(
     else group_of("gear", title, _SHOWN)
     for title in form("gear")
 )
-
-# Keys of lists with a value of each gear.
-LISTS = tuple(attributes("each"))
 
 
 def with_lists(inputs: Inputs, changes: Mapping[str, Any]) -> dict[str, Any]:

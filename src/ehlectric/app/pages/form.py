@@ -10,7 +10,7 @@ from typing import Any
 from nicegui import ui
 
 from ehlectric.app.catalogue import choices
-from ehlectric.app.form_fields import BEARING_GROUPS
+from ehlectric.app.form_fields import BEARING_GROUPS, GEAR_GROUPS
 from ehlectric.app.form_fields.contact_fields import geometry_of, groups_of
 from ehlectric.app.form_fields.drive_fields import DRIVE_GROUPS
 from ehlectric.app.form_fields.field import Field, Group, in_field_unit, shown_text, written_text
@@ -302,7 +302,7 @@ class Form:
 
     def _show_others(self) -> None:
         """Show the inputs that no field has, such as inputs of a file, so that nothing is hidden."""
-        shown = {*self._elsewhere, *(field.key for field, _ in self._controls)}
+        shown = {*self._elsewhere, *(key_of_list(field.key) for field, _ in self._controls)}
         rest = {key: value for key, value in self._inputs.flat().items() if key not in shown and value != {}}
         self._others.set_visibility(bool(rest))
         self._others_head.set_content(f"Other inputs of the file ({len(rest)})")
@@ -341,9 +341,11 @@ def _is_of_kind(changes: Mapping[str, Any]) -> bool:
 
 
 def groups_for(case: Inputs) -> Sequence[Group]:
-    """Return the groups of fields of a drive, a bearing, or a contact with its geometry."""
+    """Return the groups of fields of a drive, a gear pair, a bearing, or a contact with its geometry."""
     if case.value("drive_end"):
         return DRIVE_GROUPS
+    if case.value("gear"):
+        return GEAR_GROUPS
     return BEARING_GROUPS if case.value("bearing") else groups_of(geometry_of(case))
 
 

@@ -198,7 +198,7 @@ class Toolbar:
             if opens:
                 if path not in (PATHS["drive"], PATHS["gear"]):
                     _button("Compare", "compare", self.compare)
-                if path not in (PATHS["sweep"], PATHS["gear"]):
+                if path != PATHS["sweep"]:
                     _button("Vary", "vary", self.vary)
                 if path == PATHS["bearing"]:
                     _button("In its drive", "in-drive", self.in_drive)

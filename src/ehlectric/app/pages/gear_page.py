@@ -9,7 +9,6 @@ from nicegui import ui
 
 from ehlectric.app.calls import GEAR_QUICK, GEAR_SOLVED
 from ehlectric.app.form_fields import GEAR_GROUPS
-from ehlectric.app.form_fields.gear_fields import LISTS
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.answer_page import AnswerPage, AnswerView
 from ehlectric.app.pages.frame import GEAR, PATHS
@@ -48,12 +47,8 @@ class GearPage(AnswerPage[GearAnswer]):
     start = GEAR
     kind = "gear"
     groups = GEAR_GROUPS
-    elsewhere = (*LISTS, "contacts")
-    short: ClassVar[Mapping[str, str]] = {
-        "mesh.margin": "",
-        "mesh.breakdown_voltage": "breakdown at",
-        "mesh.lambda_ratio": "",
-    }
+    elsewhere = ("contacts",)
+    short: ClassVar[Mapping[str, str]] = {"mesh.margin": "", "mesh.lambda_ratio": "λ"}
     wait = 0.4
     quick, solved = GEAR_QUICK, GEAR_SOLVED
 

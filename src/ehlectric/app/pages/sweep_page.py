@@ -44,6 +44,7 @@ from ehlectric.app.pages.form import Form, groups_for
 from ehlectric.app.pages.frame import (
     DRIVE,
     PAGE_PATIENCE,
+    PATHS,
     SWEEP,
     Toolbar,
     address_of,
@@ -71,6 +72,10 @@ _NONE = "no second input"
 
 # Longest text that is read as a number of values [characters].
 _LONGEST = 7
+
+
+# Paths of pages by a table that only their cases have; other cases are contacts.
+_PATHS = {"drive_end": PATHS["drive"], "gear": PATHS["gear"], "bearing": PATHS["bearing"]}
 
 
 class RangesForm:
@@ -179,7 +184,7 @@ class RangesForm:
         """Show the base case."""
         case = Inputs(self._inputs.value("case") or {})
         self._title.text = str(case.value("title") or "Case without a title")
-        path = "/drive" if case.value("drive_end") else "/" if case.value("bearing") else "/contact"
+        path = next((path for name, path in _PATHS.items() if case.value(name)), PATHS["contact"])
         self._page.props["href"] = address_of(path, case)
         self._page.update()
         self._kind.show(shown=bool(case.value("bearing")), text=str(case.value("contacts") or "solved"))
@@ -206,7 +211,7 @@ class RangesForm:
         if case is not None:
             await self._change(Inputs({"case": case}))
         elif link:
-            self._link.show(error="this link has no bearing, drive or contact: copy one of their pages")
+            self._link.show(error="this link has no case: copy the link of a page with one")
 
     def _axis(self, place: int, ranges: Sequence[Range]) -> None:
         """Fields of one varied input."""
