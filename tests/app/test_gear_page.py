@@ -100,5 +100,6 @@ def test_a_sweep_begins_with_the_gears_of_the_page(gears):
     page = gears
     page.get_by_test_id("vary").click()
     page.wait_for_url(re.compile("/sweep"))
-    page.get_by_test_id("vary-0").locator("option", has_text="Torque of gear 1").wait_for(state="attached")
+    for place, name in enumerate(("Torque of gear 1", "Speed of gear 1")):
+        assert wait_until(lambda f=f"vary-{place}", n=name: field(page, f).input_value() == n)
     assert "/gear?" in page.get_by_role("link", name="Open the base case on its page").get_attribute("href")
