@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -35,13 +36,12 @@ _REST, _RECOVERIES = 1e-3, 10.0
 
 @dataclass(frozen=True, eq=False)
 class PreparedDrive:
-    """Drive before its simulation: solved bearings, and the circuit in each of its states."""
+    """Drive before its simulation, with solved bearings."""
 
     case: DriveCase
     bearings: tuple[BearingResult, BearingResult]
     elements: tuple[BearingElement, BearingElement]
     films: Films
-    modes: Modes
     ringing: Ringing | None  # what the edges of a described source excite
     waveform: Waveform | None  # voltage of a measured source
     highest_source: float  # largest absolute voltage of the source [V]
@@ -55,9 +55,17 @@ class PreparedDrive:
         """Voltage across the films of each bearing per volt of the source, by the capacitances."""
         return capacitive_divider(self.case.running_circuit, self.elements)
 
+    @cached_property
+    def modes(self) -> Modes:
+        """Circuit in each of its states, which only the simulation needs."""
+        touches = bool(self.films.states[0] == 3)
+        systems = states_of(self.case.running_circuit, self.elements, self.case.breakdown, touches=touches)
+        rate = None if self.ringing is None else self.ringing.rate
+        return modes_of(systems, voltage_nodes(self.elements), rate)
+
 
 def prepare(case: DriveCase, *, workers: int | None = None) -> PreparedDrive:
-    """Solve the bearings of a drive, and set up its circuit.
+    """Solve the bearings of a drive, and read its source.
 
     Raises InputError where a bearing cannot be solved, or lacks a value that discharges need, and where the
     file of a duty cycle cannot be used.
@@ -72,11 +80,9 @@ def prepare(case: DriveCase, *, workers: int | None = None) -> PreparedDrive:
     )
     _check_extinction(case, elements)
     films, ringing = films_of(elements, case.breakdown), ringing_of(case.running_source)
-    systems = states_of(case.running_circuit, elements, case.breakdown, touches=bool(films.states[0] == 3))
-    modes = modes_of(systems, voltage_nodes(elements), None if ringing is None else ringing.rate)
     waveform, prior_warnings = measured_source(case.source, case.drive.duration)
     return PreparedDrive(
-        case, results, elements, films, modes, ringing, waveform, *_times(case, waveform), prior_warnings
+        case, results, elements, films, ringing, waveform, *_times(case, waveform), prior_warnings
     )
 
 
