@@ -45,7 +45,6 @@ from ehlectric.app.view_models import (
 )
 from ehlectric.bearing import (
     BearingResult,
-    BearingSolution,
     CaseKey,
     MarginAnalysis,
     bearing_verdict,
@@ -260,12 +259,18 @@ def meaning_of(verdict: Verdict) -> str:
     return str(TEXTS["meanings"]["bearing"].get(verdict.code, _NO_VERDICT))
 
 
-def quick_verdict(solution: BearingSolution) -> Verdict:
+def quick_verdict(result: BearingResult) -> Verdict:
     """Verdict without the analysis of the margin, which says that the range of the margin follows.
 
     It is not green then: the verdict without an analysis counts an unknown range as a doubt.
     """
-    return bearing_verdict(solution, MarginAnalysis(), quick_chance(solution), follows=True)
+    chance = quick_chance(result.solution)
+    return bearing_verdict(result.solution, MarginAnalysis(), chance, follows=True, warnings=result.warnings)
+
+
+def quick_summary(result: BearingResult) -> dict[str, Any]:
+    """Summary without the analysis of the margin and the probability of breakdown."""
+    return summary_of(result.solution, result.warnings)
 
 
 # Sentences about the direction of the load.
@@ -319,7 +324,7 @@ def duty_answer(table: Mapping[str, Any], session: Path | None = None) -> DutyAn
     if duty is None:
         raise InputError.missing("duty.file", "a file of a duty cycle")
     result = solved_quickly(case.model_copy(update={"duty": None}))
-    summary = summary_of(result.solution) | {"duty": plain(duty.summary())}
+    summary = quick_summary(result) | {"duty": plain(duty.summary())}
     return shown_duty(duty, summary)
 
 
@@ -347,7 +352,7 @@ def _changes(case: BearingCase, solved: Mapping[str, Any]) -> tuple[Difference, 
     if not solved["converged"]:
         return ()
     try:
-        quick = summary_of(solved_quickly(case).solution)
+        quick = quick_summary(solved_quickly(case))
     except InputError:
         return ()
     return differences(quick, solved)
@@ -378,8 +383,8 @@ def answer_of(
     """Answer of a solved bearing: ``analysed`` with critical speeds, effects of the inputs and probability of
     breakdown, and with the ``curves`` over the speed; each takes half a second.
     """
-    summary = result.summary() if analysed else summary_of(result.solution)
-    verdict = result.verdict if analysed else quick_verdict(result.solution)
+    summary = result.summary() if analysed else quick_summary(result)
+    verdict = result.verdict if analysed else quick_verdict(result)
     warnings = result.warnings
     if analysed and result.uncertainty is not None:
         warnings += result.uncertainty.warnings

@@ -10,9 +10,9 @@ from typing import Any
 
 from ehlectric.app.compute import bearing_answers, contact_answers
 from ehlectric.app.compute.answer_parts import card, case_of, page_warnings_of
-from ehlectric.app.compute.bearing_answers import quick_verdict, solved_quickly
+from ehlectric.app.compute.bearing_answers import quick_summary, quick_verdict, solved_quickly
 from ehlectric.app.view_models import Film, Number, OverSpeed, Result, Side
-from ehlectric.bearing import error_text, scaled_curves, summary_of
+from ehlectric.bearing import error_text, scaled_curves
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.defaults import OF_CONTACTS
@@ -39,8 +39,8 @@ def whole_side(table: Mapping[str, Any], folder: Path | None = None) -> Side:
 
 def _bearing(case: BearingCase, *, whole: bool) -> Side:
     result = solved_quickly(case)
-    verdict = result.verdict if whole else quick_verdict(result.solution)
-    summary = result.summary() if whole else summary_of(result.solution)
+    verdict = result.verdict if whole else quick_verdict(result)
+    summary = result.summary() if whole else quick_summary(result)
     decides, rows = bearing_answers.deciding(summary, probable=whole), check_rows(summary)
     return Side(
         kind="bearing",

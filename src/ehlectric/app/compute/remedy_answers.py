@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import Any
 
 from ehlectric.app.compute.answer_parts import drive_of
-from ehlectric.app.compute.bearing_answers import quick_verdict, solved_quickly, without_cycle
+from ehlectric.app.compute.bearing_answers import quick_summary, quick_verdict, solved_quickly, without_cycle
 from ehlectric.app.view_models import PENDING, RemedyAnswer, Table
-from ehlectric.bearing import BearingResult, summary_of
+from ehlectric.bearing import BearingResult
 from ehlectric.cases.defaults import HOW
 from ehlectric.drive import at_shaft_voltage, grounded_verdict, grounded_voltage, with_remedy
 from ehlectric.quantities.results import BEARING_BOOK
@@ -77,7 +77,7 @@ def _answer(
 def _numbers(result: BearingResult, *, whole: bool) -> tuple[Summary, Verdict]:
     if whole:
         return result.summary(), result.verdict
-    return summary_of(result.solution), quick_verdict(result.solution)
+    return quick_summary(result), quick_verdict(result)
 
 
 def _texts(summary: Summary, *, whole: bool) -> dict[str, str]:
