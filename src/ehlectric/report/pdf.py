@@ -382,7 +382,7 @@ def _first_parts(report: Report, width: float) -> Iterator[Flowable]:
 
 def _side_by_side(numbers: Numbers, picture: Picture, width: float) -> Flowable:
     """Numbers below each other, and a figure next to them."""
-    left, right = (share * width for share in (0.36, 0.64))
+    left, right = (share * width for share in (0.42, 0.58))
     shown = list(_loose([_picture(picture, right - 6.0, _ROOM_NEXT_TO_PICTURE)]))
     look = [("VALIGN", (0, 0), (-1, -1), "TOP"), ("LEFTPADDING", (0, 0), (0, 0), 0.0)]
     look += [("RIGHTPADDING", (0, 0), (-1, -1), 0.0)]
