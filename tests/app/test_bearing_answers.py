@@ -29,6 +29,7 @@ from ehlectric.app.view_models import (
 from ehlectric.bearing.result import solve_bearing
 from ehlectric.errors import InputError
 from ehlectric.quantities.formats import amount
+from ehlectric.quantities.lubrication_states import BOUNDARY
 from ehlectric.quantities.result_warnings import CODES, ResultWarning
 from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.units import rpm
@@ -319,7 +320,7 @@ def test_no_voltage_is_drawn_where_surfaces_touch():
     assert all(x >= end for x in known)
     for speed, *_, first, _, _, state in slow.figures["breakdown"].table.rows:
         if begin <= float(speed) < 0.99 * end:
-            assert (first, state) == ("none", "conducting")
+            assert (first, state) == ("none", BOUNDARY.name)
 
 
 @pytest.mark.slow
