@@ -5,6 +5,9 @@ import zipfile
 
 import pytest
 
+from ehlectric.cases.duty_inputs import read_cycle
+from ehlectric.errors import InputError
+from ehlectric.runtime.memory import MOST_MEASURED
 from tests.app.driving import complete, seen, type_into, wait_for_address
 from tests.app.outputs import downloaded, fits
 from tests.helpers.cycles import HEADS, ROWS
@@ -96,6 +99,19 @@ def test_a_cycle_that_does_not_suit_the_bearing_leaves_its_answer(page, tmp_path
     page.get_by_test_id("duty-state").filter(has_text="not computed").wait_for()
     assert page.get_by_test_id("answer").get_attribute("aria-busy") == "false"
     assert not page.get_by_test_id("notice").is_visible()
+
+
+@pytest.mark.slow
+def test_a_cycle_above_the_limit_of_its_reader_is_not_sent(page, tmp_path):
+    opened(page)
+    path = tmp_path / "long.csv"
+    path.write_bytes(b"time [s],speed [rpm]\n".ljust(MOST_MEASURED + 1_000_000, b"\n"))
+    given(page, path)
+    page.get_by_test_id("error-duty").filter(has_text="long.csv: has 9 MB; expected at most 8 MB").wait_for()
+    assert not any("/upload/" in url for url in page.watch.requests)
+    # The reader of the command has the same limit.
+    with pytest.raises(InputError, match="8"):
+        read_cycle(path)
 
 
 @pytest.mark.slow

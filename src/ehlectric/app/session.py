@@ -145,13 +145,14 @@ class Session:
         """Name of a file as its user knows it."""
         return self._names.get(file, shown_name(file))
 
-    async def store(self, file: FileUpload) -> str:
-        """Store an uploaded file, and return its name relative to the folder of the session.
+    async def store(self, file: FileUpload, most: int = LARGEST) -> str:
+        """Store an uploaded file of at most a size [bytes], and return its name relative to the folder of the
+        session.
 
         Raises InputError if it is too large or cannot be stored, and LostError if the session has ended.
         """
         size, given, folder = file.size(), shown_name(file.name), self.folder
-        self._refuse_too_much(given, size)
+        self._refuse_too_much(given, size, most)
         name = new_file(file.name, folder)
         self._coming[name] = size
         try:
@@ -178,16 +179,16 @@ class Session:
         self._names[name] = given
         return name
 
-    def _refuse_too_much(self, given: str, size: int) -> None:
-        """Raise InputError for a file that is too large [bytes], or too large together with the files of the
-        session.
+    def _refuse_too_much(self, given: str, size: int, most: int = LARGEST) -> None:
+        """Raise InputError for a file that is larger than ``most`` [bytes], or too large together with the
+        files of the session.
         """
         kept = sum(
             max(path.stat().st_size, self._coming.get(f"{SURFACES}/{path.name}", 0))
             for path in self.folder.glob(f"{SURFACES}/*")
         )
-        if size > LARGEST or kept + size > MOST_TOGETHER:
-            limits = f"at most {LARGEST / 1e6:g} MB, and {MOST_TOGETHER / 1e6:g} MB of all uploaded files"
+        if size > most or kept + size > MOST_TOGETHER:
+            limits = f"at most {most / 1e6:g} MB, and {MOST_TOGETHER / 1e6:g} MB of all uploaded files"
             raise InputError.worded(None, f"{given}: has {readable(size / 1e6, 4)} MB; expected {limits}")
 
     def close(self) -> None:

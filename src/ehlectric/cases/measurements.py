@@ -22,6 +22,7 @@ from ehlectric.quantities import units
 from ehlectric.quantities.grouped_digits import doubt_of_column, readings
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.result_warnings import ResultWarning
+from ehlectric.runtime.memory import MOST_MEASURED
 from ehlectric.runtime.reading import read_bytes
 from ehlectric.runtime.text_table import (
     Dialect,
@@ -283,8 +284,8 @@ def _stated(value: Array, stated: Array | None, relative: float | None) -> Array
     return None if relative is None else relative * value
 
 
-# Largest size of a file [bytes], and largest numbers of lines above the heads, and of columns.
-_MOST_BYTES, _MOST_ABOVE, _MOST_COLUMNS = 8_000_000, 500, 200
+# Largest numbers of lines above the heads, and of columns.
+_MOST_ABOVE, _MOST_COLUMNS = 500, 200
 
 
 @dataclass(frozen=True, eq=False)
@@ -339,7 +340,7 @@ def read_measurement(measured: str | Path | pd.DataFrame, book: ColumnBook = MEA
         source, rows = "table", _of_table(measured)
     else:
         path = Path(measured)
-        source, rows = str(path), _of_text(path, decoded(path, read_bytes(path, most=_MOST_BYTES)), book)
+        source, rows = str(path), _of_text(path, decoded(path, read_bytes(path, most=MOST_MEASURED)), book)
     columns, ignored = _columns(source, rows.heads, book)
     if len(rows.cells) > book.most_rows:
         takes = f"at most {book.most_rows}; average them"

@@ -16,6 +16,9 @@ from pathlib import Path, PurePosixPath
 
 from ehlectric.errors import MemoryLimitError
 
+# Largest size of a file of measured rows, such as a duty cycle [bytes]: all of its cells are texts in memory.
+MOST_MEASURED = 8_000_000
+
 # Texts of errors that mean that memory ran out, although their types do not show it: of the loader of shared
 # libraries, of threads that cannot start, and of HDF5.
 _TEXTS = ("cannot allocate memory", "failed to map segment", "can't start new thread", "memory allocation")

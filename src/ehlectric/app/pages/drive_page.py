@@ -23,7 +23,7 @@ from ehlectric.app.pages.file_field import LOST_FILE, NOT_IN_LINKS, UploadField
 from ehlectric.app.pages.frame import DRIVE, PATHS
 from ehlectric.app.pages.page_parts import Choices, GroupBox, removable
 from ehlectric.app.pages.result_parts import FigureBox, behind, table_html
-from ehlectric.app.session import LARGEST, Session
+from ehlectric.app.session import Session
 from ehlectric.app.view_models import DriveAnswer, Figure
 from ehlectric.quantities.sheets import DRIVE_CARDS
 
@@ -170,7 +170,7 @@ class WaveformField:
                 self._take,
                 self._refuse,
                 name="waveform",
-                label=f"Or a measured waveform: CSV of an oscilloscope, at most {LARGEST / 1e6:g} MB",
+                label="Or a measured waveform: CSV of an oscilloscope",
             )
             self._used = ui.label().classes("hint").props('data-testid="waveform-used"')
             self._error = ui.label().classes("error").props('role="alert" id="waveform-error"')

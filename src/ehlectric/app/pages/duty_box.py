@@ -12,15 +12,14 @@ from ehlectric.app.calls import DUTY_LOOK
 from ehlectric.app.pages.file_field import LOST_FILE, NOT_IN_LINKS, UploadField
 from ehlectric.app.pages.page_parts import GroupBox, button, heading, lines_html, mark, say
 from ehlectric.app.pages.result_parts import FigureBox, note_html, table_html
-from ehlectric.app.session import LARGEST, Session
+from ehlectric.app.session import Session
 from ehlectric.app.view_models import DutyAnswer, Note
 from ehlectric.errors import InputError, LostError
 from ehlectric.runs.example_files import example
+from ehlectric.runtime.memory import MOST_MEASURED
 
 # Key of the file, and the example that a click loads.
 DUTY_FILE, _EXAMPLE = "duty.file", "measurements/wltc_class_3b_motor.csv"
-
-_LABEL = f"CSV of the cycle, at most {LARGEST / 1e6:g} MB"
 
 _COLUMNS = (
     "The file has the column time [s], and any of speed [rpm], radial load [N], axial load [N], temperature "
@@ -58,7 +57,14 @@ class DutyField:
             ) as self._group,
             ui.element("div").classes("box"),
         ):
-            UploadField(session, self._take, self.refuse, name="duty", label=_LABEL)
+            UploadField(
+                session,
+                self._take,
+                self.refuse,
+                name="duty",
+                label="CSV of the cycle",
+                most=MOST_MEASURED,
+            )
             self._error = ui.label().classes("error").props('role="alert" id="duty-error"')
             self._error.props('data-testid="error-duty"')
             self._used = ui.label().classes("hint").props('data-testid="duty-used" aria-live="polite"')

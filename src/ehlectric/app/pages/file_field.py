@@ -21,7 +21,8 @@ LOST_FILE = "This file was uploaded in another session. Upload it again"
 class UploadField:
     """Field for the file of an instrument, which is stored in the folder of the session.
 
-    ``take`` is called with the name of a file there, and ``refuse`` with the reason why there is none.
+    ``take`` is called with the name of a file there, and ``refuse`` with the reason why there is none. The
+    file has at most the size ``most`` [bytes].
     """
 
     def __init__(
@@ -31,15 +32,16 @@ class UploadField:
         refuse: Callable[[str], None],
         *,
         name: str = "surface",
-        label: str = "",
+        label: str = f"File of an instrument: {', '.join(ENDINGS)} and others",
+        most: int = LARGEST,
     ) -> None:
-        self._session, self._take, self._refuse = session, take, refuse
-        uploader = ui.upload(on_upload=weakly(self._uploaded), max_file_size=LARGEST).style("display: none")
+        self._session, self._take, self._refuse, self._most = session, take, refuse, most
+        uploader = ui.upload(on_upload=weakly(self._uploaded), max_file_size=most).style("display: none")
         address = json.dumps(uploader.props["url"])
-        send = f"(event) => ({script('send_file')})({LARGEST}, {address}, emit)(event)"
+        send = f"(event) => ({script('send_file')})({most}, {address}, emit)(event)"
         with ui.element("div").classes("upload"):
-            words = f"File of an instrument: {', '.join(ENDINGS)} and others, at most {LARGEST / 1e6:g} MB"
-            ui.html(label or words, sanitize=False, tag="label").props(f'for="{name}-file"')
+            words = f"{label}, at most {most / 1e6:g} MB"
+            ui.html(words, sanitize=False, tag="label").props(f'for="{name}-file"')
             field = ui.element("input").props(f'type="file" id="{name}-file" data-testid="upload-{name}"')
             field.props["aria-describedby"] = "roughness-error" if name == "surface" else f"{name}-error"
             field.props["accept"] = ",".join((*ENDINGS, "*/*"))
@@ -48,7 +50,7 @@ class UploadField:
 
     async def _uploaded(self, event: events.UploadEventArguments) -> None:
         try:
-            name = await self._session.store(event.file)
+            name = await self._session.store(event.file, self._most)
         except LostError:
             # The tab was closed meanwhile.
             return
@@ -64,7 +66,7 @@ class UploadField:
         name, status = shown_name(str(event.args.get("name", ""))), event.args.get("status")
         if status is None:
             size = float(event.args.get("size", 0)) / 1e6
-            self._refuse(f"{name}: has {readable(size, 4)} MB; expected at most {LARGEST / 1e6:g} MB")
+            self._refuse(f"{name}: has {readable(size, 4)} MB; expected at most {self._most / 1e6:g} MB")
         elif status == 0:
             self._state.text = f"Reading {name}"
         else:
