@@ -11,6 +11,7 @@ from ehlectric.discharge.discharge_laws import stored_energy
 from ehlectric.gear.gear_verdict import breakdown_margin, state_of
 from ehlectric.gear.iso_film import lambda_gf
 from ehlectric.gear.losses import loss_factor
+from ehlectric.gear.mesh_forces import mesh_forces
 from ehlectric.gear.points import PathPoint, name_of_place, path_points, weakest
 from ehlectric.gear.solution import AREA_FACTOR, GearSolution
 from ehlectric.quantities.lubrication_states import CONDUCTS
@@ -28,9 +29,13 @@ def gear_summary(solution: GearSolution) -> dict[str, Any]:
 def _gear(solution: GearSolution) -> dict[str, Any]:
     """Geometry, load and loss of the pair."""
     pair, path, plane = solution.pair, solution.path, solution.plane
-    operation = solution.case.gear.operation
+    gear = solution.case.gear
+    operation = gear.operation
     friction, power = operation.friction_coefficient, abs(operation.pinion_torque) * operation.pinion_speed
-    factor = loss_factor(pair, path)
+    factor, forces = (
+        loss_factor(pair, path),
+        mesh_forces(pair, operation.pinion_torque, gear.hand),
+    )
     least, most = plane.extreme_lengths
     return {
         "ratio": pair.ratio,
@@ -53,6 +58,9 @@ def _gear(solution: GearSolution) -> dict[str, Any]:
         "power": power,
         "normal_force": solution.normal_force,
         "load_factor": operation.load_factor,
+        "tangential_force": forces.tangential,
+        "radial_force": forces.radial,
+        "axial_force": forces.axial,
         "pair_stiffness": solution.stiffness,
         "bulk_temperature": solution.bulk_temperature,
         "loss_factor": factor,
