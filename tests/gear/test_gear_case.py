@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 import ehlectric
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.errors import InputError
-from ehlectric.gear.solution import solve_gear_pair
+from ehlectric.gear.solving import solve_gear_pair
 from ehlectric.quantities.results import GEAR_KEYS
 from tests.gear.pairs import FZG_C_CASE, case_of
 from tests.helpers.places import EXAMPLES

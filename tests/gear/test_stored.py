@@ -10,7 +10,7 @@ import pytest
 
 from ehlectric import InputError, load, save, solve, solve_gear
 from ehlectric.gear import run as of_gears
-from ehlectric.gear import solution as of_solution
+from ehlectric.gear import solving
 from tests.helpers.each import each
 from tests.helpers.gears import RELIEVED, helical_case, spur_case
 
@@ -32,8 +32,8 @@ def test_a_loaded_result_equals_the_saved_one(changes, tmp_path, monkeypatch):
     assert [file.name for file in files] == ["summary.json", "path.csv", "mesh.csv", "gear.nc"]
     with monkeypatch.context() as patched:
         # Nothing is solved again.
-        patched.setattr(of_solution, "line_loads", None)
-        patched.setattr(of_solution, "flank_films", None)
+        patched.setattr(solving, "loads_at_points", None)
+        patched.setattr(solving, "flank_films", None)
         for path in (tmp_path, tmp_path / "gear.nc", tmp_path / "mesh.csv"):
             again = load(path)
             assert again == result
@@ -80,20 +80,17 @@ def test_the_file_describes_its_variables(helical):
     """Lines of contact are where their phase and their helix put them, as in section A of ISO 21771."""
     dataset = helical.to_xarray()
     loads = helical.solution.loads
-    assert dict(dataset.sizes) == dict(zip(("phase", "line", "node"), loads.places.shape, strict=True)) | {
-        "point": 5
-    }
+    assert dict(dataset.sizes) == {"phase": loads.phases.size, "node": loads.load.size, "point": 5}
     assert list(dataset["point"].values) == list("ABCDE")
     assert dataset["load"].attrs["units"] == "N/m"
     assert dataset["film_minimum"].attrs["units"] == "m"
     assert float(dataset["phase_weight"].sum()) == pytest.approx(1.0)
-    path = helical.solution.path
-    x = dataset["place"].values - path.start - math.tan(path.base_helix_angle) * dataset["across"].values
-    number = x / path.base_pitch - dataset["phase"].values[:, None, None]
-    present = ~np.isnan(number)
-    assert number[present] == pytest.approx(np.round(number[present]), abs=1e-6)
+    path, number = helical.solution.path, dataset["node_phase"].values
+    begin = (dataset["phase"].values[number] + dataset["node_line"].values) * path.base_pitch
+    x = begin + math.tan(path.base_helix_angle) * dataset["across"].values
+    assert dataset["place"].values == pytest.approx(path.start + x, abs=1e-9)
     lengths = [helical.solution.plane.length(phase) for phase in dataset["phase"].values]
-    assert dataset["length"].sum(("line", "node")).values == pytest.approx(lengths, rel=1e-12)
+    assert np.bincount(number, dataset["length"].values) == pytest.approx(lengths, rel=1e-12)
 
 
 @each(
@@ -102,7 +99,7 @@ def test_the_file_describes_its_variables(helical):
         ("load", lambda values: -values),
         ("film_minimum", lambda values: -values),
         ("place", lambda values: values + 1e-6),
-        ("place", lambda values: values[:, :, :0]),
+        ("node_phase", lambda values: values[::-1]),
         ("across", lambda values: 3.0 * values),
         ("length", lambda values: 0.5 * values),
         ("phase_weight", lambda values: 0.5 * values),
@@ -119,8 +116,7 @@ def test_what_is_wrong_is_named(spur, tmp_path, name, change):
     dataset = dataset.drop_vars(name)
     if change is not None:
         values = change(variable.values)
-        dims = variable.dims if values.size else ("phase", "line", "none")
-        dataset = dataset.assign({name: (dims, values, variable.attrs)})
+        dataset = dataset.assign({name: (variable.dims, values, variable.attrs)})
     with pytest.raises(InputError, match=rf"gear\.nc: .*{name}"):
         of_gears.result_of(dataset, tmp_path / "gear.nc")
 

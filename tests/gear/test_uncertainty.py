@@ -9,7 +9,7 @@ from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.input_ranges import InputRange
 from ehlectric.formulas.sobol import sobol_points
 from ehlectric.gear import solve_gear
-from ehlectric.gear.solution import solve_gear_pair
+from ehlectric.gear.solving import solve_gear_pair
 from ehlectric.gear.uncertainty import MeshDesign, changes_of, uncertainty_of
 from tests.gear.pairs import case_of
 from tests.helpers.each import each

@@ -43,7 +43,7 @@ _STRAIGHT = 0.1
 
 
 def over_flank(result: GearResult, values: Array) -> tuple[Array, Array, Array]:
-    """Map values at lines of contact, shape (phases, lines, nodes), on the flank. Returns places g, shape
+    """Map values at nodes of lines of contact, shape (nodes,), on the flank. Returns places g, shape
     (m,), places y on the face, shape (n,), and values there, shape (m, n).
 
     A line of contact passes each place of the flank at one phase, so that the value there is one number. It
@@ -56,11 +56,9 @@ def over_flank(result: GearResult, values: Array) -> tuple[Array, Array, Array]:
     along, nodes = (y, loads.across) if straight else (g, loads.places)
     slope = math.tan(path.base_helix_angle)
     begins, rows = [], []
-    for line in np.ndindex(loads.places.shape[:2]):
-        at = ~np.isnan(loads.places[line])
-        if np.any(at):
-            begins.append(float((loads.places[line] - slope * loads.across[line])[at][0]))
-            rows.append(np.interp(along, nodes[line][at], values[line][at]))
+    for line in loads.lines():
+        begins.append(float(loads.places[line][0] - slope * loads.across[line][0]))
+        rows.append(np.interp(along, nodes[line], values[line]))
     order = np.argsort(begins)
     begin, of_lines = np.array(begins)[order], np.array(rows)[order]
     target = g[:, np.newaxis] - slope * y
@@ -84,7 +82,7 @@ class OverPath:
 
     @classmethod
     def of(cls, result: GearResult, values: Array) -> OverPath:
-        """Values of all lines of contact, shape (phases, lines, nodes), by their places; NaN is no value."""
+        """Values of all lines of contact, shape (nodes,), by their places; NaN is no value."""
         places, _, on_flank = over_flank(result, values)
         some = ~np.all(np.isnan(on_flank), axis=1)
         places, on_flank = places[some], on_flank[some]
@@ -289,14 +287,15 @@ def flank_lines(result: GearResult) -> Iterator[tuple[Array, Array]]:
     of shape (n,); g is NaN where a line carries no load.
     """
     solution = result.solution
-    phase, loads = solution.thinnest[0], solution.loads
+    loads = solution.loads
+    phase = loads.phase[solution.thinnest]
     y = np.linspace(0.0, solution.pair.face_width, _COLUMNS)
     slope = math.tan(solution.path.base_helix_angle)
-    for places, nodes, load in zip(loads.places[phase], loads.across[phase], loads.load[phase], strict=True):
-        at = ~np.isnan(places)
-        if np.any(at):
-            without = np.interp(y, nodes[at], load[at] == 0.0) > 0.5
-            yield y, np.where(without, np.nan, places[at][0] + slope * (y - nodes[at][0]))
+    for line in loads.lines():
+        if loads.phase[line][0] == phase:
+            places, nodes = loads.places[line], loads.across[line]
+            without = np.interp(y, nodes, loads.load[line] == 0.0) > 0.5
+            yield y, np.where(without, np.nan, places[0] + slope * (y - nodes[0]))
 
 
 # Parts of the flank of gear 1 at both ends of the path of contact.

@@ -2,6 +2,7 @@
 
 from .atlas.atlas_films import AtlasFilm as AtlasFilm
 from .atlas.atlas_films import ContactFilm as ContactFilm
+from .atlas.atlas_films import OilGroups as OilGroups
 from .atlas.atlas_films import atlas_film as atlas_film
 from .atlas.atlas_films import contact_film as contact_film
 from .atlas.atlas_groups import Ellipse as Ellipse

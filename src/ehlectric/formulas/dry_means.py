@@ -21,6 +21,10 @@ STRIP = np.sqrt(1.0 - _RATIO**2), 0.5 * _WEIGHT
 _NODES, _WEIGHTS = (0.5 * values for values in np.polynomial.legendre.leggauss(32))
 _NODES = _NODES + 0.5
 
+# Nodes and weights on 0 to 1 of an integral to far away, and the logarithm of the last place over the first.
+_FAR_NODES, _FAR_WEIGHTS = (0.5 * values for values in np.polynomial.legendre.leggauss(96))
+_FAR_NODES, _FAR = _FAR_NODES + 0.5, 17.0
+
 # Numbers that are computed together: few enough for the processor's cache.
 _TOGETHER = 32768
 
@@ -65,3 +69,23 @@ def wedge_integral(middle: Array, end: float) -> Array:
     """
     weights, gap = _wedge(end)
     return np.asarray(np.sum(weights / (middle[..., np.newaxis] + gap), axis=-1))
+
+
+def wedge_beyond(middle: Array, end: float) -> Array:
+    """Integral of dx/gap from an end, outside of the Hertz zone of line contacts, to infinity, in R/b.
+
+    ``middle``, constant part of the gap [b^2/R], shape (...); ``end``, place in half-widths b. The bodies are
+    parabolas.
+
+    Examples
+    --------
+    Both parts of the gap outside of the zone add up to the gap from its edge to another end:
+
+    >>> one, other = (wedge_integral(np.ones(1), end) + wedge_beyond(np.ones(1), end) for end in (2.0, 4.0))
+    >>> bool(np.isclose(one, other, rtol=1e-5)[0])
+    True
+    """
+    # Places that grow by a factor from node to node: the gap has one scale, the root of the constant part.
+    at = abs(end) * np.exp(_FAR * _FAR_NODES)
+    weights = at * _FAR * _FAR_WEIGHTS
+    return np.asarray(np.sum(weights / (middle[..., np.newaxis] + line_gap(at)), axis=-1))

@@ -9,6 +9,6 @@ from .result import solve_gear as solve_gear
 from .run import result_of as result_of
 from .run import save as save
 from .run import solve_to_folder as solve_to_folder
-from .solution import solve_gear_pairs as solve_gear_pairs
+from .solving import solve_gear_pairs as solve_gear_pairs
 from .stored import SCHEMA as SCHEMA
 from .summary import gear_summary as gear_summary

@@ -23,17 +23,21 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
-from ehlectric.arrays import Array, Mask
+from ehlectric.arrays import Array, IntArray
 from ehlectric.formulas.polynomials import lobatto_nodes, lobatto_weights
 from ehlectric.gear.contact_path import ContactPath
 
 # Least distance of two phases between which the mesh is integrated. Distances of nodes in base pitches: from
-# a phase at which a line of a spur pair appears or disappears as a whole, and from a place at which a load
-# jumps.
+# a phase at which a line appears or disappears, and from a place at which a load jumps.
 _CLOSE, _GAP, _INSIDE = 1e-7, 1e-6, 1e-9
+
+# Least number of nodes of a helical pair over the phase, least number between two phases at which the mesh
+# changes, and number of nodes between them of a spur pair.
+_PHASES, _LEAST_PHASES, _SPUR_PHASES = 16, 3, 8
 
 # Nodes of a piece without a load: its outer end, and a place next to the load.
 _UNLOADED = np.array([0.0, 0.99])
@@ -94,125 +98,155 @@ class PlaneOfAction:
 
 @dataclass(frozen=True)
 class LineParts:
-    """Parts of the lines of contact between places where an integrand bends, at phases of the mesh.
+    """Parts of the lines of contact between places where an integrand bends, in the order of their phases.
 
-    Arrays have the shape (p, k, z): phases, lines, and parts of the path of contact between two bends.
+    Arrays have the shape (m,) of all parts.
     """
 
     plane: PlaneOfAction
     phases: Array  # tau, shape (p,)
     weights: Array  # parts of the phase, shape (p,); their sum is 1
-    begin: Array  # x at y = 0 of each line [m], shape (p, k)
-    ends: Array  # x of the bends [m], shape (z + 1,)
-    low: Array  # y where each part starts [m]
-    width: Array  # difference of y over each part [m]; 0 for no part
+    phase: IntArray  # number of the phase
+    line: IntArray  # number k of the line
+    begin: Array  # x at y = 0 of the line [m]
+    ends: tuple[Array, Array]  # x of both bends [m]
+    low: Array  # y where the part starts [m]
+    width: Array  # difference of y over the part [m]
 
     def places(self, across: Array) -> Array:
-        """Places g [m] at y = ``across`` [m], shape (p, k, z, ...), kept inside of their parts."""
-        path, more = self.plane.path, (np.newaxis,) * (across.ndim - 3)
-        x = self.begin[(..., np.newaxis, *more)] + math.tan(path.base_helix_angle) * across
+        """Places g [m] at y = ``across`` [m], shape (m, ...), kept inside of their parts."""
+        path, more = self.plane.path, (slice(None), *(np.newaxis,) * (across.ndim - 1))
         inset = _INSIDE * path.base_pitch
-        ends = self.ends[(..., *more)]
-        return path.start + np.clip(x, ends[:-1] + inset, ends[1:] - inset)
+        x = self.begin[more] + math.tan(path.base_helix_angle) * across
+        x = np.minimum(np.maximum(x, self.ends[0][more] + inset), self.ends[1][more] - inset)
+        return path.start + x
 
 
 @dataclass(frozen=True)
 class LineNodes:
-    """Nodes on the lines of contact at phases of the mesh, with which integrals over the lines are sums.
+    """Nodes on the lines of contact, with which integrals over the lines are sums; arrays of shape (n,)."""
 
-    Arrays have the shape (p, k, s): phases, lines, and nodes of a line; NaN, and lengths of 0, where a line
-    has no node.
-    """
-
-    phases: Array  # tau, shape (p,)
-    weights: Array  # parts of the phase, shape (p,); their sum is 1
+    phase: IntArray  # number of the phase
+    line: IntArray  # number k of the line
     places: Array  # g on the path of contact [m]
     across: Array  # y on the face [m]
     length: Array  # length of the line that belongs to a node [m]
 
 
-def line_parts(plane: PlaneOfAction, bends: Iterable[float], phases: int) -> LineParts:
-    """Parts of the lines of contact. ``bends``, places g at which the integrand bends [m], next to both ends
-    of the path; ``phases``, nodes between two phases at which it bends.
+def line_parts(
+    plane: PlaneOfAction, bends: Iterable[float], further: Iterable[float] = (), accuracy: int = 1
+) -> LineParts:
+    """Parts of the lines of contact. ``bends``, places g at which the load bends [m], next to both ends of
+    the path; ``further``, places that divide the lines only; ``accuracy``, factor on the number of phases.
     """
-    path = plane.path
-    inner = [min(max(place - path.start, 0.0), path.length) for place in bends]
-    ends = np.array(sorted({0.0, path.length, *inner}))
-    tau, weights = _phase_nodes(ends / path.base_pitch, plane.overlap_ratio, phases)
+    path, spur = plane.path, plane.overlap_ratio == 0.0
+    tau, weights = _phase_nodes(_inside(path, bends) / path.base_pitch, plane.overlap_ratio, accuracy)
     numbers = np.arange(-math.ceil(plane.overlap_ratio), math.ceil(path.contact_ratio))
     begin = (tau[:, np.newaxis] + numbers) * path.base_pitch
-    if plane.overlap_ratio == 0.0:
+    if spur:
         # A line is at one place, and the bends of its path do not divide it.
-        ends = np.array([0.0, path.length])
+        ends = _inside(path, ())
         limits = np.where(ends <= begin[..., np.newaxis], -math.inf, math.inf)
     else:
+        ends = _inside(path, (*bends, *further))
         limits = (ends - begin[..., np.newaxis]) / math.tan(path.base_helix_angle)
-    limits = np.clip(limits, 0.0, plane.face_width)
-    return LineParts(plane, tau, weights, begin, ends, limits[..., :-1], np.diff(limits, axis=-1))
-
-
-def line_nodes(parts: LineParts, number: int, loaded: tuple[Array, Array] | None = None) -> LineNodes:
-    """Nodes on the lines of contact.
-
-    ``number``, nodes of each part; ``loaded``, begin and end of its loaded piece, 0 to 1 within the part,
-    shape (p, k, z); equal ones for none. The pieces without a load have two nodes. Nodes are dense where a
-    load begins at zero, as the width of a contact grows with the root of the load.
-    """
-    at, weight = _rule(number)
-    if loaded is None:
-        share = np.broadcast_to(weight, (*parts.width.shape, number))
-    else:
-        first, last = (edge[..., np.newaxis] for edge in loaded)
-        at, share = _from_zero(at, weight, first > 0.0, last < 1.0)
-        rest = 1.0 - last
-        pieces = _UNLOADED * first, first + (last - first) * at, 1.0 - np.flip(_UNLOADED) * rest
-        at = np.concatenate(pieces, axis=-1)
-        halves = np.full(_UNLOADED.size, 1.0 / _UNLOADED.size)
-        share = np.concatenate([halves * first, (last - first) * share, halves * rest], axis=-1)
-    width = parts.width[..., np.newaxis]
-    across = parts.low[..., np.newaxis] + width * at
-    length = width * share / math.cos(parts.plane.path.base_helix_angle)
-    inside = length > 0.0
-    shape = (*parts.begin.shape, -1)
-    return LineNodes(
-        parts.phases,
-        parts.weights,
-        np.where(inside, parts.places(across), math.nan).reshape(shape),
-        np.where(inside, across, math.nan).reshape(shape),
-        length.reshape(shape),
+    limits = np.minimum(np.maximum(limits, 0.0), plane.face_width)
+    width = limits[..., 1:] - limits[..., :-1]
+    phase, line, part = np.nonzero(width > 0.0)
+    return LineParts(
+        plane,
+        tau,
+        weights,
+        phase,
+        numbers[line],
+        begin[phase, line],
+        (ends[part], ends[part + 1]),
+        limits[phase, line, part],
+        width[phase, line, part],
     )
 
 
-def _from_zero(at: Array, weight: Array, low: Mask, high: Mask) -> tuple[Array, Array]:
-    """Nodes and weights on 0 to 1 that are dense at the low and at the high end, where these are true."""
-    both, rest = low & high, 1.0 - at
-    moved = np.where(low, at**2, np.where(high, 1.0 - rest**2, at))
-    slope = np.where(low, 2.0 * at, np.where(high, 2.0 * rest, 1.0))
-    moved = np.where(both, at**2 * (3.0 - 2.0 * at), moved)
-    return moved, weight * np.where(both, 6.0 * at * rest, slope)
+def _inside(path: ContactPath, bends: Iterable[float]) -> Array:
+    """Places x of bends inside of the path, and its ends, in increasing order [m]."""
+    inner = {min(max(place - path.start, 0.0), path.length) for place in bends}
+    return np.array(sorted({0.0, path.length, *inner}))
 
 
-def _phase_nodes(ends: Array, overlap: float, each: int) -> tuple[Array, Array]:
-    """Nodes and weights of the phase. ``ends``, places on the path in base pitches at which the integrand
-    bends as an end of a line passes them.
-
-    Lines of a spur pair appear and disappear as a whole: its nodes are on both sides of these phases.
+def line_nodes(parts: LineParts, at: Array, share: Array) -> LineNodes:
+    """Nodes on the lines of contact. ``at``, places 0 to 1 within each part, and ``share``, parts of its
+    length that belong to them, each of shape (m, n); a node without a length is omitted.
     """
-    bends = np.sort(np.concatenate([ends, ends - overlap]) % 1.0)
-    bends = bends[np.diff(bends, prepend=-1.0) > _CLOSE]
+    width = parts.width[:, np.newaxis]
+    across = parts.low[:, np.newaxis] + width * at
+    length = width * share / math.cos(parts.plane.path.base_helix_angle)
+    inside = length > 0.0
+    number = np.count_nonzero(inside, axis=1)
+    return LineNodes(
+        np.repeat(parts.phase, number),
+        np.repeat(parts.line, number),
+        parts.places(across)[inside],
+        across[inside],
+        length[inside],
+    )
+
+
+def nodes_within(number: int, loaded: tuple[Array, Array]) -> tuple[Array, Array]:
+    """Places and shares of nodes within the loaded pieces of parts, each of shape (m, n).
+
+    ``number``, nodes of a part; ``loaded``, start and end of its loaded piece, 0 to 1, shape (m,). Nodes are
+    dense where a load starts at zero, as the width of a contact grows with the root of the load.
+    """
+    at, weight = lobatto(number)
+    first, last = (edge[:, np.newaxis] for edge in loaded)
+    low, high = first > 0.0, last < 1.0
+    if np.any(low) or np.any(high):
+        both, rest = low & high, 1.0 - at
+        slope = np.where(low, 2.0 * at, np.where(high, 2.0 * rest, 1.0))
+        moved = np.where(low, at**2, np.where(high, 1.0 - rest**2, at))
+        weight = weight * np.where(both, 6.0 * at * rest, slope)
+        at = np.where(both, at**2 * (3.0 - 2.0 * at), moved)
+    return first + (last - first) * at, (last - first) * weight
+
+
+def with_unloaded(at: Array, share: Array, loaded: tuple[Array, Array]) -> tuple[Array, Array]:
+    """Nodes of ``nodes_within`` with two further nodes in each piece without a load."""
+    first, rest = loaded[0][:, np.newaxis], 1.0 - loaded[1][:, np.newaxis]
+    halves = np.full(_UNLOADED.size, 1.0 / _UNLOADED.size)
+    places = _UNLOADED * first, at, 1.0 - np.flip(_UNLOADED) * rest
+    return np.concatenate(places, axis=1), np.concatenate([halves * first, share, halves * rest], axis=1)
+
+
+def _phase_nodes(ends: Array, overlap: float, accuracy: int) -> tuple[Array, Array]:
+    """Nodes and weights of the phase. ``ends``, places on the path in base pitches at which the load bends as
+    an end of a line passes them.
+
+    Lines of a spur pair appear and disappear as a whole: its nodes are on both sides of these phases. A line
+    of a helical pair starts and ends as a point, of which nodes are a small part.
+    """
+    gap, bends = min(_GAP, 0.01 * overlap), ends
+    if overlap > 0.0:
+        late, early = ends.copy(), ends - overlap
+        late[-1] -= gap
+        early[0] += gap
+        bends = np.concatenate([late, early])
+    bends = np.sort(bends % 1.0)
+    bends = bends[np.diff(bends, prepend=-1.0) > (min(_CLOSE, 0.1 * gap) if overlap else _CLOSE)]
     bends = np.append(bends[bends < 1.0 - _CLOSE], 1.0)
-    at, part = _rule(each)
+    number = bends.size - 1
+    each = _SPUR_PHASES if overlap == 0.0 else max(_LEAST_PHASES, round(_PHASES / number) + 1)
+    at, part = lobatto((each - 1) * accuracy + 1)
     begin, width = bends[:-1, np.newaxis], np.diff(bends)[:, np.newaxis]
     weights = width * part
     if overlap == 0.0:
-        gap = np.minimum(_GAP, 0.01 * width)
-        return np.ravel(begin + np.clip(width * at, gap, width - gap)), np.ravel(weights)
+        gaps = np.minimum(_GAP, 0.01 * width)
+        return np.ravel(begin + np.clip(width * at, gaps, width - gaps)), np.ravel(weights)
     # The first node of an interval is the last one of the interval before.
     weights[:, 0] += np.roll(weights[:, -1], 1)
     return np.ravel(begin + width * at[:-1]), np.ravel(weights[:, :-1])
 
 
-def _rule(nodes: int) -> tuple[Array, Array]:
+@lru_cache(maxsize=16)
+def lobatto(nodes: int) -> tuple[Array, Array]:
     """Nodes and weights of Gauss and Lobatto on 0 to 1; the middle for one node."""
     if nodes == 1:
         return np.array([0.5]), np.ones(1)

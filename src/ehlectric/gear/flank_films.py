@@ -10,7 +10,7 @@ its term of sliding.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 
 import numpy as np
@@ -20,12 +20,13 @@ from ehlectric.cases.contact_inputs import Body
 from ehlectric.cases.film_inputs import check_thermal_oil, thermal_properties
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.errors import InputError
-from ehlectric.film import ContactFilm, contact_film
+from ehlectric.film import Groups
 from ehlectric.formulas.film_line import LineContact, pan_hamrock
 from ehlectric.formulas.hertz import line_half_width, line_max_pressure
 from ehlectric.formulas.inlet_supply import inlet_shear_factor
 from ehlectric.gear.contact_path import ContactPath
-from ehlectric.lubricant.oil import Oil
+from ehlectric.gear.film_table import FilmShape, FilmTable
+from ehlectric.gear.flank_oil import FlankOil
 from ehlectric.quantities.field_metadata import stored
 
 # Relative error of films from formulas for line contacts: they differ from solved films by up to this part.
@@ -41,11 +42,7 @@ class Flanks:
     pinion_speed: float  # omega_1 [rad/s], positive
     modulus: float  # reduced modulus E' [Pa]
     temperature: float  # temperature of the flanks, and of the oil that enters [K]
-    oil: Oil  # oil at this temperature
-    # Temperature coefficient of the viscosity [1/K] and conductivity [W/(m K)] of the oil; without a slope
-    # the films are isothermal.
-    slope: float | None
-    conductivity: float
+    oil: FlankOil
 
     def normal_radii(self, places: Array) -> tuple[Array, Array]:
         """Radii of curvature of both flanks in the plane normal to the teeth [m], negative if concave."""
@@ -77,13 +74,11 @@ class FlankFilms:
     error: Array = field(metadata=_positive(""))  # relative error of the isothermal films
     # Whether the atlas contains the contact.
     known: Mask = field(metadata=stored("place", "", "0 or 1", dtype="i1"))
-    # Isothermal films with the numbers of the atlas; None of a solution, which has used them.
-    atlas: ContactFilm | None = None
 
     @property
-    def thinnest(self) -> tuple[int, ...]:
-        """Index of the smallest film."""
-        return tuple(int(i) for i in np.unravel_index(int(np.nanargmin(self.minimum)), self.minimum.shape))
+    def thinnest(self) -> int:
+        """Number of the smallest film, of films of shape (n,)."""
+        return int(np.nanargmin(self.minimum))
 
     @property
     def slide_to_roll_ratio(self) -> Array:
@@ -91,54 +86,66 @@ class FlankFilms:
         return self.sliding_speed / self.mean_speed
 
 
-def flank_films(flanks: Flanks, places: Array, load: Array, *, by_formula: bool = False) -> FlankFilms:
-    """Films at places g on the path of contact [m] under line loads [N/m], arrays of one shape (...).
-
-    Places without a load, 0 or NaN, have no film: NaN. ``by_formula``, films of Pan and Hamrock instead of
-    the atlas; their shape, on which the capacitance depends, is from the atlas.
+def contacts_of(flanks: Flanks, places: Array, load: Array) -> LineContact:
+    """Line contacts at places g [m] under line loads [N/m], arrays of one shape (...), with the coefficient
+    of the atlas.
     """
-    carried = np.where(np.nan_to_num(load) > 0.0, load, np.nan)
-    radius = np.asarray(flanks.path.reduced_radius(places))
     first, second = flanks.path.speeds(places, flanks.pinion_speed, flanks.ratio)
-    speed = 0.5 * (np.asarray(first) + second)
-    contact = LineContact(
-        reduced_radius=radius,
+    return LineContact(
+        reduced_radius=np.asarray(flanks.path.reduced_radius(places)),
         reduced_modulus=flanks.modulus,
-        load_per_length=carried,
-        entrainment_speed=speed,
+        load_per_length=load,
+        entrainment_speed=0.5 * (np.asarray(first) + second),
         viscosity=flanks.oil.viscosity,
-        pressure_viscosity_coefficient=flanks.oil.alpha_star,
+        pressure_viscosity_coefficient=flanks.oil.film_coefficient,
     )
-    film = contact_film(contact, flanks.oil, beyond=True)
-    central, minimum = film.central_thickness, film.minimum_thickness
-    error = np.maximum(film.errors["central"], film.errors["minimum"])
+
+
+def flank_films(
+    flanks: Flanks, places: Array, load: Array, table: FilmTable, *, by_formula: bool = False
+) -> tuple[FlankFilms, FilmShape]:
+    """Films at places g on the path of contact [m] under line loads [N/m], arrays of shape (n,), and their
+    numbers of the atlas.
+
+    Places without a load have no film: NaN. ``by_formula``, films of Pan and Hamrock instead of the atlas;
+    their shape, on which the capacitance depends, is from the atlas.
+    """
+    carried = np.where(load > 0.0, load, np.nan)
+    contact = contacts_of(flanks, places, load)
+    radius, speed = np.asarray(contact.reduced_radius), np.asarray(contact.entrainment_speed)
+    scale = np.sqrt(2.0 * contact._u)
+    # A place without a load has the numbers of the lightest load of the table.
+    shape = table(Groups(contact.moes_m, contact.moes_l))
+    central, minimum, error = radius * scale * shape.central, radius * scale * shape.minimum, shape.error
     if by_formula:
-        formula = pan_hamrock(contact)
-        central, minimum = formula.central_thickness, formula.minimum_thickness
-        error = np.where(np.isnan(carried), np.nan, FORMULA_ERROR)
+        star = flanks.oil.alpha_star
+        formula = pan_hamrock(replace(contact, pressure_viscosity_coefficient=star))
+        central, minimum = np.asarray(formula.central_thickness), np.asarray(formula.minimum_thickness)
+        error = np.full_like(radius, FORMULA_ERROR)
     heat = np.ones_like(speed)
-    if flanks.slope is not None:
-        heat = np.asarray(inlet_shear_factor(flanks.oil.viscosity, flanks.slope, speed, flanks.conductivity))
-    return FlankFilms(
+    oil = flanks.oil
+    if oil.slope is not None:
+        heat = np.asarray(inlet_shear_factor(oil.viscosity, oil.slope, speed, oil.thermal_conductivity))
+    none = np.where(load > 0.0, 1.0, np.nan)
+    width = np.asarray(line_half_width(load_per_length=carried, radius=radius, modulus=flanks.modulus))
+    films = FlankFilms(
         places=places,
         load=carried,
         reduced_radius=radius,
         mean_speed=speed,
         sliding_speed=np.asarray(flanks.path.sliding_speed(places, flanks.pinion_speed, flanks.ratio)),
-        half_width=np.asarray(
-            line_half_width(load_per_length=carried, radius=radius, modulus=flanks.modulus)
-        ),
+        half_width=width,
         max_pressure=np.asarray(
             line_max_pressure(load_per_length=carried, radius=radius, modulus=flanks.modulus)
         ),
-        central=heat * central,
-        minimum=heat * minimum,
+        central=heat * central * none,
+        minimum=heat * minimum * none,
         heat_factor=heat,
         friction=np.full_like(speed, np.nan),
-        error=np.asarray(error),
-        known=np.broadcast_to(film.film.known, np.shape(radius)),
-        atlas=film,
+        error=error * none,
+        known=shape.known,
     )
+    return films, shape
 
 
 def without_heat(case: GearCase, temperature: float) -> InputError | None:

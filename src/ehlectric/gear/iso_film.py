@@ -13,11 +13,13 @@ ratio: with equal flanks of Rq = 1.25 Ra the same film has a lambda_GF 1.77 time
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.cases import library
+from ehlectric.cases.case_oil import Lubricant
 from ehlectric.cases.gear_inputs import both
 from ehlectric.gear.flank_films import FlankFilms
 from ehlectric.gear.solution import GearSolution
@@ -38,21 +40,49 @@ def iso_thickness(
     return thickness
 
 
-def flash_temperature(solution: GearSolution, friction: float) -> Array:
-    """Flash temperature of Blok on all lines of contact [K]."""
-    films = solution.films
-    table = library.solid(solution.case.gear.material)
+@lru_cache(maxsize=32)
+def _effusivity(material: str) -> float:
+    """Thermal effusivity B of a solid of the library [W s^(1/2)/(m^2 K)]."""
+    table = library.solid(material)
     product = (
         to_si(table["thermal_conductivity"], "W/m/K")
         * to_si(table["density"], "kg/m**3")
         * to_si(table["heat_capacity"], "J/kg/K")
     )
+    return math.sqrt(product)
+
+
+def flash_temperature(solution: GearSolution, friction: float) -> Array:
+    """Flash temperature of Blok on all lines of contact [K]."""
+    films, effusivity = solution.films, _effusivity(solution.case.gear.material)
     first = films.mean_speed + 0.5 * films.sliding_speed
     second = films.mean_speed - 0.5 * films.sliding_speed
     speeds = np.sqrt(first) + np.sqrt(second)
     heat: Array = 1.11 * friction * films.load * np.abs(films.sliding_speed)
-    rise: Array = heat / (math.sqrt(product) * speeds * np.sqrt(2.0 * films.half_width))
+    rise: Array = heat / (effusivity * speeds * np.sqrt(2.0 * films.half_width))
     return rise
+
+
+# Distance of temperatures [K] at which an oil is tabulated, and their range for an oil without a range.
+_STEP, _RANGE = 2.0, (230.0, 600.0)
+
+# Lubricants whose products were computed last, with temperatures and logarithms of products.
+_latest: list[tuple[Lubricant, Array, Array]] = []
+
+
+def _products(lubricant: Lubricant) -> tuple[Array, Array]:
+    """Temperatures [K] and ln(alpha* eta) of an oil there. Beyond its range the product is constant."""
+    for known, temperatures, logs in _latest:
+        if known is lubricant or known == lubricant:
+            return temperatures, logs
+    low, high = lubricant.temperature_range or _RANGE
+    temperatures = np.linspace(low, high, max(2, math.ceil((high - low) / _STEP) + 1))
+    oil = lubricant.at(temperatures, "gear.operation.bulk_temperature")
+    with np.errstate(divide="ignore", invalid="ignore"):
+        logs = np.log(np.broadcast_to(oil.alpha_star * oil.viscosity, temperatures.shape))
+    within = np.isfinite(logs)
+    _latest[:] = [(lubricant, temperatures[within], logs[within]), *_latest[:7]]
+    return _latest[0][1:]
 
 
 def lambda_gf(solution: GearSolution) -> float | None:
@@ -63,21 +93,10 @@ def lambda_gf(solution: GearSolution) -> float | None:
     friction = gear.operation.friction_coefficient
     if friction is None or gear.flank_ra is None or gear.material not in library.solid_names(thermal=True):
         return None
-    oil, lubricant = solution.flanks.oil, solution.case.lubricant
+    oil, bulk = solution.flanks.oil, solution.bulk_temperature
+    temperatures, logs = _products(solution.case.lubricant)
     rise = flash_temperature(solution, friction)
-    # The product of alpha and viscosity changes smoothly: a few temperatures are enough. Beyond the range of
-    # the oil it is taken as constant.
-    hottest, ends = float(np.nanmax(rise)), lubricant.temperature_range
-    if ends is not None:
-        hottest = min(hottest, ends[1] - solution.bulk_temperature)
-    nodes = np.linspace(0.0, max(hottest, 0.0), 9)
-    products = []
-    for node in nodes.tolist():
-        hot = lubricant.at(solution.bulk_temperature + node, "gear.operation.bulk_temperature")
-        products.append(hot.alpha_star * hot.viscosity)
-    local = np.interp(rise, nodes, np.array(products) / products[0])
-    thickness = iso_thickness(
-        solution.films, float(oil.viscosity), float(oil.alpha_star), solution.flanks.modulus, local
-    )
+    local = np.exp(np.interp(bulk + rise, temperatures, logs) - np.interp(bulk, temperatures, logs))
+    thickness = iso_thickness(solution.films, oil.viscosity, oil.alpha_star, solution.flanks.modulus, local)
     mean_ra = 0.5 * sum(both(gear.flank_ra))
     return float(np.nanmin(thickness)) / mean_ra

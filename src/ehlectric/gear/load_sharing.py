@@ -25,14 +25,23 @@ at A and E that falls over 0.2 sin beta_b mm; interpolated linearly in eps_beta 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, IntArray
 from ehlectric.errors import InputError
-from ehlectric.gear.contact_lines import LineNodes, LineParts, PlaneOfAction, line_nodes, line_parts
+from ehlectric.gear.contact_lines import (
+    LineParts,
+    PlaneOfAction,
+    line_nodes,
+    line_parts,
+    nodes_within,
+    with_unloaded,
+)
 from ehlectric.gear.contact_path import ContactPath
 from ehlectric.quantities.field_metadata import stored
 
@@ -70,29 +79,6 @@ class Modification:
         crowning = self.crowning * (2.0 * across / plane.face_width - 1.0) ** 2
         return np.asarray(crowning + self.relief(plane.path, places))
 
-    def loaded(self, parts: LineParts, approach: Array) -> tuple[Array, Array]:
-        """Begin and end of the piece of each part of a line in which f is below an approach [m], shape (p,).
-
-        f is a linear relief plus a parabola, so that this piece lies between two roots. Returns places 0 to 1
-        within the part, shape (p, k, z); equal ones where the part has no such piece.
-        """
-        plane = parts.plane
-        here, there = (
-            self.relief(plane.path, parts.places(across)) for across in (parts.low, parts.low + parts.width)
-        )
-        begin, step = 2.0 * parts.low / plane.face_width - 1.0, 2.0 * parts.width / plane.face_width
-        square, slope = self.crowning * step**2, 2.0 * self.crowning * begin * step + there - here
-        constant = self.crowning * begin**2 + here - approach[:, np.newaxis, np.newaxis]
-        with np.errstate(divide="ignore", invalid="ignore"):
-            half = -0.5 * (slope + np.copysign(np.sqrt(slope**2 - 4.0 * square * constant), slope))
-            roots = half / square, constant / half
-        # A constant f has no roots.
-        level = (square == 0.0) & (slope == 0.0)
-        first = np.where(level, -math.inf, np.fmin(*roots))
-        last = np.where(level, math.inf, np.fmax(*roots))
-        none = np.where(level, constant >= 0.0, np.isnan(first) | (first >= 1.0) | (last <= 0.0))
-        return np.where(none, 1.0, np.clip(first, 0.0, 1.0)), np.where(none, 1.0, np.clip(last, 0.0, 1.0))
-
     def bends(self, path: ContactPath) -> list[float]:
         """Places g at which the distance of the flanks bends [m]."""
         ends = path.start + self.relief_length, path.end - self.relief_length
@@ -102,24 +88,32 @@ class Modification:
 
 @dataclass(frozen=True)
 class LineLoads:
-    """Loads on the lines of contact at phases of the mesh.
+    """Loads on the lines of contact over a phase of the mesh.
 
-    Arrays have the shape (p, k, s): phases, lines, and nodes of a line; NaN, and lengths of 0, where a line
-    has no node.
+    Arrays over the nodes of the lines have the shape (n,), in the order of their phases.
     """
 
     # Phases tau, and parts of the phase that belong to them, shape (p,), dimensionless.
     phases: Array = field(metadata=stored("phase", "", "increasing", name="phase"))
     weights: Array = field(metadata=stored("phase", "", "positive", name="phase_weight"))
+    # Number of the phase and of the line of a node.
+    phase: IntArray = field(metadata=stored("node", "", "whole", name="node_phase"))
+    line: IntArray = field(metadata=stored("node", "", "finite", name="node_line"))
     # Places g on the path of contact, places y on the face, lengths of the line of the nodes, and line loads.
-    places: Array = field(metadata=stored("phase line node", "m", "not negative or NaN", name="place"))
-    across: Array = field(metadata=stored("phase line node", "m", "not negative or NaN"))
-    length: Array = field(metadata=stored("phase line node", "m", "not negative"))
-    load: Array = field(metadata=stored("phase line node", "N/m", "not negative or NaN"))
+    places: Array = field(metadata=stored("node", "m", "positive", name="place"))
+    across: Array = field(metadata=stored("node", "m", "not negative"))
+    length: Array = field(metadata=stored("node", "m", "positive"))
+    load: Array = field(metadata=stored("node", "N/m", "not negative"))
 
     def along(self, values: Array) -> Array:
-        """Integral of values per length, shape (p, k, s), over all lines at each phase, shape (p,)."""
-        return np.asarray(np.nansum(values * self.length, axis=(1, 2)))
+        """Integral of values per length, shape (n,), over all lines at each phase, shape (p,); NaN is 0."""
+        part = values * self.length
+        part[np.isnan(part)] = 0.0
+        return np.asarray(np.bincount(self.phase, part, self.phases.size), dtype=float)
+
+    def least(self, values: Array) -> Array:
+        """Least of values of shape (n,) at each phase, shape (p,), without NaN."""
+        return np.asarray(np.fmin.reduceat(values, np.searchsorted(self.phase, np.arange(self.phases.size))))
 
     def mean(self, values: Array) -> float:
         """Mean over the phases of values of shape (p,)."""
@@ -130,13 +124,164 @@ class LineLoads:
         """Sum of the loads of all lines, shape (p,) [N]."""
         return self.along(self.load)
 
+    def lines(self) -> Iterator[slice]:
+        """Yield the nodes of each line at each phase, in the order of their places on the face."""
+        starts = np.flatnonzero(
+            np.diff(self.phase, prepend=-1) | np.diff(self.line, prepend=self.line[0] - 1)
+        )
+        for start, end in pairwise([*starts.tolist(), self.phase.size]):
+            yield slice(start, end)
 
-# Nodes of the phase between two bends, of helical and of spur pairs, and nodes of a line between two bends,
-# without and with crowning.
-_PHASES, _SPUR_PHASES, _NODES, _CROWNED = 4, 8, 4, 9
 
-# Repetitions by which the ends of the loaded pieces of lines converge.
-_PASSES = 3
+# Nodes of a line between two bends, without and with crowning. An odd number has a node in the middle of the
+# face, where crowned flanks of a spur pair have their smallest film.
+_NODES, _CROWNED = 4, 9
+
+
+@dataclass(frozen=True)
+class Sharing:
+    """Law of the load of a gear pair, with the state of the mesh at each phase."""
+
+    plane: PlaneOfAction
+    parts: LineParts
+    force: float  # K F_bn [N]
+    law: str
+    stiffness: float  # c_gamma per face width [N/m^2]
+    modification: Modification
+    accuracy: int = 1  # factor on the numbers of nodes
+
+    @classmethod
+    def of(
+        cls,
+        plane: PlaneOfAction,
+        force: float,
+        law: str,
+        *,
+        stiffness: float,
+        modification: Modification = Modification(),
+        accuracy: int = 1,
+    ) -> Sharing:
+        """Law of the load; arguments of ``line_loads``."""
+        if law not in ("stiffness", *LAWS):
+            raise ValueError(law)
+        path, spur = plane.path, plane.overlap_ratio == 0.0
+        bends, further = modification.bends(path), [path.pitch_point]
+        if spur:
+            bends = [*bends, *path.points.values()]
+        elif law == "iso":
+            over = _BUTTRESSED * math.sin(path.base_helix_angle)
+            further += [path.points["B"], path.points["D"], path.start + over, path.end - over]
+        parts = line_parts(plane, bends, further, accuracy)
+        return cls(plane, parts, force, law, stiffness, modification, accuracy)
+
+    @property
+    def number(self) -> int:
+        """Nodes of a part of a line."""
+        if self.modification.crowning > 0.0:
+            return (_CROWNED - 1) * self.accuracy + 1
+        # The load of a spur pair without crowning is the same on the whole face.
+        return 1 if self.plane.overlap_ratio == 0.0 else (_NODES - 1) * self.accuracy + 1
+
+    @cached_property
+    def _opening(self) -> tuple[Array, Array, Array]:
+        """Coefficients of the distance f of the flanks [m], a polynomial of the place 0 to 1 in a part."""
+        parts, width, crowning = self.parts, self.plane.face_width, self.modification.crowning
+        across = np.stack([parts.low, parts.low + parts.width], axis=1)
+        relief = self.modification.relief(self.plane.path, parts.places(across))
+        first, step = 2.0 * parts.low / width - 1.0, 2.0 * parts.width / width
+        constant, slope = relief[:, 0], relief[:, 1] - relief[:, 0]
+        return constant + crowning * first**2, slope + 2.0 * crowning * first * step, crowning * step**2
+
+    def _loaded(self, delta: Array) -> tuple[Array, Array]:
+        """Start and end of the piece of each part in which f is below delta, 0 to 1; equal ones for none."""
+        constant, slope, square = self._opening
+        constant = constant - delta[self.parts.phase]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            half = -0.5 * (slope + np.copysign(np.sqrt(slope**2 - 4.0 * square * constant), slope))
+            roots = half / square, constant / half
+        # A constant f has no roots.
+        level = (square == 0.0) & (slope == 0.0)
+        first = np.where(level, -math.inf, np.fmin(*roots))
+        last = np.where(level, math.inf, np.fmax(*roots))
+        none = np.where(level, constant >= 0.0, np.isnan(first) | (first >= 1.0) | (last <= 0.0))
+        first, last = np.minimum(np.maximum(first, 0.0), 1.0), np.minimum(np.maximum(last, 0.0), 1.0)
+        return np.where(none, 1.0, first), np.where(none, 1.0, last)
+
+    def _at(self, at: Array, share: Array) -> tuple[Array, Array, Array]:
+        """Distance f [m], stiffness c [N/m^2] and length of the line [m] at nodes within the parts, each of
+        shape (m, n).
+        """
+        constant, slope, square = (values[:, np.newaxis] for values in self._opening)
+        width = self.parts.width[:, np.newaxis]
+        c = single_stiffness(
+            self.plane, self.parts.places(self.parts.low[:, np.newaxis] + width * at), self.stiffness
+        )
+        length = width * share / math.cos(self.plane.path.base_helix_angle)
+        return constant + at * (slope + at * square), c, length
+
+    def _delta(self, at: Array, share: Array) -> Array:
+        """Approach delta at each phase [m], shape (p,), of nodes that all carry load."""
+        opening, c, length = self._at(at, share)
+        spring = c * length
+        sums = (np.sum(values, axis=1) for values in (spring, spring * opening))
+        springs, moments = (np.bincount(self.parts.phase, each, self.parts.phases.size) for each in sums)
+        return np.asarray((self.force + moments) / springs)
+
+    @cached_property
+    def _solved(self) -> tuple[Array, Array, tuple[Array, Array], Array]:
+        """Nodes within the parts, places and shares of shape (m, n), the loaded pieces, and delta at each
+        phase; without the law "stiffness", the length of all lines at each phase instead of delta.
+
+        The force is a convex function of delta, so that the steps of Newton fall towards its root.
+        """
+        whole = np.zeros(self.parts.width.size), np.ones(self.parts.width.size)
+        nodes = nodes_within(self.number, whole)
+        if self.law != "stiffness":
+            each = self.parts.width / math.cos(self.plane.path.base_helix_angle)
+            length: Array = np.bincount(self.parts.phase, each, self.parts.phases.size).astype(float)
+            return *nodes, whole, length
+        if self.modification.none:
+            return *nodes, whole, self._delta(*nodes)
+        delta, loaded = self._delta(*nodes_within(max(self.number, _NODES), whole)), whole
+        for _ in range(_STEPS):
+            loaded = self._loaded(delta)
+            nodes = nodes_within(self.number, loaded)
+            before, delta = delta, self._delta(*nodes)
+            if np.all(np.abs(delta - before) <= _SETTLED * delta):
+                break
+        return *nodes, loaded, delta
+
+    @property
+    def state(self) -> Array:
+        """Approach delta of the flanks [m], or length of all lines [m], at each phase, shape (p,)."""
+        return self._solved[-1]
+
+    def load(self, places: Array, across: Array, state: Array) -> Array:
+        """Line loads [N/m] at places g and y [m] and states of the mesh, which broadcast to a shape (...)."""
+        if self.law != "stiffness":
+            return LAWS[self.law](self, places, state)
+        opening = self.modification.opening(self.plane, places, across)
+        spring = single_stiffness(self.plane, places, self.stiffness)
+        return np.asarray(spring * np.maximum(state - opening, 0.0))
+
+    def loads(self, *, unloaded: bool = True) -> LineLoads:
+        """Line loads at the nodes; ``unloaded``, whether also at nodes without a load."""
+        at, share, loaded, state = self._solved
+        if unloaded and not self.modification.none:
+            at, share = with_unloaded(at, share, loaded)
+        nodes = line_nodes(self.parts, at, share)
+        load = self.load(nodes.places, nodes.across, state[nodes.phase])
+        at_phases = self.parts.phases, self.parts.weights
+        loads = LineLoads(*at_phases, load=load, **vars(nodes))
+        if self.law == "stiffness":
+            # Where the load starts at zero, a rounding of delta loads or unloads a node.
+            load *= (self.force / loads.normal_force)[nodes.phase]
+        return loads
+
+
+# Largest number of steps of Newton, and relative change of delta at which they end: the error is then about
+# its square.
+_STEPS, _SETTLED = 50, 1e-6
 
 
 def line_loads(
@@ -153,24 +298,10 @@ def line_loads(
     ``normal_force``, K F_bn [N]; ``law``, "stiffness", "rigid", "iso" or "tip-relief"; ``stiffness``,
     c_gamma per face width [N/m^2], of the law "stiffness"; ``accuracy``, factor on the numbers of nodes.
     """
-    path, spur = plane.path, plane.overlap_ratio == 0.0
-    bends = [*path.points.values(), *modification.bends(path)]
-    if law == "iso" and not spur:
-        over = _BUTTRESSED * math.sin(path.base_helix_angle)
-        bends += [path.start + over, path.end - over]
-    parts = line_parts(plane, bends, accuracy * (_SPUR_PHASES if spur else _PHASES))
-    # An odd number has a node in the middle of the face, where crowned flanks have their smallest film.
-    number = accuracy * (_NODES - 1 if modification.crowning == 0.0 else _CROWNED - 1) + 1
-    number = 1 if spur and modification.crowning == 0.0 else number
-    nodes = line_nodes(parts, number)
-    if law != "stiffness":
-        load = LAWS[law](plane, nodes, normal_force)
-    else:
-        for _ in range(0 if modification.none else _PASSES):
-            delta = approach(nodes, normal_force, plane, modification, stiffness)
-            nodes = line_nodes(parts, number, modification.loaded(parts, delta))
-        load = _on_springs(plane, nodes, modification, normal_force, stiffness)
-    return LineLoads(nodes.phases, nodes.weights, nodes.places, nodes.across, nodes.length, load)
+    law_of = Sharing.of(
+        plane, normal_force, law, stiffness=stiffness, modification=modification, accuracy=accuracy
+    )
+    return law_of.loads()
 
 
 def single_stiffness(plane: PlaneOfAction, places: Array, stiffness: float) -> Array:
@@ -181,67 +312,32 @@ def single_stiffness(plane: PlaneOfAction, places: Array, stiffness: float) -> A
     return 0.5 * stiffness * b0 / math.sin(0.5 * b0 * ratio) * np.cos(b0 * (xi - 0.5 * ratio))
 
 
-def approach(
-    nodes: LineNodes, force: float, plane: PlaneOfAction, modification: Modification, stiffness: float
-) -> Array:
-    """Approach delta of the flanks at each phase [m], shape (p,)."""
-    c = np.nan_to_num(single_stiffness(plane, nodes.places, stiffness))
-    opening = np.nan_to_num(modification.opening(plane, nodes.places, nodes.across))
-    rows = (nodes.phases.size, -1)
-    return _approach((c * nodes.length).reshape(rows), opening.reshape(rows), force)
+def _rigid(sharing: Sharing, _places: Array, length: Array) -> Array:
+    """Equal loads on all lines, of a length [m] at the phase [N/m]."""
+    return np.asarray(sharing.force / length)
 
 
-def _on_springs(
-    plane: PlaneOfAction, nodes: LineNodes, modification: Modification, force: float, stiffness: float
-) -> Array:
-    """Line loads of slices on springs [N/m]."""
-    delta = approach(nodes, force, plane, modification, stiffness)[:, np.newaxis, np.newaxis]
-    opening = modification.opening(plane, nodes.places, nodes.across)
-    return single_stiffness(plane, nodes.places, stiffness) * np.maximum(delta - opening, 0.0)
-
-
-def _approach(c: Array, opening: Array, force: float) -> Array:
-    """Approach delta at which sum of c max(delta - f, 0) is the force, for each row, shape (p,).
-
-    The sum is piecewise linear in delta: between two openings, in increasing order, it is a line.
-    """
-    order = np.argsort(opening, axis=1)
-    c, opening = np.take_along_axis(c, order, 1), np.take_along_axis(opening, order, 1)
-    total, moment = np.cumsum(c, axis=1), np.cumsum(c * opening, axis=1)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        delta = (force + moment) / total
-    following = np.concatenate([opening[:, 1:], np.full((len(c), 1), np.inf)], axis=1)
-    fits = (total > 0.0) & (delta <= following)
-    return np.asarray(delta[np.arange(len(c)), np.argmax(fits, axis=1)])
-
-
-def _rigid(_plane: PlaneOfAction, nodes: LineNodes, force: float) -> Array:
-    """Equal loads on all lines [N/m]."""
-    present = np.sum(nodes.length, axis=(1, 2), keepdims=True)
-    return np.where(np.isnan(nodes.places), np.nan, force / present)
-
-
-def _shares(plane: PlaneOfAction, nodes: LineNodes, force: float) -> Array:
+def _shares(sharing: Sharing, places: Array, _length: Array) -> Array:
     """Line loads of the shares of ISO/TS 6336-22 without relief [N/m]."""
-    beta, places = min(1.0, plane.overlap_ratio), nodes.places
-    spur = _trapezoid(plane, places, at_end=1.0 / 3.0)
-    share = spur
+    plane = sharing.plane
+    beta = min(1.0, plane.overlap_ratio)
+    share = _trapezoid(plane, places, at_end=1.0 / 3.0)
     if beta > 0.0:
         sine = math.sin(plane.path.base_helix_angle)
         helical = _buttressing(plane, places, 1.0 + (_BUTTRESSING - 1.0) * beta, _BUTTRESSED * sine)
-        share = (1.0 - beta) * spur + beta * helical / plane.path.contact_ratio
-    return share * _per_face(plane, force)
+        share = (1.0 - beta) * share + beta * helical / plane.path.contact_ratio
+    return share * _per_face(plane, sharing.force)
 
 
-def _tip_relief(plane: PlaneOfAction, nodes: LineNodes, force: float) -> Array:
+def _tip_relief(sharing: Sharing, places: Array, _length: Array) -> Array:
     """Line loads of a spur pair with as much relief as deflection [N/m]."""
-    if plane.overlap_ratio > 0.0:
+    if sharing.plane.overlap_ratio > 0.0:
         raise InputError(
             "gear.operation.load_sharing",
             got="'tip-relief' for helical gears",
             takes="'stiffness' with gear.tip_relief and gear.tip_relief_length",
         )
-    return _trapezoid(plane, nodes.places, at_end=0.0) * _per_face(plane, force)
+    return _trapezoid(sharing.plane, places, at_end=0.0) * _per_face(sharing.plane, sharing.force)
 
 
 def _per_face(plane: PlaneOfAction, force: float) -> float:
@@ -267,7 +363,7 @@ def _trapezoid(plane: PlaneOfAction, places: Array, *, at_end: float) -> Array:
     first, last = x / double, (path.length - x) / double
     inside = (first >= 1.0) & (last >= 1.0)
     line = at_end + (1.0 - 2.0 * at_end) * np.minimum(first, last)
-    return np.where(np.isnan(places), np.nan, np.where(inside, 1.0, line))
+    return np.where(inside, 1.0, line)
 
 
 def _buttressing(plane: PlaneOfAction, places: Array, most: float, over: float) -> Array:
@@ -287,18 +383,22 @@ LAWS: Mapping[str, Callable[..., Array]] = {
 # Side of a point on which its line load is taken: B and D belong to the single contact of a spur pair.
 SIDES: Mapping[str, float] = {"A": 1.0, "B": 1.0, "C": 0.0, "D": -1.0, "E": -1.0}
 
-# Distance of nodes that are at a point, in base pitches.
-_AT_POINT = 2e-6
+# Distance of a place on one side of a point from it, in base pitches, and places on the face at which a load
+# is averaged.
+_ASIDE, _ON_FACE = 2e-6, 16
 
 
-def load_at(plane: PlaneOfAction, loads: LineLoads, place: float, side: float = 0.0) -> float:
-    """Mean over phases and face of the line load at A, B, C, D or E [N/m]. ``place``, its place g; ``side``,
-    1 just behind the place, -1 just before it, 0 on both sides.
+def loads_at_points(sharing: Sharing, *, other: bool = False) -> Array:
+    """Mean over the face of the line load at A, B, C, D and E [N/m], shape (5,); ``other``, on the other side
+    of B and D.
     """
-    ahead = (loads.places - place) / plane.path.base_pitch
-    near = (np.abs(ahead) <= _AT_POINT) & (side * ahead >= 0.0)
-    # Lines of a helical pair pass the place one after the other along the face, lines of a spur pair at once.
-    share = loads.length if plane.overlap_ratio == 0.0 else 1.0
-    weights = near * share * loads.weights[:, np.newaxis, np.newaxis]
-    total = float(np.sum(weights))
-    return float(np.sum(weights * np.nan_to_num(loads.load))) / total if total > 0.0 else 0.0
+    plane, parts = sharing.plane, sharing.parts
+    path = plane.path
+    sides = {**SIDES, "B": -SIDES["B"], "D": -SIDES["D"]} if other else SIDES
+    places = np.array([place + sides[name] * _ASIDE * path.base_pitch for name, place in path.points.items()])
+    across = plane.face_width * np.arange(0.5, _ON_FACE) / _ON_FACE
+    # Lines of a helical pair pass the place one after the other along the face.
+    begin = (places - path.start)[:, np.newaxis] - math.tan(path.base_helix_angle) * across
+    phase = begin / path.base_pitch % 1.0
+    state = np.interp(phase, parts.phases, sharing.state, period=1.0)
+    return np.asarray(np.mean(sharing.load(places[:, np.newaxis], across, state), axis=1))

@@ -17,50 +17,86 @@ All other gaps between the teeth add less than 5 eps0 b (boundary elements of tw
 from __future__ import annotations
 
 import math
-from functools import partial
+from functools import lru_cache
 
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.bearing import RollerRaceway, permittivity_of_mass, roller_tails
+from ehlectric.bearing import RollerRaceway, roller_tails
 from ehlectric.cases.grid_inputs import DEFAULT_ENDS
 from ehlectric.constants import EPSILON_0
-from ehlectric.formulas.dry_means import STRIP, pressure_mean, wedge_integral
+from ehlectric.formulas.dry_means import wedge_beyond, wedge_integral
 from ehlectric.formulas.hertz import line_gap
+from ehlectric.gear.film_table import FilmShape
 from ehlectric.gear.flank_films import FlankFilms, Flanks
 
 # Ends of the domain of the atlas before and behind the contact, over the half-width.
 _ENDS = DEFAULT_ENDS[False]
 
+# Logarithms of the constant part of the gap over b^2/R at which its integrals are computed.
+_MIDDLES = np.linspace(math.log(1e-9), math.log(1e6), 2048)
 
-def capacitance_per_length(flanks: Flanks, films: FlankFilms) -> Array:
-    """Return the capacitance per length [F/m] at the places of the films; NaN without a film."""
-    assert films.atlas is not None
-    oil, film = flanks.oil, films.atlas.film
+# Ratios of the radii of two cylinders at which their tails are computed; half-width and film of these tails
+# over the reduced radius.
+_RATIOS, _HALF_WIDTH, _FILM = np.linspace(0.0, 1.0, 65)[1:], 0.02, 1e-5
+
+
+def capacitance_per_length(flanks: Flanks, films: FlankFilms, shape: FilmShape) -> Array:
+    """Capacitance per length [F/m] at the places of the films, shape (n,); NaN without a film."""
+    epsilon, width = flanks.oil.relative_permittivity, films.half_width
+    share = np.minimum(1.0, shape.central_pressure)
     # The atlas has the mean of 1/(rho h) over that in the middle, where the mass is most alike for all oils.
-    mass = films.central * film.mass / film.central
-    share = np.minimum(1.0, film.central_pressure)
-    permittivity = pressure_mean(STRIP, partial(permittivity_of_mass, oil), share * films.max_pressure)
-    zone = film.zone * permittivity * 2.0 * films.half_width / mass
-    middle = films.central * films.reduced_radius / films.half_width**2
-    unit = films.reduced_radius / films.half_width
-    inlet, outlet = (unit * wedge_integral(middle, end) for end in _ENDS)
-    near = oil.relative_permittivity * (film.inlet * inlet + film.outlet * outlet)
-    total: Array = EPSILON_0 * (zone + near) + oil.relative_permittivity * _tails(flanks, films)
-    return total
+    zone = shape.zone * flanks.oil.zone_permittivity(share * films.max_pressure) * 2.0 * width / films.central
+    unit = films.reduced_radius / width
+    inlet, outlet, beyond = _gap_integrals(films.central * unit / width)
+    near = unit * (shape.inlet * inlet + shape.outlet * outlet + beyond) + _of_circles(flanks, films.places)
+    return np.asarray(EPSILON_0 * (zone + epsilon * near))
 
 
-def _tails(flanks: Flanks, films: FlankFilms) -> Array:
-    """Capacitance per length in vacuum beyond the domain of the atlas [F/m]."""
-    first, second = flanks.normal_radii(films.places)
-    b, ends = films.half_width, _ENDS
-    # A raceway of a roller is the flank with the larger radius, which is concave in a ring.
-    race = RollerRaceway(
-        np.minimum(first, np.abs(second)), np.maximum(first, np.abs(second)), flanks.path.tangent_length < 0.0
-    )
-    gaps = [films.central + b**2 / films.reduced_radius * line_gap(end) for end in ends]
-    inlet, outlet = roller_tails(race, b, (ends[0] * b, ends[1] * b), (gaps[0], gaps[1]))
-    return np.asarray(inlet) + outlet
+@lru_cache(maxsize=1)
+def _tabulated_integrals() -> Array:
+    """Logarithms of the integrals of dx/gap before and behind the zone, and beyond both ends, in R/b."""
+    middle = np.exp(_MIDDLES)
+    inlet, outlet = (wedge_integral(middle, end) for end in _ENDS)
+    first, second = (wedge_beyond(middle, end) for end in _ENDS)
+    return np.log(np.stack([inlet, outlet, first + second]))
+
+
+def _gap_integrals(middle: Array) -> list[Array]:
+    """Integrals of dx/gap before and behind the zone, and beyond both ends [R/b], each of shape (n,).
+    ``middle``, constant part of the gap [b^2/R], shape (n,).
+    """
+    at = np.log(middle)
+    return [np.exp(np.interp(at, _MIDDLES, logs)) for logs in _tabulated_integrals()]
+
+
+@lru_cache(maxsize=2)
+def _tabulated_circles(*, concave: bool) -> Array:
+    """Integrals of dx/gap beyond both ends for cylinders less those for parabolas, at ``_RATIOS``.
+
+    The width of the contact and its film have almost no influence on these differences.
+    """
+    # The flank of a ring has the value at half of its radius also for larger gears in it.
+    second = -1.0 / _RATIOS[_RATIOS < 0.5] if concave else 1.0 / _RATIOS
+    radius = 1.0 / (1.0 + 1.0 / second)
+    width = _HALF_WIDTH * radius
+    race = RollerRaceway(np.ones_like(second), np.abs(second), concave)
+    gaps = [_FILM * radius + width**2 / radius * line_gap(end) for end in _ENDS]
+    before, behind = roller_tails(race, width, (_ENDS[0] * width, _ENDS[1] * width), (gaps[0], gaps[1]))
+    middle = np.full_like(radius, _FILM / _HALF_WIDTH**2)
+    parabolas = [wedge_beyond(middle, end) / _HALF_WIDTH for end in _ENDS]
+    tails: Array = np.asarray(before) + np.asarray(behind)
+    beyond: Array = parabolas[0] + parabolas[1]
+    return tails / EPSILON_0 - beyond
+
+
+def _of_circles(flanks: Flanks, places: Array) -> Array:
+    """Integral of dx/gap beyond both ends for the cylinders at places g, less the integral for parabolas."""
+    first, second = flanks.path.transverse_radii(places)
+    concave = flanks.path.tangent_length < 0.0
+    ratio = np.asarray(first / np.abs(second) if concave else np.minimum(first / second, second / first))
+    known = _tabulated_circles(concave=concave)
+    return np.asarray(np.interp(ratio, _RATIOS[: known.size], known))
 
 
 def back_capacitance(

@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, fields, replace
-
-from ehlectric.gear.flank_films import FlankFilms
 from ehlectric.gear.solution import GearSolution
 
 # Part of the path of contact within which a place is a point's.
@@ -13,24 +9,6 @@ _AT_POINT = 0.03
 
 # Parts of the flanks that touch at both ends of the path of contact.
 ENDS = {"A": "root of gear 1 and tip of gear 2", "E": "tip of gear 1 and root of gear 2"}
-
-
-@dataclass(frozen=True)
-class PathPoint:
-    """Point of the path of contact with the mean line load that passes it."""
-
-    name: str
-    place: float  # g [m]
-    films: FlankFilms  # line contact at this place, arrays of shape (1,)
-
-
-def path_points(solution: GearSolution) -> Iterator[PathPoint]:
-    """Points A, B, C, D and E of the path of contact, with the mean over the phases of the load there."""
-    films = solution.point_films
-    numbers = [each.name for each in fields(films) if each.name != "atlas"]
-    for k, (name, place) in enumerate(solution.path.points.items()):
-        at = replace(films, **{number: getattr(films, number)[k : k + 1] for number in numbers})
-        yield PathPoint(name, place, at)
 
 
 def weakest(solution: GearSolution) -> tuple[float, float]:

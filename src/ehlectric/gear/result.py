@@ -12,10 +12,10 @@ from ehlectric.cases.gear_case import GearCase
 from ehlectric.errors import InputError
 from ehlectric.gear.gear_verdict import breakdown_margin, gear_verdict
 from ehlectric.gear.gear_warnings import gear_warnings
-from ehlectric.gear.points import path_points
-from ehlectric.gear.solution import GearSolution, solve_gear_pair
+from ehlectric.gear.solution import GearSolution
+from ehlectric.gear.solving import solve_gear_pair
 from ehlectric.gear.stored import layout_of
-from ehlectric.gear.summary import gear_summary, point_summary
+from ehlectric.gear.summary import gear_summary, point_summaries
 from ehlectric.gear.uncertainty import MeshUncertainty, has_chance, uncertainty_of
 from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
 from ehlectric.quantities.results import POINT_KEYS
@@ -113,10 +113,8 @@ class GearResult(Shown):
 
     def points(self) -> list[dict[str, Any]]:
         """Table of the points A, B, C, D and E of the path of contact, SI units."""
-        return [
-            {"point": point.name, **point_summary(self.solution, point)}
-            for point in path_points(self.solution)
-        ]
+        rows = point_summaries(self.solution)
+        return [{"point": name, **row} for name, row in rows.items()]
 
     def to_dataframe(self) -> pd.DataFrame:
         """Return the points A to E as a table of pandas; ``attrs["units"]`` contains the units."""

@@ -3,50 +3,43 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
-from functools import cached_property
+from dataclasses import dataclass, field
+from functools import cached_property, lru_cache
 
 import numpy as np
 
 from ehlectric.arrays import Array, Mask, Numbers
 from ehlectric.bearing import Solid
-from ehlectric.cases.case_oil import temperature_coefficient
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.gear_inputs import Gear, both
-from ehlectric.discharge.discharge_laws import Leakage, leakage
+from ehlectric.discharge.discharge_laws import relaxation_time
 from ehlectric.discharge.film_breakdown import dielectric_strength
-from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.formulas.asperities import LOAD_SHARE, contact_probability
 from ehlectric.formulas.hertz import reduced_modulus
 from ehlectric.gear.contact_lines import PlaneOfAction
 from ehlectric.gear.contact_path import ContactPath, contact_path
-from ehlectric.gear.flank_films import FlankFilms, Flanks, flank_films
+from ehlectric.gear.flank_films import FlankFilms, Flanks
+from ehlectric.gear.flank_oil import FlankOil
 from ehlectric.gear.geometry import Drawing, GearPair, gear_pair
-from ehlectric.gear.load_sharing import SIDES, LineLoads, Modification, line_loads, load_at
+from ehlectric.gear.load_sharing import LineLoads, Modification, Sharing
 from ehlectric.gear.losses import bulk_temperature, loss_factor
-from ehlectric.gear.mesh_capacitance import back_capacitance, capacitance_per_length
+from ehlectric.gear.mesh_capacitance import back_capacitance
 from ehlectric.gear.tooth_stiffness import mesh_stiffness, pair_stiffness
-from ehlectric.lubricant.heat_laws import ASSUMED_CONDUCTIVITY
 from ehlectric.quantities.field_metadata import stored
 
 # Area of the contact of the disc machine on which the share of time was measured, if it is not given, and the
 # factor by which it may be wrong either way.
 REFERENCE_AREA, AREA_FACTOR = 1e-6, 3.0
 
-# Distance of a place next to B or D from it [m].
-_JUMP = 1e-8
-
-# Part of the path of contact on both sides of C over which the friction of a film reverses.
-_REVERSAL = 0.05
+# Largest share of time below 1.
+_LARGEST = float(np.nextafter(1.0, 0.0))
 
 
 @dataclass(frozen=True)
 class GearSolution:
     """Mesh of a gear pair at its operating point.
 
-    Arrays over the lines of contact have the shape (p, k, s) of phases, lines and nodes of a line; NaN where
-    there is no contact.
+    Arrays over the lines of contact have the shape (n,) of their nodes; NaN where there is no load.
     """
 
     case: GearCase
@@ -60,7 +53,7 @@ class GearSolution:
     bulk_temperature: float  # temperature of the flanks [K]
     stiffness: float  # c' of a pair of teeth per face width [N/m^2]
     # Capacitance per length of the lines.
-    capacitance_of_lines: Array = field(metadata=stored("phase line node", "F/m", "not negative or NaN"))
+    capacitance_of_lines: Array = field(metadata=stored("node", "F/m", "not negative or NaN"))
 
     @property
     def path(self) -> ContactPath:
@@ -88,8 +81,8 @@ class GearSolution:
         return strength_of(self.case)
 
     @property
-    def thinnest(self) -> tuple[int, ...]:
-        """Index (p, k, s) of the smallest film of all lines."""
+    def thinnest(self) -> int:
+        """Number of the node with the smallest film of all lines."""
         return self.films.thinnest
 
     @property
@@ -103,9 +96,13 @@ class GearSolution:
         return np.asarray(~self.films.known & ~np.isnan(self.films.minimum))
 
     @property
-    def leakage(self) -> Leakage:
-        """Leakage of charge through the oil at the temperature of the flanks."""
-        return leakage(self.case.discharge, self.flanks.oil)
+    def relaxation_time(self) -> float | None:
+        """Charge relaxation time of the oil on the flanks [s]; None without a conductivity."""
+        given, oil = self.case.discharge.conductivity, self.flanks.oil
+        conductivity = oil.conductivity if given is None else given
+        if conductivity is None:
+            return None
+        return float(relaxation_time(oil.relative_permittivity, conductivity))
 
     @property
     def gap(self) -> Array:
@@ -116,7 +113,7 @@ class GearSolution:
     def breakdown_voltage(self) -> Array | None:
         """Smallest breakdown voltage of all lines at each phase, shape (p,) [V]; 0 where summits touch."""
         strength = self.strength
-        return None if strength is None else strength * np.nanmin(self.gap, axis=(1, 2))
+        return None if strength is None else strength * self.loads.least(self.gap)
 
     @property
     def capacitance(self) -> Array:
@@ -131,7 +128,7 @@ class GearSolution:
         radius = float(np.asarray(self.path.reduced_radius(self.path.pitch_point)))
         length = self.pair.face_width / math.cos(self.pair.base_helix_angle)
         permittivity = self.flanks.oil.relative_permittivity
-        pair = back_capacitance(radius, self.pair.normal_backlash, length, float(permittivity))
+        pair = back_capacitance(radius, self.pair.normal_backlash, length, permittivity)
         return self.path.contact_ratio * pair
 
     def contact_time_share(self, area_factor: float = 1.0) -> Array:
@@ -193,130 +190,61 @@ def open_area(loads: LineLoads, films: FlankFilms, rq: float) -> Array:
     """Integral of ln(1 - p(lambda)) over the Hertz area at each phase, shape (p,) [m^2]; see
     ``GearSolution.contact_time_share``. ``rq``, composite roughness over the factor on all films [m].
     """
-    share = contact_probability(np.nan_to_num(films.central / rq, nan=math.inf))
-    with np.errstate(divide="ignore"):
-        closed = np.log1p(-share)
-    width = 2.0 * np.nan_to_num(films.half_width)
-    return loads.along(np.where(width > 0.0, width * closed, 0.0))
+    ratio = np.where(loads.load > 0.0, films.central / rq, math.inf)
+    # A share that rounds to 1 leaves a patch open for the smallest share that is not 0.
+    share = np.minimum(contact_probability(ratio), _LARGEST)
+    return loads.along(2.0 * films.half_width * np.log1p(-share))
 
 
 @dataclass(frozen=True)
 class OperatingPair:
-    """Gear pair of a case at its operating point, before its load and films are solved."""
+    """Gear pair of a case at its operating point, without its oil."""
 
     pair: GearPair
     plane: PlaneOfAction
-    flanks: Flanks
     bulk_temperature: float  # temperature of the flanks [K]
     stiffness: float  # c' of a pair of teeth per face width [N/m^2]
 
     @classmethod
     def of(cls, case: GearCase) -> OperatingPair:
-        """Gear pair of a case. Raises InputError for drawings that cannot run, and for an oil without a value
-        at the temperature of the flanks.
-        """
+        """Gear pair of a case. Raises InputError for drawings that cannot run."""
         gear, operation = case.gear, case.gear.operation
         pair = gear_pair(drawing_of(gear))
         path = contact_path(pair)
-        temperature = _bulk_temperature(gear, pair, path)
         load_per_width = 2.0 * abs(operation.pinion_torque) / pair.reference_diameter[0] / pair.face_width
         steel = pair_stiffness(pair, load_per_width * operation.application_factor)
         return cls(
             pair,
             PlaneOfAction(path, pair.face_width),
-            _flanks(case, pair, path, temperature),
-            temperature,
-            steel * Solid.of(gear.material).youngs_modulus / Solid.of("steel").youngs_modulus,
+            _bulk_temperature(gear, pair, path),
+            steel * _solid(gear.material).youngs_modulus / _solid("steel").youngs_modulus,
+        )
+
+    def flanks(self, case: GearCase, oil: FlankOil) -> Flanks:
+        """Flanks with their oil."""
+        compliance = _solid(case.gear.material).compliance
+        return Flanks(
+            path=self.plane.path,
+            ratio=self.pair.ratio,
+            pinion_speed=case.gear.operation.pinion_speed,
+            modulus=reduced_modulus(compliance, compliance),
+            temperature=self.bulk_temperature,
+            oil=oil,
+        )
+
+    def sharing(self, gear: Gear) -> Sharing:
+        """Law of the load of the gear pair."""
+        return Sharing.of(
+            self.plane,
+            _normal_force(gear, self.pair),
+            gear.operation.load_sharing,
+            stiffness=mesh_stiffness(self.stiffness, self.plane.path.contact_ratio),
+            modification=modification_of(gear),
         )
 
 
-def solve_gear_pair(case: GearCase) -> GearSolution:
-    """Mesh of a gear pair at its operating point. Raises InputError for drawings that cannot run, and for an
-    oil without a value at the temperature of the flanks.
-    """
-    at = OperatingPair.of(case)
-    loads = loads_of(case, at)
-    films, point_films = _films(case, at, loads)
-    return GearSolution(
-        case=case,
-        pair=at.pair,
-        plane=at.plane,
-        flanks=at.flanks,
-        loads=loads,
-        films=replace(films, atlas=None),
-        point_films=replace(point_films, atlas=None),
-        bulk_temperature=at.bulk_temperature,
-        stiffness=at.stiffness,
-        capacitance_of_lines=capacitance_per_length(at.flanks, films),
-    )
-
-
-def solve_gear_pairs(cases: Iterable[GearCase]) -> list[GearSolution | InputError | ConvergenceError]:
-    """Meshes of many gear pairs, as ``solve_gear_pair`` gives them; the error of a pair that has none."""
-    return [_attempt(case) for case in cases]
-
-
-def _attempt(case: GearCase) -> GearSolution | InputError | ConvergenceError:
-    try:
-        return solve_gear_pair(case)
-    except (InputError, ConvergenceError) as error:
-        return error
-
-
-def loads_of(case: GearCase, at: OperatingPair) -> LineLoads:
-    """Loads on the lines of contact of a gear pair at its operating point."""
-    gear = case.gear
-    return line_loads(
-        at.plane,
-        _normal_force(gear, at.pair),
-        gear.operation.load_sharing,
-        stiffness=mesh_stiffness(at.stiffness, at.plane.path.contact_ratio),
-        modification=modification_of(gear),
-    )
-
-
-def tabulated_films(case: GearCase) -> tuple[LineLoads, FlankFilms]:
-    """Loads and films on the lines of contact of a case whose films are not solved. Raises InputError as
-    ``solve_gear_pair`` does.
-    """
-    at = OperatingPair.of(case)
-    loads = loads_of(case, at)
-    return loads, flank_films(at.flanks, loads.places, loads.load, by_formula=case.contacts == "formula")
-
-
-def _films(case: GearCase, pair: OperatingPair, loads: LineLoads) -> tuple[FlankFilms, FlankFilms]:
-    """Films on all lines, and films at the points A to E under the mean load that passes them, arrays of
-    shape (5,), in the way that the file asks for.
-    """
-    plane, flanks, by_formula = pair.plane, pair.flanks, case.contacts == "formula"
-    points = plane.path.points
-    mean = np.array([load_at(plane, loads, place, SIDES[name]) for name, place in points.items()])
-    films = flank_films(flanks, loads.places, loads.load, by_formula=by_formula)
-    at_points = flank_films(flanks, np.array(list(points.values())), mean, by_formula=by_formula)
-    if case.contacts != "solved":
-        return films, at_points
-    from ehlectric.gear.solved_points import solved_correction  # late: the atlas needs no solver
-
-    places, load = _to_solve(plane, loads, films)
-    correction = solved_correction(case, flanks, places[load > 0.0], load[load > 0.0])
-    return correction.applied(films), correction.applied(at_points)
-
-
-def _to_solve(plane: PlaneOfAction, loads: LineLoads, films: FlankFilms) -> tuple[Array, Array]:
-    """Places and loads at which films are solved: the smallest film, A to E, both sides of C, between which
-    the friction reverses, and the other sides of B and D, where the load on a spur pair jumps.
-    """
-    points, at = plane.path.points, films.thinnest
-    sides = [(name, side, 0.0) for name, side in SIDES.items()]
-    sides += [(name, -SIDES[name], _JUMP) for name in "BD"]
-    places = [points[name] + side * shift for name, side, shift in sides]
-    load = [load_at(plane, loads, points[name], side) for name, side, _ in sides]
-    reversal = [points["C"] + side * _REVERSAL * plane.path.length for side in (-1.0, 1.0)]
-    load_at_pitch_point = load[list(SIDES).index("C")]
-    return (
-        np.array([loads.places[at], *places, *reversal]),
-        np.array([loads.load[at], *load, load_at_pitch_point, load_at_pitch_point]),
-    )
+# Solids of the library, which are read once.
+_solid = lru_cache(maxsize=32)(Solid.of)
 
 
 def drawing_of(gear: Gear) -> Drawing:
@@ -364,28 +292,4 @@ def _bulk_temperature(gear: Gear, pair: GearPair, path: ContactPath) -> float:
         factor,
         pair.centre_distance,
         pair.face_width,
-    )
-
-
-def _flanks(case: GearCase, pair: GearPair, path: ContactPath, temperature: float) -> Flanks:
-    """Flanks with the oil at their temperature [K]."""
-    compliance = Solid.of(case.gear.material).compliance
-    oil = case.lubricant.at(temperature, "gear.operation.bulk_temperature")
-    if not np.any(oil.alpha):
-        raise InputError(
-            "lubricant.viscosity_law",
-            got=f"{oil.laws['viscosity']!r} with gears, whose films are those of piezoviscous oils;",
-            takes="another law",
-        )
-    known = oil.thermal_conductivity
-    slope = temperature_coefficient(case.lubricant, temperature)
-    return Flanks(
-        path=path,
-        ratio=pair.ratio,
-        pinion_speed=case.gear.operation.pinion_speed,
-        modulus=reduced_modulus(compliance, compliance),
-        temperature=temperature,
-        oil=oil,
-        slope=None if slope is None else float(slope),
-        conductivity=float(ASSUMED_CONDUCTIVITY if known is None else known),
     )

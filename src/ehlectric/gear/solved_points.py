@@ -17,14 +17,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.grid_inputs import Grid
 from ehlectric.contact import line_conditions, solve, solve_contact
 from ehlectric.errors import ConvergenceError
 from ehlectric.formulas.monotone_cubic import MonotoneCubic
-from ehlectric.gear.flank_films import FlankFilms, Flanks, flank_films, without_heat
+from ehlectric.gear.flank_films import FlankFilms, Flanks, without_heat
 
 # Relative error of the solved films that the grid is refined to.
 _ERROR = 0.01
@@ -67,12 +66,12 @@ class Correction:
         )
 
 
-def solved_correction(case: GearCase, flanks: Flanks, places: Array, load: Array) -> Correction:
-    """Solve the films at places g [m] under line loads [N/m], arrays of shape (n,). Raises ConvergenceError
-    where a film does not converge.
+def solved_correction(case: GearCase, flanks: Flanks, atlas: FlankFilms) -> Correction:
+    """Solve the films at the places of films of the atlas, shape (n,). Raises ConvergenceError where a film
+    does not converge.
     """
-    first = np.unique(np.round(places / _CLOSE), return_index=True)[1]
-    films = flank_films(flanks, places[first], load[first])
+    first = np.unique(np.round(atlas.places / _CLOSE), return_index=True)[1]
+    films = FlankFilms(**{name: values[first] for name, values in vars(atlas).items()})
     solved = list(_solved(case, flanks, films))
     rows = [
         np.array([each.central for each in solved]) / films.central,
@@ -93,17 +92,18 @@ def _solved(case: GearCase, flanks: Flanks, films: FlankFilms) -> Iterator[Solve
             raise ConvergenceError(f"{error}, at {1e3 * place:.4g} mm of the path of contact") from None
 
 
-def _isothermal(_case: GearCase, flanks: Flanks, films: FlankFilms, k: int) -> SolvedFilm:
+def _isothermal(case: GearCase, flanks: Flanks, films: FlankFilms, k: int) -> SolvedFilm:
     """Isothermal film at the place k, with the factor of inlet shear heating."""
+    oil = case.lubricant.at(flanks.temperature, "gear.operation.bulk_temperature")
     conditions = line_conditions(
-        flanks.oil,
+        oil,
         reduced_radius=float(films.reduced_radius[k]),
         reduced_modulus=flanks.modulus,
         load_per_length=float(films.load[k]),
         entrainment_speed=float(films.mean_speed[k]),
     )
     grid = Grid.from_dict({"error": _ERROR})
-    film = solve_contact(conditions, flanks.oil, grid=grid, require_convergence=True).film
+    film = solve_contact(conditions, oil, grid=grid, require_convergence=True).film
     heat, error = float(films.heat_factor[k]), film.discretisation_error
     return SolvedFilm(
         central=heat * film.central_thickness,

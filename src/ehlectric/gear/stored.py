@@ -15,6 +15,7 @@ from ehlectric.cases.gear_case import GearCase
 from ehlectric.gear.contact_lines import PlaneOfAction
 from ehlectric.gear.contact_path import POINTS
 from ehlectric.gear.flank_films import FlankFilms
+from ehlectric.gear.flank_oil import flank_oils
 from ehlectric.gear.load_sharing import LineLoads
 from ehlectric.gear.solution import GearSolution, OperatingPair
 from ehlectric.runtime.file_rules import UnfitError, case_of, number_of, text_of
@@ -27,10 +28,10 @@ if TYPE_CHECKING:
 # Name and version of the layout of gear.nc.
 SCHEMA = "ehlectric.gear.result/1"
 
-_LINES, _POINT = ("phase", "line", "node"), "point"
+_NODE, _POINT = ("node",), "point"
 _SOLUTION, _LOADS = Part(GearSolution), Part(LineLoads)
 # Places of the films are the places of the loads.
-_FILMS = Part(FlankFilms, prefix="film_", axes={"place": _LINES})
+_FILMS = Part(FlankFilms, prefix="film_", axes={"place": _NODE})
 _POINT_FILMS = Part(FlankFilms, prefix="point_", axes={"place": (_POINT,)})
 _PARTS = (_SOLUTION, _LOADS, _FILMS, _POINT_FILMS)
 
@@ -78,7 +79,7 @@ def solution_of(dataset: xr.Dataset) -> tuple[GearSolution, float, str]:
         case=case,
         pair=at.pair,
         plane=at.plane,
-        flanks=at.flanks,
+        flanks=at.flanks(case, flank_oils(case.lubricant, np.array([at.bulk_temperature])).each[0]),
         loads=loads,
         films=FlankFilms(**_FILMS.read(values)),
         point_films=FlankFilms(**_POINT_FILMS.read(values)),
@@ -93,18 +94,21 @@ def _check_nodes(plane: PlaneOfAction, loads: LineLoads) -> None:
     """Check that lines and films belong to the gear pair: each node is on a line of contact, and the lengths
     add up to the length of all lines.
     """
-    path, tolerance = plane.path, _ROUNDING / plane.path.base_pitch
+    path = plane.path
     if not math.isclose(float(np.sum(loads.weights)), 1.0, rel_tol=_ROUNDING):
         raise UnfitError("phase_weight is not a part of the phase")
-    shift = loads.across * math.tan(path.base_helix_angle)
-    phase = (loads.places - path.start - shift) / path.base_pitch - loads.phases[:, None, None]
+    known = range(loads.phases.size)
+    if not np.array_equal(np.unique(loads.phase), known) or np.any(np.diff(loads.phase) < 0):
+        raise UnfitError("node_phase is not the number of a phase")
+    begin = (loads.phases[loads.phase] + loads.line) * path.base_pitch
+    places = path.start + begin + loads.across * math.tan(path.base_helix_angle)
     lengths = [plane.length(phase) for phase in loads.phases.tolist()]
     for name, off in {
-        "place": np.abs(phase - np.round(phase)) - tolerance,
-        "across": np.abs(loads.across - 0.5 * plane.face_width) - 0.5 * plane.face_width - _ROUNDING,
-        "length": np.abs(np.sum(loads.length, axis=(1, 2)) - lengths) - _ROUNDING,
+        "place": np.abs(places - loads.places),
+        "across": np.abs(loads.across - 0.5 * plane.face_width) - 0.5 * plane.face_width,
+        "length": np.abs(loads.along(np.ones_like(loads.length)) - lengths),
     }.items():
-        if np.any(off > 0.0):
+        if np.any(off > _ROUNDING):
             raise UnfitError(f"{name} does not belong to the gear pair of its case")
-    if np.all(np.isnan(loads.load)):
+    if not np.any(loads.load > 0.0):
         raise UnfitError("load has no number")

@@ -12,7 +12,7 @@ from ehlectric.gear.gear_verdict import breakdown_margin, state_of
 from ehlectric.gear.iso_film import lambda_gf
 from ehlectric.gear.losses import loss_factor
 from ehlectric.gear.mesh_forces import mesh_forces
-from ehlectric.gear.points import PathPoint, name_of_place, path_points, weakest
+from ehlectric.gear.points import name_of_place, weakest
 from ehlectric.gear.solution import AREA_FACTOR, GearSolution
 from ehlectric.quantities.lubrication_states import CONDUCTS
 
@@ -22,7 +22,7 @@ def gear_summary(solution: GearSolution) -> dict[str, Any]:
     return {
         "gear": _gear(solution),
         "mesh": _mesh(solution),
-        "points": {point.name: point_summary(solution, point) for point in path_points(solution)},
+        "points": point_summaries(solution),
     }
 
 
@@ -83,7 +83,7 @@ def _mesh(solution: GearSolution) -> dict[str, Any]:
         voltage = None
     # Summits that touch leave no film to break down.
     first = None if voltage is None else float(np.min(voltage)) or None
-    relaxation = solution.leakage.relaxation_time
+    relaxation = solution.relaxation_time
     shares = [loads.mean(solution.contact_time_share(f)) for f in (1.0, AREA_FACTOR, 1.0 / AREA_FACTOR)]
     return {
         "state": state,
@@ -110,32 +110,36 @@ def _mesh(solution: GearSolution) -> dict[str, Any]:
         "smooth_breakdown_voltage": None if strength is None else strength * thinnest,
         "voltage": solution.case.gear.contact.voltage,
         "margin": breakdown_margin(solution),
-        "relaxation_time": None if relaxation is None else float(relaxation),
+        "relaxation_time": relaxation,
         "discharge_energy": None if first is None else float(stored_energy(mean, first)),
     }
 
 
-def point_summary(solution: GearSolution, point: PathPoint) -> dict[str, float | None]:
-    """Radii, speeds, load and film of a point of the path of contact; None for what needs a load where none
-    passes the point.
+def point_summaries(solution: GearSolution) -> dict[str, dict[str, float | None]]:
+    """Radii, speeds, load and film at the points A to E of the path of contact; None for what needs a load
+    where none passes the point.
     """
-    films = point.films
-    first, second = solution.path.transverse_radii(point.place)
-    speeds = solution.path.speeds(point.place, solution.flanks.pinion_speed, solution.pair.ratio)
-    numbers = {
-        "place": point.place,
+    films, path = solution.point_films, solution.path
+    places = films.places
+    first, second = path.transverse_radii(places)
+    speeds = path.speeds(places, solution.flanks.pinion_speed, solution.pair.ratio)
+    columns = {
+        "place": places,
         "radius_1": first,
         "radius_2": second,
         "reduced_radius": films.reduced_radius,
         "speed_1": speeds[0],
         "speed_2": speeds[1],
         "slide_to_roll_ratio": films.slide_to_roll_ratio,
-        "load_per_length": np.nan_to_num(films.load),
+        "load_per_length": np.where(np.isnan(films.load), 0.0, films.load),
         "max_pressure": films.max_pressure,
         "central_thickness": films.central,
         "minimum_thickness": films.minimum,
         "lambda_ratio": films.minimum / solution.rq,
         "friction": films.friction,
     }
-    values = {name: float(np.ravel(value)[0]) for name, value in numbers.items()}
-    return {name: None if math.isnan(value) else value for name, value in values.items()}
+    values = np.stack([np.asarray(column) for column in columns.values()], axis=1)
+    objects = values.astype(object)
+    objects[np.isnan(values)] = None
+    rows = objects.tolist()
+    return {name: dict(zip(columns, row, strict=True)) for name, row in zip(path.points, rows, strict=True)}

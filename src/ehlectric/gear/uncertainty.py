@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
@@ -30,7 +31,7 @@ from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.input_keys import is_quantity
 from ehlectric.discharge.breakdown_rule import INTERVAL, Chance
 from ehlectric.discharge.discharge_laws import MOST_MARGIN
-from ehlectric.errors import ConvergenceError, InputError
+from ehlectric.errors import InputError
 from ehlectric.gear.flank_films import FlankFilms
 from ehlectric.gear.gear_verdict import state_at
 from ehlectric.gear.load_sharing import LineLoads
@@ -40,8 +41,8 @@ from ehlectric.gear.solution import (
     open_area,
     reference_area_of,
     strength_of,
-    tabulated_films,
 )
+from ehlectric.gear.solving import solve_gear_pair, solve_gear_pairs
 from ehlectric.quantities.lubrication_states import CONDUCTS
 from ehlectric.runtime.display import read_only_property
 from ehlectric.runtime.files import plain
@@ -228,7 +229,7 @@ def uncertainty_of(
     rows: list[Array] = []
 
     def computed(at: Array) -> Array:
-        rows.append(np.array([meshes.at(*changed) for changed in design.changed(at)]))
+        rows.append(meshes.rows(list(design.changed(at))))
         return rows[-1][:, 0]
 
     touching = not np.any(np.nanmin(solution.gap) > 0.0)
@@ -263,26 +264,44 @@ class _Meshes:
         if case.contacts != "solved":
             return cls(case, (solution.loads, solution.films), 1.0)
         case = case.replace({"contacts": "atlas"})
-        loads, films = tabulated_films(case)
-        return cls(case, (loads, films), float(np.nanmin(solution.films.minimum) / np.nanmin(films.minimum)))
+        atlas = solve_gear_pair(case)
+        scale = float(np.nanmin(solution.films.minimum) / np.nanmin(atlas.films.minimum))
+        return cls(case, (atlas.loads, atlas.films), scale)
 
-    def at(self, changes: Mapping[str, Any], factor: float) -> tuple[float, float, float, float]:
-        """Margin, lambda ratio, breakdown voltage [V] and whether the mesh conducts, at changed inputs with
-        films ``factor`` times as thick. All are NaN where the pair has no result.
+    def rows(self, changed: Sequence[tuple[Mapping[str, Any], float]]) -> Array:
+        """Margin, lambda ratio, breakdown voltage [V] and whether the mesh conducts, at changed inputs and
+        factors on the films, shape (n, 4). All are NaN where the pair has no result.
         """
-        try:
-            case, (loads, films) = self.case.replace(changes), self.films
-            if not all(key.startswith(_NOT_IN_FILMS) for key in changes):
-                loads, films = tabulated_films(case)
-        except (InputError, ConvergenceError):
-            return math.nan, math.nan, math.nan, math.nan
-        factor, gear = factor * self.scale, case.gear
-        strength, voltage = strength_of(case), gear.contact.voltage
-        assert strength is not None
-        assert voltage is not None
-        film = factor * float(np.nanmin(films.minimum))
-        share = -np.expm1(open_area(loads, films, gear.rq / factor) / reference_area_of(case))
-        conducts = state_at(loads.mean(share), gear.contact.conduction) == CONDUCTS
-        breakdown = 0.0 if conducts else strength * max(film - gear.summit_height * gear.rq, 0.0)
-        margin = MOST_MARGIN if conducts else breakdown / voltage
-        return margin, film / gear.rq, breakdown, float(conducts)
+        rows = np.full((len(changed), 4), math.nan)
+        cases, films = dict(self._cases(changed)), {}
+        solved = [k for k in cases if not all(key.startswith(_NOT_IN_FILMS) for key in changed[k][0])]
+        for k, mesh in zip(solved, solve_gear_pairs([cases[k] for k in solved], unloaded=False), strict=True):
+            films[k] = (mesh.loads, mesh.films) if isinstance(mesh, GearSolution) else None
+        for k, case in cases.items():
+            of_case = films.get(k, self.films)
+            if of_case is not None:
+                rows[k] = _numbers(case, *of_case, changed[k][1] * self.scale)
+        return rows
+
+    def _cases(self, changed: Sequence[tuple[Mapping[str, Any], float]]) -> Iterator[tuple[int, GearCase]]:
+        """Changed cases that are valid, with their places."""
+        for k, (changes, _) in enumerate(changed):
+            with suppress(InputError):
+                yield k, self.case.replace(changes)
+
+
+def _numbers(
+    case: GearCase, loads: LineLoads, films: FlankFilms, factor: float
+) -> tuple[float, float, float, float]:
+    """Margin, lambda ratio, breakdown voltage [V] and whether the mesh conducts, with films ``factor`` times
+    as thick.
+    """
+    gear, strength, voltage = case.gear, strength_of(case), case.gear.contact.voltage
+    assert strength is not None
+    assert voltage is not None
+    film = factor * float(np.nanmin(films.minimum))
+    share = -np.expm1(open_area(loads, films, gear.rq / factor) / reference_area_of(case))
+    conducts = state_at(loads.mean(share), gear.contact.conduction) == CONDUCTS
+    breakdown = 0.0 if conducts else strength * max(film - gear.summit_height * gear.rq, 0.0)
+    margin = MOST_MARGIN if conducts else breakdown / voltage
+    return margin, film / gear.rq, breakdown, float(conducts)

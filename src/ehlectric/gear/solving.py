@@ -1,0 +1,175 @@
+"""Solution of one gear pair or of many: films are interpolated in tables that all pairs fill together."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ehlectric.arrays import Array
+from ehlectric.cases.case_oil import Lubricant
+from ehlectric.cases.gear_case import GearCase
+from ehlectric.errors import ConvergenceError, InputError
+from ehlectric.gear.film_table import FilmTable, film_tables
+from ehlectric.gear.flank_films import FlankFilms, Flanks, contacts_of, flank_films
+from ehlectric.gear.flank_oil import check_oils, flank_oils
+from ehlectric.gear.load_sharing import SIDES, LineLoads, loads_at_points
+from ehlectric.gear.mesh_capacitance import capacitance_per_length
+from ehlectric.gear.solution import GearSolution, OperatingPair
+
+# Result of a pair, or why it has none.
+Outcome = GearSolution | InputError | ConvergenceError
+
+# Distance of a place next to B or D from it [m].
+_JUMP = 1e-8
+
+# Part of the path of contact on both sides of C over which the friction of a film reverses.
+_REVERSAL = 0.05
+
+# Pairs whose films are tabulated together: their arrays fit into the memory.
+_TOGETHER = 256
+
+
+@dataclass(frozen=True)
+class _LoadedPair:
+    """Gear pair with its loads, before its films are known."""
+
+    number: int  # place in the list of cases
+    case: GearCase
+    at: OperatingPair
+    loads: LineLoads
+    at_points: Array  # line loads at A to E [N/m], shape (5,)
+
+
+def solve_gear_pair(case: GearCase) -> GearSolution:
+    """Mesh of a gear pair at its operating point. Raises InputError for drawings that cannot run, and for an
+    oil without a value at the temperature of the flanks; ConvergenceError if a solved film does not converge.
+    """
+    (outcome,) = solve_gear_pairs([case])
+    if isinstance(outcome, GearSolution):
+        return outcome
+    raise outcome
+
+
+def solve_gear_pairs(cases: Iterable[GearCase], *, unloaded: bool = True) -> list[Outcome]:
+    """Meshes of many gear pairs, or the errors of those that have none, in the order of the cases.
+
+    ``unloaded``, whether the solutions also contain nodes without a load, as ``solve_gear_pair`` gives them;
+    no sum over the lines needs them.
+    """
+    outcomes: dict[int, Outcome] = {}
+    pairs: list[_LoadedPair] = []
+    for number, case in enumerate(cases):
+        try:
+            at = OperatingPair.of(case)
+            sharing = at.sharing(case.gear)
+            loads = sharing.loads(unloaded=unloaded)
+            pairs.append(_LoadedPair(number, case, at, loads, loads_at_points(sharing)))
+        except InputError as error:
+            outcomes[number] = error
+    for lubricant, of_oil in _by_lubricant(pairs):
+        for start in range(0, len(of_oil), _TOGETHER):
+            outcomes |= _solved(lubricant, of_oil[start : start + _TOGETHER])
+    return [outcomes[number] for number in sorted(outcomes)]
+
+
+def _by_lubricant(pairs: Iterable[_LoadedPair]) -> Iterator[tuple[Lubricant, list[_LoadedPair]]]:
+    """Pairs with the same lubricant."""
+    groups: list[tuple[Lubricant, list[_LoadedPair]]] = []
+    for pair in pairs:
+        oil = pair.case.lubricant
+        for lubricant, of_oil in groups:
+            if lubricant is oil or lubricant == oil:
+                of_oil.append(pair)
+                break
+        else:
+            groups.append((oil, [pair]))
+    yield from groups
+
+
+def _solved(lubricant: Lubricant, pairs: Sequence[_LoadedPair]) -> dict[int, Outcome]:
+    """Results of pairs with one lubricant, by their numbers."""
+    temperatures = np.array([pair.at.bulk_temperature for pair in pairs])
+    errors = check_oils(lubricant, temperatures)
+    outcomes: dict[int, Outcome] = {
+        pair.number: error for pair, error in zip(pairs, errors, strict=True) if error is not None
+    }
+    pairs = [pair for pair, error in zip(pairs, errors, strict=True) if error is None]
+    if not pairs:
+        return outcomes
+    try:
+        oils = flank_oils(lubricant, np.array([pair.at.bulk_temperature for pair in pairs]))
+    except InputError as error:
+        return outcomes | {pair.number: error for pair in pairs}
+    flanks = [pair.at.flanks(pair.case, oil) for pair, oil in zip(pairs, oils.each, strict=True)]
+    ranges = [_groups(each, pair) for pair, each in zip(pairs, flanks, strict=True)]
+    for pair, each, table in zip(pairs, flanks, film_tables(oils.oil, oils.groups, ranges), strict=True):
+        try:
+            outcomes[pair.number] = _solution(pair, each, table)
+        except ConvergenceError as error:
+            outcomes[pair.number] = error
+    return outcomes
+
+
+def _groups(flanks: Flanks, pair: _LoadedPair) -> tuple[float, float, float, float]:
+    """Smallest and greatest M and L of the loaded contacts of a pair."""
+    loaded = pair.loads.load > 0.0
+    contact = contacts_of(flanks, pair.loads.places[loaded], pair.loads.load[loaded])
+    points = contacts_of(flanks, _points(flanks), pair.at_points)
+    most = max(float(np.max(contact.moes_m)), float(np.max(points.moes_m)))
+    return float(np.min(contact.moes_m)), most, float(np.min(points.moes_l)), float(np.max(points.moes_l))
+
+
+def _points(flanks: Flanks) -> Array:
+    """Places g of A to E [m], shape (5,)."""
+    return np.array(list(flanks.path.points.values()))
+
+
+def _solution(pair: _LoadedPair, flanks: Flanks, table: FilmTable) -> GearSolution:
+    """Films and capacitance of a pair."""
+    case, loads = pair.case, pair.loads
+    by_formula = case.contacts == "formula"
+    films, shape = flank_films(flanks, loads.places, loads.load, table, by_formula=by_formula)
+    at_points, _ = flank_films(flanks, _points(flanks), pair.at_points, table, by_formula=by_formula)
+    if case.contacts == "solved":
+        films, at_points = _with_solved(pair, flanks, table, films, at_points)
+    return GearSolution(
+        case=case,
+        pair=pair.at.pair,
+        plane=pair.at.plane,
+        flanks=flanks,
+        loads=loads,
+        films=films,
+        point_films=at_points,
+        bulk_temperature=pair.at.bulk_temperature,
+        stiffness=pair.at.stiffness,
+        capacitance_of_lines=capacitance_per_length(flanks, films, shape),
+    )
+
+
+def _with_solved(
+    pair: _LoadedPair, flanks: Flanks, table: FilmTable, films: FlankFilms, at_points: FlankFilms
+) -> tuple[FlankFilms, FlankFilms]:
+    """Films corrected by solved films."""
+    from ehlectric.gear.solved_points import solved_correction  # late: the atlas needs no solver
+
+    places, load = _to_solve(pair, films)
+    atlas, _ = flank_films(flanks, places[load > 0.0], load[load > 0.0], table)
+    correction = solved_correction(pair.case, flanks, atlas)
+    return correction.applied(films), correction.applied(at_points)
+
+
+def _to_solve(pair: _LoadedPair, films: FlankFilms) -> tuple[Array, Array]:
+    """Places and loads at which films are solved: the smallest film, A to E, both sides of C, between which
+    the friction reverses, and the other sides of B and D, where the load on a spur pair jumps.
+    """
+    path, thinnest = pair.at.plane.path, films.thinnest
+    points, other = path.points, loads_at_points(pair.at.sharing(pair.case.gear), other=True)
+    jumps = [points[name] - SIDES[name] * _JUMP for name in "BD"]
+    reversal = [points["C"] + side * _REVERSAL * path.length for side in (-1.0, 1.0)]
+    at_pitch_point = pair.at_points[2]
+    return (
+        np.array([films.places[thinnest], *points.values(), *jumps, *reversal]),
+        np.array([films.load[thinnest], *pair.at_points, other[1], other[3], at_pitch_point, at_pitch_point]),
+    )
