@@ -2,6 +2,9 @@
 
 from .gear_verdict import state_of as state_of
 from .gear_warnings import gear_warnings as gear_warnings
+from .geometry import GearPair as GearPair
+from .mesh_forces import Hand as Hand
+from .mesh_forces import mesh_forces as mesh_forces
 from .points import name_of_place as name_of_place
 from .points import weakest as weakest
 from .result import GearResult as GearResult
