@@ -22,7 +22,7 @@ def loads_of_axle(torque):
     first, second = gear_pair(FIRST_STAGE), gear_pair(SECOND_STAGE)
     on_1, on_2 = forces_of_mesh(first, torque, "left", 0.0, (0.03, 0.03))
     further = first.ratio * torque
-    # The mesh turns the intermediate shaft against the rotor, so that its torque on gear 1 has the other sign.
+    # The mesh turns the intermediate shaft against the rotor: its torque has the other sign.
     on_2b, on_3 = forces_of_mesh(second, -further, "right", math.radians(-40.0), (0.075, 0.075))
     shafts = [[on_1], [on_2, on_2b], [on_3]]
     return [bearing_loads(forces, places) for forces, places in zip(shafts, BEARINGS, strict=True)]

@@ -18,10 +18,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
+
+Floats = NDArray[np.floating[Any]]
 
 # Name of the node whose potential is 0, and of the node that the source drives.
 HOUSING, WINDING = "housing", "winding"
@@ -127,9 +131,9 @@ class Network:
                 total += element.capacitance * np.abs(self._incidence(element))
         return self._merge.T @ total
 
-    def _spread(self, of_groups: Array) -> Array:
+    def _spread(self, of_groups: Floats) -> Array:
         """Values of groups at all shafts, shape (shafts,)."""
-        return self._merge @ of_groups
+        return np.asarray(self._merge @ of_groups)
 
     def _named(self, values: Array) -> dict[str, float]:
         return dict(zip(self.shafts, values.tolist(), strict=True))
