@@ -134,6 +134,7 @@ class GearContact(Table, book="gear.contact"):
     conduction: Conduction = "by-film"
     contact_resistance: float | None = None
     reference_area: float | None = None
+    weibull_shape: float = 10.0
 
 
 class Gear(Table, book="gear"):

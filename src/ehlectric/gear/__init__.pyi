@@ -1,5 +1,6 @@
 """Names of gear that other packages may import."""
 
+from .discharge_places import discharge_places as discharge_places
 from .gear_verdict import state_of as state_of
 from .gear_warnings import gear_warnings as gear_warnings
 from .geometry import GearPair as GearPair

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ehlectric.discharge.discharge_laws import stored_energy
+from ehlectric.gear.discharge_places import discharge_places
 from ehlectric.gear.gear_verdict import breakdown_margin, state_of
 from ehlectric.gear.iso_film import lambda_gf
 from ehlectric.gear.losses import loss_factor
@@ -15,6 +16,9 @@ from ehlectric.gear.mesh_forces import mesh_forces
 from ehlectric.gear.points import name_of_place, weakest
 from ehlectric.gear.solution import AREA_FACTOR, GearSolution
 from ehlectric.quantities.lubrication_states import CONDUCTS
+
+# Share of the breakdowns for which the part of the flank is stated.
+_MOST = 0.9
 
 
 def gear_summary(solution: GearSolution) -> dict[str, Any]:
@@ -83,6 +87,7 @@ def _mesh(solution: GearSolution) -> dict[str, Any]:
         voltage = None
     # Summits that touch leave no film to break down.
     first = None if voltage is None else float(np.min(voltage)) or None
+    where = None if first is None else discharge_places(solution)
     relaxation = solution.relaxation_time
     shares = [loads.mean(solution.contact_time_share(f)) for f in (1.0, AREA_FACTOR, 1.0 / AREA_FACTOR)]
     return {
@@ -108,6 +113,8 @@ def _mesh(solution: GearSolution) -> dict[str, Any]:
         "breakdown_voltage": first,
         "breakdown_voltage_high": None if voltage is None else float(np.max(voltage)) or None,
         "smooth_breakdown_voltage": None if strength is None else strength * thinnest,
+        "discharge_area_share": None if where is None else where.area_share(_MOST),
+        "discharge_root_share": None if where is None else where.before(solution.path.pitch_point),
         "voltage": solution.case.gear.contact.voltage,
         "margin": breakdown_margin(solution),
         "relaxation_time": relaxation,
