@@ -50,8 +50,7 @@ def _up_to(shares: Array) -> Array:
 def discharge_places(solution: GearSolution) -> DischargePlaces | None:
     """Distribution of the place of the first breakdown; None where summits touch."""
     films, loads = solution.films.minimum, solution.loads
-    area = loads.weights[:, np.newaxis, np.newaxis] * loads.length
-    known = (area > 0.0) & ~np.isnan(films)
+    area, known = loads.weights[loads.phase] * loads.length, ~np.isnan(films)
     gap = solution.gap[known]
     if not np.min(gap) > 0.0:
         return None
