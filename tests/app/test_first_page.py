@@ -1,13 +1,14 @@
 """The first page: its answer is there, it changes with its inputs, and it comes back."""
 
 import signal
+from urllib.request import urlopen
 
 import pytest
 
 from ehlectric import solve_bearing
 from ehlectric.bearing.summary import summary_of
 from ehlectric.cases.bearing_case import BearingCase
-from tests.app.driving import connected, field, loaded_again, number, type_into, wait_for_number
+from tests.app.driving import complete, connected, field, loaded_again, number, type_into, wait_for_number
 from tests.helpers.app_server import kept_port
 from tests.helpers.places import EXAMPLES
 from tests.helpers.processes import alive, wait_until
@@ -31,6 +32,21 @@ def test_the_first_page_has_its_answer(page, screenshot):
     hosts = {url.split("/")[2] for url in page.watch.requests if "://" in url}
     assert hosts == {page.watch.host}
     screenshot(page, "first_page")
+
+
+@pytest.mark.slow
+def test_the_next_start_has_the_answer_in_its_page(own_server, open_page, tmp_path, monkeypatch):
+    monkeypatch.delenv("PYTHONDONTWRITEBYTECODE", raising=False)
+    monkeypatch.setenv("PYTHONPYCACHEPREFIX", str(tmp_path / "modules"))
+    server = own_server()
+    page = open_page(server)
+    complete(page)
+    speed = page.get_by_test_id("number-margin.critical_speed").get_by_test_id("value").inner_text()
+    assert wait_until(lambda: list(tmp_path.glob("modules/**/kept_answers.*.pickle")))
+    page.close()
+    server.stop()
+    with urlopen(own_server().address) as answer:
+        assert speed.replace("\xa0", " ") in answer.read().decode().replace("\xa0", " ")
 
 
 @pytest.mark.slow
