@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ehlectric import InputError, evaluate
-from ehlectric.cases.gear_case import GearCase
+from ehlectric.cases.gear_case import GearCase, changed_pair
 from ehlectric.cases.table_edits import flattened
 from ehlectric.gear import solve_gear
 from tests.gear.pairs import FZG_C_CASE, case_of
@@ -96,3 +96,24 @@ def test_numbers_of_both_gears_and_words_are_inputs():
 def test_wrong_arrays_are_refused(given, text):
     with pytest.raises(InputError, match=text):
         evaluate(case_of(), given)
+
+
+@each(
+    "changes",
+    [
+        {"gear.operation.pinion_torque": 44.0, "gear.operation.bulk_temperature": 333.0},
+        {"gear.operation.pinion_speed": 200.0, "gear.flank_ra": 1e-7},
+        {"gear.operation.load_sharing": "rigid"},
+    ],
+)
+def test_a_changed_pair_is_the_replaced_case(changes):
+    assert changed_pair(case_of(), changes) == case_of().replace(changes)
+
+
+def test_a_wrong_operating_point_has_the_error_of_the_replaced_case():
+    changes = {"gear.operation.pinion_torque": 0.0}
+    with pytest.raises(InputError) as replaced:
+        case_of().replace(changes)
+    with pytest.raises(InputError) as changed:
+        changed_pair(case_of(), changes)
+    assert str(changed.value) == str(replaced.value)

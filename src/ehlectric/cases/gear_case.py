@@ -12,7 +12,7 @@ from pydantic import field_serializer, field_validator, model_validator
 from ehlectric.cases.case_oil import Lubricant
 from ehlectric.cases.defaults import Contacts
 from ehlectric.cases.discharge_inputs import Discharge
-from ehlectric.cases.gear_inputs import Gear
+from ehlectric.cases.gear_inputs import Gear, GearOperation
 from ehlectric.cases.input_ranges import (
     InputRange,
     check_ranges,
@@ -25,7 +25,7 @@ from ehlectric.cases.input_ranges import (
 from ehlectric.cases.key_names import refuse_deep
 from ehlectric.cases.oil_inputs import displace_oil
 from ehlectric.cases.stated_ranges import with_stated_ranges
-from ehlectric.cases.table import CaseFile, Title, with_name_keys
+from ehlectric.cases.table import CaseFile, Title, number_of, with_name_keys
 from ehlectric.cases.table_edits import displace, nested, set_keys
 from ehlectric.errors import InputError
 from ehlectric.quantities.alternatives import ALTERNATIVES
@@ -154,3 +154,30 @@ class GearCase(CaseFile, book="gear_file"):
         set_keys(table, changes)
         drop_ranges(table, changes)
         return self.from_dict(table)
+
+
+# Start of the keys of the operating point, whose rules belong to this table only.
+_OPERATION = "gear.operation."
+
+
+def changed_pair(case: GearCase, changes: Mapping[str, Any]) -> GearCase:
+    """Changed copy of a case as ``replace`` makes it, in a tenth of the time if only numbers of the operating
+    point change. Raises InputError as ``replace`` does.
+    """
+    names = {key.removeprefix(_OPERATION): value for key, value in changes.items() if key in _NUMBERS}
+    if len(names) < len(changes) or case.ranges:
+        return case.replace(changes)
+    operation = case.gear.operation.model_dump(mode="json", exclude_none=True)
+    try:
+        table = GearOperation.from_dict(operation | names)
+    except InputError as error:
+        raise error.under(_OPERATION[:-1]) from None
+    return case.model_copy(update={"gear": case.gear.model_copy(update={"operation": table})})
+
+
+# Numbers of the operating point.
+_NUMBERS = {
+    f"{_OPERATION}{name}"
+    for name, field in GearOperation.known_keys().items()
+    if number_of(field) is not None
+}

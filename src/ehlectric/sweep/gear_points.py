@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -10,10 +11,12 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.bearing import Columns
 from ehlectric.cases.bearing_case import at_index
-from ehlectric.cases.gear_case import GearCase
+from ehlectric.cases.gear_case import GearCase, changed_pair
 from ehlectric.cases.input_keys import input_field
 from ehlectric.errors import InputError
 from ehlectric.gear import gear_summary, gear_warnings, solve_gear_pairs
+from ehlectric.quantities.results import TEXTS_OF_POINTS
+from ehlectric.sweep.points import flat
 from ehlectric.sweep.result import array_of
 from ehlectric.sweep.sweep_inputs import check_varied, stored_value
 
@@ -30,16 +33,35 @@ def gear_columns(case: GearCase, given: Mapping[str, Any], number: int) -> tuple
     columns, cases = Columns(number), dict[int, GearCase]()
     for point in range(number):
         try:
-            cases[point] = quick.replace({key: values[point] for key, values in inputs.items()})
+            cases[point] = changed_pair(quick, {key: values[point] for key, values in inputs.items()})
         except InputError as error:
             columns.reasons[point] = str(error)
+    rows, codes = dict[int, dict[str, Any]](), dict[str, list[int]]()
     for point, solution in zip(cases, solve_gear_pairs(cases.values()), strict=True):
         if isinstance(solution, Exception):
             columns.reasons[point] = str(solution)
             continue
-        codes = ((warning.code, True) for warning in gear_warnings(solution))
-        columns.add(np.array([point]), gear_summary(solution), codes)
+        rows[point] = flat(gear_summary(solution))
+        for warning in gear_warnings(solution):
+            codes.setdefault(warning.code, []).append(point)
+    points = np.array(list(rows), dtype=int)
+    masks = ((code, np.isin(points, some)) for code, some in codes.items())
+    columns.add(points, _columns(list(rows.values())), masks)
     return columns, {key: array_of(values) for key, values in inputs.items()}
+
+
+def _columns(rows: Sequence[Mapping[str, Any]]) -> dict[str, Array]:
+    """Numbers, NaN for none, and texts of rows with equal keys, by key; shape (rows,). Keys without a value
+    are omitted.
+    """
+    columns: dict[str, Array] = {}
+    for key in rows[0] if rows else ():
+        values = [row[key] for row in rows]
+        if key in TEXTS_OF_POINTS:
+            columns[key] = np.array(values, dtype=object)
+        elif any(value is not None for value in values):
+            columns[key] = np.array([math.nan if value is None else value for value in values], dtype=float)
+    return columns
 
 
 def _parsed(key: str, values: Any, case: GearCase) -> list[Any]:
