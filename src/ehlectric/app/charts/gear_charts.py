@@ -2,13 +2,24 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ehlectric.app.charts.plotly_panels import FILM_COLOURS, INK, Plot, axis, plot, scatter, stack, values
+from ehlectric.app.charts.plotly_panels import (
+    FILM_COLOURS,
+    INK,
+    Plot,
+    axis,
+    kept_nodes,
+    plot,
+    scatter,
+    stack,
+    values,
+)
 from ehlectric.arrays import Array
-from ehlectric.figures.data import with_unit
+from ehlectric.figures.data import Area, Curve, Panel, with_unit
 from ehlectric.figures.gear_panels import (
     LAST_COLOUR,
     PHASE_AXIS,
@@ -29,20 +40,47 @@ from ehlectric.readable import readable
 # Distance of the places on a flank that a page receives, in places of its map, and height of the map [px].
 _STEP, _HEIGHT = 4, 560
 
+# Largest number of nodes of a curve along the path of contact.
+_NODES = 121
+
 
 def path_figure(result: GearResult) -> Plot:
     """Radii, speeds, line load and Hertzian pressure over the path of contact."""
-    return _with_points(result, stack(path_axis(result), path_panels(result)))
+    return _with_points(result, stack(path_axis(result), _fewer(path_panels(result))))
 
 
 def film_figure(result: GearResult) -> Plot:
     """Films, height of the highest summits and lambda ratio over the path of contact."""
-    return _with_points(result, stack(path_axis(result), film_panels(result)))
+    return _with_points(result, stack(path_axis(result), _fewer(film_panels(result))))
 
 
 def mesh_figure(result: GearResult) -> Plot:
     """Capacitance, breakdown voltage and time share of contact over a phase of the mesh."""
     return stack(PHASE_AXIS, mesh_panels(result))
+
+
+def _fewer(panels: Iterable[Panel]) -> list[Panel]:
+    """Panels with at most as many evenly spaced nodes as a page shows: every step of a slider sends them."""
+    return [
+        replace(
+            panel,
+            curves=[_fewer_of_curve(curve) for curve in panel.curves],
+            areas=[_fewer_of_area(area) for area in panel.areas],
+        )
+        for panel in panels
+    ]
+
+
+def _fewer_of_curve(curve: Curve) -> Curve:
+    kept = kept_nodes(curve.x.size, _NODES)
+    return replace(curve, x=curve.x[kept], y=curve.y[kept])
+
+
+def _fewer_of_area(area: Area) -> Area:
+    ends = area.ends
+    kept = kept_nodes(area.x.size, _NODES)
+    fewer = None if ends is None else (ends[0][kept], ends[1][kept])
+    return replace(area, x=area.x[kept], within=area.within[kept], ends=fewer)
 
 
 def _with_points(result: GearResult, made: Plot) -> Plot:
@@ -88,8 +126,11 @@ def flank_figure(result: GearResult) -> Plot:
         yaxis=axis("place g on the path of contact [mm]", **ends),
         yaxis2=axis(**ends, **letters, showgrid=False),
         shapes=[
-            {"type": "line", "xref": "paper", "x0": 0, "x1": 1, "y0": place, "y1": place, "line": dots}
-            for place in places[1:-1]
+            *shown.background(),
+            *(
+                {"type": "line", "xref": "paper", "x0": 0, "x1": 1, "y0": at, "y1": at, "line": dots}
+                for at in places[1:-1]
+            ),
         ],
     )
 
@@ -124,22 +165,28 @@ class _Flank:
         bar = {"title": {"text": with_unit("minimum film", self.unit), "side": "right"}}
         about: Plot = self.at | {"type": "heatmap", "hoverongaps": False}
         films = about | {
-            "z": values(self.films, 4),
+            "z": values(self.films, 3),
             "zmin": self.least,
             "zmax": self.most,
             "colorscale": FILM_COLOURS,
             "colorbar": bar | {"thickness": 14, "xpad": 30},
             "hovertemplate": f"{place}<br>film %{{z:,.4~r}} {self.unit}<extra></extra>",
         }
-        without = np.isnan(self.films)
-        if not without.any():
+        if not self.unloaded:
             return [films]
-        grey = {"colorscale": [[0.0, OUT_OF_RANGE], [1.0, OUT_OF_RANGE]], "showscale": False}
-        unloaded = about | grey | {"z": values(np.where(without, 1.0, np.nan))}
-        return [
-            films,
-            unloaded | {"name": "no load", "showlegend": True, "hovertemplate": f"{place}<br>no load"},
-        ]
+        grey = {"color": OUT_OF_RANGE, "symbol": "square", "size": 12}
+        return [films, scatter([np.nan], [np.nan], marker=grey, name="no load")]
+
+    @property
+    def unloaded(self) -> bool:
+        """Whether parts of the flank carry no load."""
+        return bool(np.isnan(self.films).any())
+
+    def background(self) -> list[Plot]:
+        """Grey behind the map, which is seen without a load."""
+        whole = {"type": "rect", "xref": "paper", "x0": 0, "x1": 1, "yref": "paper", "y0": 0, "y1": 1}
+        look = {"fillcolor": OUT_OF_RANGE, "line": {"width": 0}, "layer": "below"}
+        return [whole | look] if self.unloaded else []
 
     def limit(self, name: str) -> list[Plot]:
         """Line on which the film has the height of the highest summits; none if it has it nowhere."""
@@ -148,7 +195,7 @@ class _Flank:
         contours = {"coloring": "none", "start": self.summits, "end": self.summits, "size": 1.0}
         line: Plot = self.at | {
             "type": "contour",
-            "z": values(self.films, 4),
+            "z": values(self.films, 3),
             "contours": contours,
             "autocontour": False,
             "showscale": False,

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +16,7 @@ from ehlectric.app.compute.answer_parts import (
     page_warnings_of,
     with_warnings,
 )
-from ehlectric.app.view_models import Deciding, Figure, Gauge, GearAnswer, Table, limited_to
+from ehlectric.app.view_models import Deciding, Figure, Gauge, GearAnswer, Number, Table, limited_to
 from ehlectric.cases.defaults import HOW, quick_way
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.errors import InputError
@@ -38,6 +39,9 @@ from ehlectric.readable import ratio_text, readable
 from ehlectric.runs.by_kind import run_gear
 from ehlectric.runtime.progress import Progress
 from ehlectric.tables.gear_tables import gear_rows, point_rows
+
+# Numbers that vary with the phase of the mesh.
+_VARIES = ("mesh.breakdown_voltage", "mesh.capacitance")
 
 _MEANINGS = data_file("ehlectric.app", "page_texts.toml")["gear"]["meanings"]
 
@@ -78,7 +82,7 @@ def answer_of(result: GearResult) -> GearAnswer:
         verdict=verdict,
         meaning=meaning_of(verdict),
         how=_how(result),
-        shown=with_warnings(cards(rows, GEAR_CARDS), warnings),
+        shown=with_warnings(_over_pitch(cards(rows, GEAR_CARDS), rows), warnings),
         deciding=deciding(summary, verdict),
         lines=lines_of(rows),
         warnings=warnings,
@@ -89,6 +93,17 @@ def answer_of(result: GearResult) -> GearAnswer:
         points=points_table(summary),
         follows=follows(result),
     )
+
+
+def _over_pitch(numbers: Iterable[Number], rows: Iterable[Row]) -> Iterator[Number]:
+    """Numbers, with the range over one pitch in the notes of those that vary with the phase."""
+    known = {row.key: row for row in rows}
+    for number in numbers:
+        low, high = (known.get(f"{number.key}_{end}") for end in ("low", "high"))
+        if number.key in _VARIES and high is not None:
+            first = number.text if low is None else low.shown
+            number = replace(number, note=f"{first} to {high.amount} over one pitch")
+        yield number
 
 
 def meaning_of(verdict: Verdict) -> str:
