@@ -319,4 +319,4 @@ def test_many_pairs_have_the_numbers_of_single_ones(unloaded):
 
 
 def test_no_pairs_have_no_results():
-    assert solve_gear_pairs([]) == []
+    assert list(solve_gear_pairs([])) == []

@@ -55,6 +55,10 @@ class FilmShape:
     error: Array  # relative error of the central or of the minimum film, the greater one
     known: Mask  # whether the atlas contains the contact
 
+    def some(self, which: slice) -> FilmShape:
+        """Some of the films."""
+        return FilmShape(**{name: values[which] for name, values in vars(self).items()})
+
 
 @dataclass(frozen=True)
 class FilmTable:

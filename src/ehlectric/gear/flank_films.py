@@ -10,12 +10,12 @@ its term of sliding.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
-from functools import partial
+from dataclasses import dataclass, field, fields, replace
+from functools import cache, cached_property, partial
 
 import numpy as np
 
-from ehlectric.arrays import Array, Mask
+from ehlectric.arrays import Array, IntArray, Mask
 from ehlectric.cases.contact_inputs import Body
 from ehlectric.cases.film_inputs import check_thermal_oil, thermal_properties
 from ehlectric.cases.gear_case import GearCase
@@ -75,7 +75,11 @@ class FlankFilms:
     # Whether the atlas contains the contact.
     known: Mask = field(metadata=stored("place", "", "0 or 1", dtype="i1"))
 
-    @property
+    def some(self, which: slice | IntArray) -> FlankFilms:
+        """Some of the films of shape (n,)."""
+        return FlankFilms(**{name: getattr(self, name)[which] for name in _names()})
+
+    @cached_property
     def thinnest(self) -> int:
         """Number of the smallest film, of films of shape (n,)."""
         return int(np.nanargmin(self.minimum))
@@ -84,6 +88,12 @@ class FlankFilms:
     def slide_to_roll_ratio(self) -> Array:
         """Sliding speed divided by the mean speed, dimensionless."""
         return self.sliding_speed / self.mean_speed
+
+
+@cache
+def _names() -> tuple[str, ...]:
+    """Names of the fields of films."""
+    return tuple(each.name for each in fields(FlankFilms))
 
 
 def contacts_of(flanks: Flanks, places: Array, load: Array) -> LineContact:

@@ -80,7 +80,7 @@ def gear_verdict(solution: GearSolution, uncertainty: _Probable | None = None) -
     state = state_of(solution)
     breakdown = solution.breakdown_voltage
     share = solution.loads.mean(solution.contact_time_share())
-    ratio = float(np.nanmin(solution.films.minimum)) / solution.rq
+    ratio = float(solution.films.minimum[solution.thinnest]) / solution.rq
     assumed = tuple(_assumptions(solution))
     given = solution.case.gear.contact.conduction != "by-film"
     of_state = Statement.of(

@@ -17,7 +17,7 @@ _OUTSIDE = 0.1
 def gear_warnings(solution: GearSolution) -> Iterator[ResultWarning]:
     """Warnings about a gear pair, each once."""
     gear, operation = solution.case.gear, solution.case.gear.operation
-    ratio = float(np.nanmin(solution.films.minimum)) / solution.rq
+    ratio = float(solution.films.minimum[solution.thinnest]) / solution.rq
     if isinstance(operation.bulk_temperature, str):
         yield ResultWarning.of("flank-temperature-estimated", celsius=solution.bulk_temperature - 273.15)
     if operation.load_factor == 1.0:

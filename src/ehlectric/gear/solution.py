@@ -31,9 +31,6 @@ from ehlectric.quantities.field_metadata import stored
 # factor by which it may be wrong either way.
 REFERENCE_AREA, AREA_FACTOR = 1e-6, 3.0
 
-# Largest share of time below 1.
-_LARGEST = float(np.nextafter(1.0, 0.0))
-
 
 @dataclass(frozen=True)
 class GearSolution:
@@ -191,9 +188,22 @@ def open_area(loads: LineLoads, films: FlankFilms, rq: float) -> Array:
     ``GearSolution.contact_time_share``. ``rq``, composite roughness over the factor on all films [m].
     """
     ratio = np.where(loads.load > 0.0, films.central / rq, math.inf)
-    # A share that rounds to 1 leaves a patch open for the smallest share that is not 0.
-    share = np.minimum(contact_probability(ratio), _LARGEST)
-    return loads.along(2.0 * films.half_width * np.log1p(-share))
+    closed = -np.exp(np.interp(ratio, _RATIOS, _closed(), right=-math.inf))
+    return loads.along(2.0 * films.half_width * closed)
+
+
+# Lambda ratios at which shares of time are tabulated. Beyond them the share is below 1e-28.
+_RATIOS = np.linspace(0.0, 8.0, 8193)
+
+
+@lru_cache(maxsize=1)
+def _closed() -> Array:
+    """Logarithms of -ln(1 - p(lambda)) at ``_RATIOS``, which are interpolated within 1e-6.
+
+    A share that rounds to 1 leaves a patch open for the smallest share that is not 0.
+    """
+    share = np.minimum(contact_probability(_RATIOS), np.nextafter(1.0, 0.0))
+    return np.log(-np.log1p(-share))
 
 
 @dataclass(frozen=True)

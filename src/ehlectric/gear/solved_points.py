@@ -71,7 +71,7 @@ def solved_correction(case: GearCase, flanks: Flanks, atlas: FlankFilms) -> Corr
     does not converge.
     """
     first = np.unique(np.round(atlas.places / _CLOSE), return_index=True)[1]
-    films = FlankFilms(**{name: values[first] for name, values in vars(atlas).items()})
+    films = atlas.some(first)
     solved = list(_solved(case, flanks, films))
     rows = [
         np.array([each.central for each in solved]) / films.central,

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import islice
 
 import numpy as np
 
@@ -27,7 +29,7 @@ _JUMP = 1e-8
 # Part of the path of contact on both sides of C over which the friction of a film reverses.
 _REVERSAL = 0.05
 
-# Pairs whose films are tabulated together: their arrays fit into the memory.
+# Pairs that are solved together: few enough for the memory, many enough for the time of a call.
 _TOGETHER = 256
 
 
@@ -35,11 +37,17 @@ _TOGETHER = 256
 class _LoadedPair:
     """Gear pair with its loads, before its films are known."""
 
-    number: int  # place in the list of cases
+    number: int  # place in the list of cases that are solved together
     case: GearCase
     at: OperatingPair
     loads: LineLoads
     at_points: Array  # line loads at A to E [N/m], shape (5,)
+
+    @property
+    def contacts(self) -> tuple[Array, Array]:
+        """Places g [m] and line loads [N/m] of all nodes, and of A to E."""
+        points = np.array(list(self.at.plane.path.points.values()))
+        return np.append(self.loads.places, points), np.append(self.loads.load, self.at_points)
 
 
 def solve_gear_pair(case: GearCase) -> GearSolution:
@@ -52,12 +60,19 @@ def solve_gear_pair(case: GearCase) -> GearSolution:
     raise outcome
 
 
-def solve_gear_pairs(cases: Iterable[GearCase], *, unloaded: bool = True) -> list[Outcome]:
-    """Meshes of many gear pairs, or the errors of those that have none, in the order of the cases.
+def solve_gear_pairs(cases: Iterable[GearCase], *, unloaded: bool = True) -> Iterator[Outcome]:
+    """Yield the meshes of many gear pairs, or the errors of those that have none, in the order of the cases.
 
     ``unloaded``, whether the solutions also contain nodes without a load, as ``solve_gear_pair`` gives them;
     no sum over the lines needs them.
     """
+    remaining = iter(cases)
+    while part := list(islice(remaining, _TOGETHER)):
+        yield from _solved_together(part, unloaded=unloaded)
+
+
+def _solved_together(cases: Sequence[GearCase], *, unloaded: bool) -> list[Outcome]:
+    """Results of some pairs, in the order of the cases."""
     outcomes: dict[int, Outcome] = {}
     pairs: list[_LoadedPair] = []
     for number, case in enumerate(cases):
@@ -69,9 +84,8 @@ def solve_gear_pairs(cases: Iterable[GearCase], *, unloaded: bool = True) -> lis
         except InputError as error:
             outcomes[number] = error
     for lubricant, of_oil in _by_lubricant(pairs):
-        for start in range(0, len(of_oil), _TOGETHER):
-            outcomes |= _solved(lubricant, of_oil[start : start + _TOGETHER])
-    return [outcomes[number] for number in sorted(outcomes)]
+        outcomes |= _solved(lubricant, of_oil)
+    return [outcomes[number] for number in range(len(cases))]
 
 
 def _by_lubricant(pairs: Iterable[_LoadedPair]) -> Iterator[tuple[Lubricant, list[_LoadedPair]]]:
@@ -113,27 +127,22 @@ def _solved(lubricant: Lubricant, pairs: Sequence[_LoadedPair]) -> dict[int, Out
 
 
 def _groups(flanks: Flanks, pair: _LoadedPair) -> tuple[float, float, float, float]:
-    """Smallest and greatest M and L of the loaded contacts of a pair."""
-    loaded = pair.loads.load > 0.0
-    contact = contacts_of(flanks, pair.loads.places[loaded], pair.loads.load[loaded])
-    points = contacts_of(flanks, _points(flanks), pair.at_points)
-    most = max(float(np.max(contact.moes_m)), float(np.max(points.moes_m)))
-    return float(np.min(contact.moes_m)), most, float(np.min(points.moes_l)), float(np.max(points.moes_l))
-
-
-def _points(flanks: Flanks) -> Array:
-    """Places g of A to E [m], shape (5,)."""
-    return np.array(list(flanks.path.points.values()))
+    """Smallest and greatest M of the loaded contacts of a pair, and smallest and greatest L."""
+    contact = contacts_of(flanks, *pair.contacts)
+    load, lubricant = np.asarray(contact.moes_m), np.asarray(contact.moes_l)
+    least = np.min(load, where=load > 0.0, initial=math.inf)
+    return float(least), float(np.max(load)), float(np.min(lubricant)), float(np.max(lubricant))
 
 
 def _solution(pair: _LoadedPair, flanks: Flanks, table: FilmTable) -> GearSolution:
     """Films and capacitance of a pair."""
-    case, loads = pair.case, pair.loads
-    by_formula = case.contacts == "formula"
-    films, shape = flank_films(flanks, loads.places, loads.load, table, by_formula=by_formula)
-    at_points, _ = flank_films(flanks, _points(flanks), pair.at_points, table, by_formula=by_formula)
+    case, loads, number = pair.case, pair.loads, pair.loads.load.size
+    both, shape = flank_films(flanks, *pair.contacts, table, by_formula=case.contacts == "formula")
+    films, at_points = both.some(slice(number)), both.some(slice(number, None))
+    capacitance = capacitance_per_length(flanks, both, shape)[:number]
     if case.contacts == "solved":
         films, at_points = _with_solved(pair, flanks, table, films, at_points)
+        capacitance = capacitance_per_length(flanks, films, shape.some(slice(number)))
     return GearSolution(
         case=case,
         pair=pair.at.pair,
@@ -144,7 +153,7 @@ def _solution(pair: _LoadedPair, flanks: Flanks, table: FilmTable) -> GearSoluti
         point_films=at_points,
         bulk_temperature=pair.at.bulk_temperature,
         stiffness=pair.at.stiffness,
-        capacitance_of_lines=capacitance_per_length(flanks, films, shape),
+        capacitance_of_lines=capacitance,
     )
 
 

@@ -78,7 +78,7 @@ def _mesh(solution: GearSolution) -> dict[str, Any]:
     """Film, contact, capacitance and breakdown of the mesh."""
     films, capacitance = solution.films, solution.capacitance
     voltage, strength = solution.breakdown_voltage, solution.strength
-    thinnest = float(np.nanmin(films.minimum))
+    thinnest = float(films.minimum[films.thinnest])
     place, across = weakest(solution)
     loads = solution.loads
     mean = loads.mean(capacitance)

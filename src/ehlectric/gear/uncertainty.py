@@ -272,15 +272,15 @@ class _Meshes:
         """Margin, lambda ratio, breakdown voltage [V] and whether the mesh conducts, at changed inputs and
         factors on the films, shape (n, 4). All are NaN where the pair has no result.
         """
-        rows = np.full((len(changed), 4), math.nan)
-        cases, films = dict(self._cases(changed)), {}
-        solved = [k for k in cases if not all(key.startswith(_NOT_IN_FILMS) for key in changed[k][0])]
-        for k, mesh in zip(solved, solve_gear_pairs([cases[k] for k in solved], unloaded=False), strict=True):
-            films[k] = (mesh.loads, mesh.films) if isinstance(mesh, GearSolution) else None
-        for k, case in cases.items():
-            of_case = films.get(k, self.films)
-            if of_case is not None:
-                rows[k] = _numbers(case, *of_case, changed[k][1] * self.scale)
+        rows, cases = np.full((len(changed), 4), math.nan), dict(self._cases(changed))
+        same = [k for k in cases if all(key.startswith(_NOT_IN_FILMS) for key in changed[k][0])]
+        others = sorted(cases.keys() - set(same))
+        for k in same:
+            rows[k] = _numbers(cases[k], *self.films, changed[k][1] * self.scale)
+        meshes = solve_gear_pairs((cases[k] for k in others), unloaded=False)
+        for k, mesh in zip(others, meshes, strict=True):
+            if isinstance(mesh, GearSolution):
+                rows[k] = _numbers(cases[k], mesh.loads, mesh.films, changed[k][1] * self.scale)
         return rows
 
     def _cases(self, changed: Sequence[tuple[Mapping[str, Any], float]]) -> Iterator[tuple[int, GearCase]]:

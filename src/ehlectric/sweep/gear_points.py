@@ -37,7 +37,7 @@ def gear_columns(case: GearCase, given: Mapping[str, Any], number: int) -> tuple
         except InputError as error:
             columns.reasons[point] = str(error)
     rows, codes = dict[int, dict[str, Any]](), dict[str, list[int]]()
-    for point, solution in zip(cases, solve_gear_pairs(cases.values()), strict=True):
+    for point, solution in zip(cases, solve_gear_pairs(cases.values(), unloaded=False), strict=True):
         if isinstance(solution, Exception):
             columns.reasons[point] = str(solution)
             continue
