@@ -51,8 +51,12 @@ def test_points_are_the_solutions_of_single_pairs(results):
     assert [point.status for point in results.points] == ["solved"] * 8
     for point in results.points[::3]:
         alone = solve_gear(CASE.replace(point.inputs), probable=False).summary()
-        kept = ("gear", "mesh", "points", "warning_codes", "verdict_level")
-        assert {key: point.summary[key] for key in kept} == {key: alone[key] for key in kept}
+        assert point.summary["warning_codes"] == alone["warning_codes"]
+        assert point.summary["verdict_level"] == alone["verdict_level"]
+        for table in ("gear", "mesh"):
+            for key, value in alone[table].items():
+                found = point.summary[table][key]
+                assert found == (pytest.approx(value, rel=1e-8) if isinstance(value, float) else value), key
 
 
 @pytest.mark.slow

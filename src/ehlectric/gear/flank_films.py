@@ -55,6 +55,10 @@ class Flanks:
 _positive = partial(stored, "place", rule="not negative or NaN")
 
 
+# Relative difference of equal films that are interpolated in different tables.
+_ROUNDING = 1e-9
+
+
 @dataclass(frozen=True)
 class FlankFilms:
     """Line contacts at places of the lines of contact; arrays of one shape (...), NaN without a contact."""
@@ -81,8 +85,9 @@ class FlankFilms:
 
     @cached_property
     def thinnest(self) -> int:
-        """Number of the smallest film, of films of shape (n,)."""
-        return int(np.nanargmin(self.minimum))
+        """Number of the smallest film; the first number if films are equal but for rounding."""
+        least = float(np.nanmin(self.minimum))
+        return int(np.argmax(self.minimum <= (1.0 + _ROUNDING) * least))
 
     @property
     def slide_to_roll_ratio(self) -> Array:

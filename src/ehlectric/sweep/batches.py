@@ -1,4 +1,4 @@
-"""Batches of the points of a sweep: bearings with estimated contacts, which are solved together."""
+"""Batches of the points of a sweep: bearings and gear pairs with estimated films, solved together."""
 
 from __future__ import annotations
 
@@ -26,7 +26,10 @@ from ehlectric.bearing import (
     warnings_of_spread,
 )
 from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.gear_case import GearCase
+from ehlectric.cases.solved_case import SolvedCase
 from ehlectric.cases.table import by_table
+from ehlectric.gear import GearResult, solve_gear_pairs
 from ehlectric.quantities.result_warnings import CODES, CODES_OF_TEXTS, TEXTS
 from ehlectric.runtime.files import now
 from ehlectric.runtime.tasks import finished_tasks
@@ -71,19 +74,19 @@ def batches_of(
 ) -> tuple[list[Batch], list[tuple[str, Inputs]]]:
     """Batches of points, given with the keys of their cases and their inputs, and the points in no batch.
 
-    Only bearings with estimated contacts are solved in batches. Each batch has points from the whole range of
-    its group, in random order: the same interpolation tables of the gaps around the films then serve all
-    batches.
+    Only bearings and gear pairs with estimated films are solved in batches. Each batch has points from the
+    whole range of its group, in random order: the same interpolation tables of the gaps around the films then
+    serve all batches.
     """
     batches, others = [], list[tuple[str, Inputs]]()
     samples = sweep.uncertainty_samples
     together = TOGETHER if samples is None else max(1, _SAMPLES_TOGETHER // samples)
-    if not isinstance(sweep.case, BearingCase):
+    if not isinstance(sweep.case, BearingCase | GearCase):
         return [], list(points)
     for group in groups_of(sweep, (inputs for _, inputs in points)):
         case = sweep.case.replace(group.inputs[0])
         count = len(group.places)
-        if count < 2 or not group.quantities or not is_quick(case):
+        if count < 2 or not group.quantities or not _is_quick(case):
             others += [points[place] for place in group.places]
             continue
         columns = {key: np.array([inputs[key] for inputs in group.inputs]) for key in group.quantities}
@@ -93,6 +96,13 @@ def batches_of(
             values = {key: column[some] for key, column in columns.items()}
             batches.append(Batch(keys, case.to_dict(), values, samples))
     return batches, others
+
+
+def _is_quick(case: SolvedCase) -> bool:
+    """Whether the films of a bearing or a gear pair are not solved."""
+    if isinstance(case, GearCase):
+        return case.contacts != "solved"
+    return isinstance(case, BearingCase) and is_quick(case)
 
 
 # Samples of all points of a batch: a few seconds, after which its points are saved.
@@ -136,6 +146,8 @@ def solve_batch(batch: Batch) -> list[Outcome] | None:
 
     Points without a result are solved one by one here, for the reason.
     """
+    if "gear" in batch.table:
+        return _gear_outcomes(batch)
     started = time.perf_counter()
     try:
         case = BearingCase.from_dict(batch.table).with_arrays(batch.values)
@@ -159,6 +171,28 @@ def solve_batch(batch: Batch) -> list[Outcome] | None:
         if place in summaries
         else solve_point(batch.table_of(place), batch.uncertainty_samples)
         for place in range(len(batch.keys))
+    ]
+
+
+def _gear_outcomes(batch: Batch) -> list[Outcome] | None:
+    """Outcomes of the gear pairs of a batch; None where they have to be solved one by one."""
+    started = time.perf_counter()
+    try:
+        cases = [GearCase.from_dict(batch.table_of(place)) for place in range(len(batch.keys))]
+        results = [
+            solution if isinstance(solution, Exception) else GearResult(solution, probable=False).summary()
+            for solution in solve_gear_pairs(cases)
+        ]
+    except Exception:
+        # Alone, each point has its own reason.
+        return None
+    each = (time.perf_counter() - started) / len(batch.keys)
+    about: dict[str, Any] = {"seconds": each, "version": __version__, "date": now()}
+    return [
+        solve_point(batch.table_of(place))
+        if isinstance(result, Exception)
+        else Outcome("solved", "", summary=result | {"seconds": each}, **about)
+        for place, result in enumerate(results)
     ]
 
 
