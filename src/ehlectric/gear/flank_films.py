@@ -85,7 +85,7 @@ class FlankFilms:
 
     @cached_property
     def thinnest(self) -> int:
-        """Number of the smallest film; the first number if films are equal but for rounding."""
+        """Number of the smallest film; the first number if films differ by rounding only."""
         least = float(np.nanmin(self.minimum))
         return int(np.argmax(self.minimum <= (1.0 + _ROUNDING) * least))
 
