@@ -5,7 +5,7 @@ import tomllib
 import pytest
 
 from ehlectric import GearCase, InputError, solve_gear
-from ehlectric.app.compute.gear_answers import meaning_of, quick_answer, solve_pair
+from ehlectric.app.compute.gear_answers import meaning_of, quick_answer, solve_pair, whole_answer
 from ehlectric.app.compute.page_files import uploaded
 from ehlectric.app.compute.sweep_answers import choices
 from ehlectric.app.form_fields import GEAR_GROUPS
@@ -13,6 +13,7 @@ from ehlectric.app.form_fields.field_defaults import default_of
 from ehlectric.app.form_fields.field_rules import Memory, changed
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.frame import GEAR
+from ehlectric.app.view_models import PENDING
 from ehlectric.quantities.sheets import GEAR_CARDS
 from ehlectric.runs.example_files import example_text
 from tests.helpers.each import each
@@ -162,6 +163,19 @@ def test_a_gear_file_is_opened_and_belongs_to_its_page(tmp_path):
     assert Inputs(found.table) == GEAR
     with pytest.raises(InputError, match=r"gear\.teeth"):
         uploaded({"pair.toml": example_text("gear_pair").replace("23, 67", "2, 67").encode()}, tmp_path)
+
+
+@pytest.mark.slow
+def test_the_probability_follows_and_is_that_of_the_result(example):
+    assert not example.whole
+    assert ("probability of breakdown", PENDING) in example.deciding.facts
+    whole = whole_answer(dict(GEAR.changed({"gear.contact.voltage": "0.7 V"}).table))
+    case = GearCase.from_written(GEAR.table).replace({"gear.contact.voltage": "0.7 V"})
+    chance = solve_gear(case).summary()["uncertainty"]["breakdown_probability"]
+    shown = dict(whole.deciding.facts)["probability of breakdown"]
+    assert whole.whole
+    assert float(shown.removesuffix(" %")) == pytest.approx(100.0 * chance, rel=0.05)
+    assert whole.deciding.gauge.interval == whole.verdict.interval
 
 
 @pytest.mark.slow

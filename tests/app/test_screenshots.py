@@ -42,7 +42,7 @@ def drive(page):
 
 
 def gear(page):
-    page.get_by_test_id("number-mesh.margin").wait_for()
+    page.locator("[data-testid=answer][data-whole=true][aria-busy=false]").wait_for()
 
 
 def contact(page):

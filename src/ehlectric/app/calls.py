@@ -71,6 +71,7 @@ DRIVE_SIMULATED: Call[DriveAnswer] = Call("drive_answers.simulate")
 
 # A gear pair.
 GEAR_QUICK: Call[GearAnswer] = Call("gear_answers.quick_answer")
+GEAR_WHOLE: Call[GearAnswer] = Call("gear_answers.whole_answer")
 GEAR_SOLVED: Call[GearAnswer] = Call("gear_answers.solve_pair")
 
 # A contact.

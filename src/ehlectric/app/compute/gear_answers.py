@@ -16,7 +16,16 @@ from ehlectric.app.compute.answer_parts import (
     page_warnings_of,
     with_warnings,
 )
-from ehlectric.app.view_models import Deciding, Figure, Gauge, GearAnswer, Number, Table, limited_to
+from ehlectric.app.view_models import (
+    PENDING,
+    Deciding,
+    Figure,
+    Gauge,
+    GearAnswer,
+    Number,
+    Table,
+    limited_to,
+)
 from ehlectric.cases.defaults import HOW, quick_way
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.errors import InputError
@@ -54,11 +63,17 @@ def gear_case(table: Mapping[str, Any], session: Path | None = None) -> GearCase
 
 
 def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> GearAnswer:
-    """Answer about a gear pair without solved films. Raises InputError if the tables are no valid gear pair,
-    or its gears cannot run together.
+    """Answer about a gear pair without solved films and without its probability of breakdown. Raises
+    InputError if the tables are no valid gear pair, or its gears cannot run together.
     """
     case = gear_case(table, session)
     return answer_of(solve_gear(case.replace({"contacts": quick_way(case.contacts)}), probable=False))
+
+
+def whole_answer(table: Mapping[str, Any], session: Path | None = None) -> GearAnswer:
+    """Answer about a gear pair without solved films; see ``quick_answer``."""
+    case = gear_case(table, session)
+    return answer_of(solve_gear(case.replace({"contacts": quick_way(case.contacts)})))
 
 
 def solve_pair(
@@ -83,11 +98,12 @@ def answer_of(result: GearResult) -> GearAnswer:
         meaning=meaning_of(verdict),
         how=_how(result),
         shown=with_warnings(_over_pitch(cards(rows, GEAR_CARDS), rows), warnings),
-        deciding=deciding(summary, verdict),
+        deciding=deciding(summary, verdict, probable=result.probable),
         lines=lines_of(rows),
         warnings=warnings,
         figures=_figures(result, summary),
         seconds=summary["seconds"],
+        whole=result.probable,
         solved=result.case.contacts == "solved",
         geometry=geometry_table(summary),
         points=points_table(summary),
@@ -123,12 +139,16 @@ def _how(result: GearResult) -> str:
     return f"Films {films}: the minimum film may be {off} % off."
 
 
-# Statement of the verdict that says no more than the margin with its voltages.
-_SAID = ("mesh-voltages",)
+# Statements of the verdict that say no more than the margin with its voltages and its probability.
+_SAID = ("mesh-voltages", "probability", "probability-between")
+
+_PROBABILITY = "uncertainty.breakdown_probability"
 
 
-def deciding(summary: Summary, verdict: Verdict) -> Deciding:
-    """Margin with its interval; without one the breakdown voltage, and the lambda ratio if summits touch."""
+def deciding(summary: Summary, verdict: Verdict, *, probable: bool) -> Deciding:
+    """Margin with its interval, whose probability follows unless the answer is ``probable``; without a margin
+    the breakdown voltage, and the lambda ratio if summits touch.
+    """
     margin, interval = verdict.margin, verdict.interval
     if margin is None or interval is None:
         known = summary["mesh"]["breakdown_voltage"] is not None
@@ -139,6 +159,10 @@ def deciding(summary: Summary, verdict: Verdict) -> Deciding:
         (GEAR_BOOK[key].label, row_of(key, GEAR_BOOK[key], summary["mesh"][key.partition(".")[2]]).amount)
         for key in keys
     ]
+    if not probable:
+        facts.append((GEAR_BOOK[_PROBABILITY].label, PENDING))
+    elif (row := next((row for row in gear_rows(summary) if row.key == _PROBABILITY), None)) is not None:
+        facts.append((row.name, row.amount))
     facts.append(("margin, within what is uncertain", " to ".join(map(ratio_text, interval))))
     gauge = Gauge(gauge_text(margin, facts), margin, interval)
     return Deciding("mesh.margin", tuple(facts), gauge, "film", _SAID)

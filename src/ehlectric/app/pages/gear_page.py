@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import ClassVar
 
 from nicegui import ui
 
-from ehlectric.app.calls import GEAR_QUICK, GEAR_SOLVED
+from ehlectric.app.calls import GEAR_QUICK, GEAR_SOLVED, GEAR_WHOLE
 from ehlectric.app.form_fields import GEAR_GROUPS
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.answer_page import AnswerPage, AnswerView
 from ehlectric.app.pages.frame import GEAR, PATHS
 from ehlectric.app.pages.result_parts import behind, table_html
-from ehlectric.app.view_models import GearAnswer
+from ehlectric.app.view_models import PENDING, GearAnswer
 from ehlectric.quantities.sheets import GEAR_CARDS
 
 
@@ -26,14 +27,29 @@ class GearView(AnswerView[GearAnswer]):
 
     def build(self) -> None:
         """Build the parts of the answer below its numbers."""
+        self._pending: GearAnswer | None = None  # shown answer whose probability follows
         self._points = ui.html("", sanitize=False).props('data-testid="points"')
         self.build_figures(("flank", "mesh", "path"), ("path",))
         self._geometry = ui.html("", sanitize=False).props('data-testid="geometry"')
 
+    def stop(self) -> None:
+        """Show that the probability is not computed, as after a wrong input."""
+        super().stop()
+        if self._pending is not None:
+            facts = tuple(fact for fact in self._pending.deciding.facts if fact[1] != PENDING)
+            deciding = replace(self._pending.deciding, facts=facts)
+            self.tell(replace(self._pending, whole=True, deciding=deciding))
+            self.panel.dim(dimmed=False)
+            self._pending = None
+
     def show(self, answer: GearAnswer) -> None:
         """Show an answer."""
         super().show(answer)
-        self.body.props(f'data-solved="{str(answer.solved).lower()}"')
+        self.body.props["data-solved"] = str(answer.solved).lower()
+        self.body.props["data-whole"] = str(answer.whole).lower()
+        self.body.update()
+        self.panel.dim(dimmed=not answer.whole)
+        self._pending = None if answer.whole else answer
         self.panel.lead("film", answer.figures.get("film"))
         self._points.content = f"<h2>Points of the path of contact</h2>{table_html(answer.points)}"
         self._geometry.content = behind("Geometry that follows from the drawing", table_html(answer.geometry))
@@ -50,7 +66,7 @@ class GearPage(AnswerPage[GearAnswer]):
     elsewhere = ("contacts",)
     short: ClassVar[Mapping[str, str]] = {"mesh.margin": "", "mesh.lambda_ratio": "λ"}
     wait = 0.4
-    quick, solved = GEAR_QUICK, GEAR_SOLVED
+    quick, later, solved = GEAR_QUICK, (GEAR_WHOLE,), GEAR_SOLVED
 
     def build_view(self) -> None:
         """Build the place of the answer."""
