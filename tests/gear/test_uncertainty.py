@@ -74,6 +74,8 @@ def test_points_of_the_design_are_gear_pairs_with_these_inputs():
             film = factor * float(np.nanmin(alone.films.minimum))
             height = alone.case.gear.summit_height * alone.rq
             assert found.lambda_ratios[k] == pytest.approx(film / alone.rq)
+            capacitance = alone.loads.mean(alone.capacitance)
+            assert found.capacitances[k] == pytest.approx(capacitance, rel=1e-6)
             assert found.voltages[k] == pytest.approx(strength[k] * 15e6 * max(film - height, 0.0))
     assert found.margins == pytest.approx(found.voltages / case.gear.contact.voltage)
 

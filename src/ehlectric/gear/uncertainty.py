@@ -32,9 +32,7 @@ from ehlectric.cases.input_keys import is_quantity
 from ehlectric.discharge.breakdown_rule import INTERVAL, Chance
 from ehlectric.discharge.discharge_laws import MOST_MARGIN
 from ehlectric.errors import InputError
-from ehlectric.gear.flank_films import FlankFilms
 from ehlectric.gear.gear_verdict import state_at
-from ehlectric.gear.load_sharing import LineLoads
 from ehlectric.gear.solution import (
     AREA_FACTOR,
     GearSolution,
@@ -47,14 +45,13 @@ from ehlectric.quantities.lubrication_states import CONDUCTS
 from ehlectric.runtime.display import read_only_property
 from ehlectric.runtime.files import plain
 
-# Inputs on which films do not depend, by the start of their keys.
+# Inputs on which films and capacitance do not depend, by the start of their keys.
 _NOT_IN_FILMS = (
     "gear.flank_ra",
     "gear.composite_rq",
     "gear.rq_over_ra",
     "gear.summit_height",
     "gear.contact.",
-    "gear.normal_backlash",
     "discharge.",
 )
 
@@ -77,6 +74,7 @@ class MeshUncertainty(Uncertainty):
     lambda_ratios: Array = field(kw_only=True, repr=False)
     voltages: Array = field(kw_only=True, repr=False)
     conducting: Array = field(kw_only=True, repr=False)
+    capacitances: Array = field(kw_only=True, repr=False)  # mean capacitances without the error of films [F]
 
     @read_only_property
     def chance(self) -> Chance:
@@ -94,7 +92,11 @@ class MeshUncertainty(Uncertainty):
     def summary(self) -> dict[str, Any]:
         """Values as in the table ``uncertainty`` of summary.json, SI units."""
         table = super().summary() | {"conduction_probability": self.conduction_probability}
-        for name, values in (("lambda_ratio", self.lambda_ratios), ("breakdown_voltage", self.voltages)):
+        for name, values in (
+            ("lambda_ratio", self.lambda_ratios),
+            ("breakdown_voltage", self.voltages),
+            ("capacitance", self.capacitances),
+        ):
             ends = np.quantile(values, INTERVAL).tolist()
             table |= {f"{name}_{end}": at for end, at in zip(("low", "median", "high"), ends, strict=True)}
         return dict(plain(table))
@@ -247,6 +249,7 @@ def uncertainty_of(
         lambda_ratios=table[solved, 1],
         voltages=(table[:, 2] * factors)[solved],
         conducting=conducting[solved],
+        capacitances=table[solved, 4],
     )
 
 
@@ -255,32 +258,33 @@ class _Meshes:
     """Meshes of a gear pair at changed inputs, with tabulated films."""
 
     case: GearCase  # case without solved films
-    films: tuple[LineLoads, FlankFilms]  # films of the case
+    mesh: GearSolution  # solution of the case
     scale: float  # smallest film of the solution divided by the smallest film of the case
 
     @classmethod
     def of(cls, solution: GearSolution) -> _Meshes:
         case = solution.case.model_copy(update={"ranges": None})
         if case.contacts != "solved":
-            return cls(case, (solution.loads, solution.films), 1.0)
+            return cls(case, solution, 1.0)
         case = case.replace({"contacts": "atlas"})
         atlas = solve_gear_pair(case)
         scale = float(np.nanmin(solution.films.minimum) / np.nanmin(atlas.films.minimum))
-        return cls(case, (atlas.loads, atlas.films), scale)
+        return cls(case, atlas, scale)
 
     def rows(self, changed: Sequence[tuple[Mapping[str, Any], float]]) -> Array:
-        """Margin, lambda ratio, breakdown voltage [V] and whether the mesh conducts, at changed inputs and
-        factors on the films, shape (n, 4). All are NaN where the pair has no result.
+        """Margin, lambda ratio, breakdown voltage [V], whether the mesh conducts, and mean capacitance [F].
+
+        They are at changed inputs and factors on the films, shape (n, 5), and NaN where a pair has no result.
         """
-        rows, cases = np.full((len(changed), 4), math.nan), dict(self._cases(changed))
+        rows, cases = np.full((len(changed), 5), math.nan), dict(self._cases(changed))
         same = [k for k in cases if all(key.startswith(_NOT_IN_FILMS) for key in changed[k][0])]
         others = sorted(cases.keys() - set(same))
         for k in same:
-            rows[k] = _numbers(cases[k], *self.films, changed[k][1] * self.scale)
+            rows[k] = _numbers(cases[k], self.mesh, changed[k][1] * self.scale)
         meshes = solve_gear_pairs((cases[k] for k in others), unloaded=False)
         for k, mesh in zip(others, meshes, strict=True):
             if isinstance(mesh, GearSolution):
-                rows[k] = _numbers(cases[k], mesh.loads, mesh.films, changed[k][1] * self.scale)
+                rows[k] = _numbers(cases[k], mesh, changed[k][1] * self.scale)
         return rows
 
     def _cases(self, changed: Sequence[tuple[Mapping[str, Any], float]]) -> Iterator[tuple[int, GearCase]]:
@@ -290,12 +294,11 @@ class _Meshes:
                 yield k, self.case.replace(changes)
 
 
-def _numbers(
-    case: GearCase, loads: LineLoads, films: FlankFilms, factor: float
-) -> tuple[float, float, float, float]:
-    """Margin, lambda ratio, breakdown voltage [V] and whether the mesh conducts, with films ``factor`` times
-    as thick.
+def _numbers(case: GearCase, mesh: GearSolution, factor: float) -> tuple[float, float, float, float, float]:
+    """Margin, lambda ratio, breakdown voltage [V], whether the mesh conducts, and mean capacitance [F], with
+    films ``factor`` times as thick; the capacitance has the films of the mesh.
     """
+    loads, films = mesh.loads, mesh.films
     gear, strength, voltage = case.gear, strength_of(case), case.gear.contact.voltage
     assert strength is not None
     assert voltage is not None
@@ -304,4 +307,4 @@ def _numbers(
     conducts = state_at(loads.mean(share), gear.contact.conduction) == CONDUCTS
     breakdown = 0.0 if conducts else strength * max(film - gear.summit_height * gear.rq, 0.0)
     margin = MOST_MARGIN if conducts else breakdown / voltage
-    return margin, film / gear.rq, breakdown, float(conducts)
+    return margin, film / gear.rq, breakdown, float(conducts), loads.mean(mesh.capacitance)
