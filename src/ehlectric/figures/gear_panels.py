@@ -14,6 +14,7 @@ from ehlectric.arrays import Array
 from ehlectric.cases.defaults import HOW
 from ehlectric.figures import contact_findings
 from ehlectric.figures.data import Along, Area, Curve, Panel, Upright
+from ehlectric.formulas.monotone_cubic import MonotoneCubic
 from ehlectric.gear import GearResult, name_of_place, state_of, weakest
 from ehlectric.quantities.formats import amount, operating_point, time_share_text
 from ehlectric.quantities.lubrication_states import CONDUCTS
@@ -39,6 +40,10 @@ _ROOM, _CUT = 1.08, 4.0
 
 # Rows and columns of the map of a flank, and overlap ratio up to which lines are taken as straight along it.
 _ROWS, _COLUMNS = 360, 240
+
+# Number of nodes of a line from which on a curve through them is smoother than straight lines.
+_FEW = 3
+
 _STRAIGHT = 0.1
 
 
@@ -58,7 +63,7 @@ def over_flank(result: GearResult, values: Array) -> tuple[Array, Array, Array]:
     begins, rows = [], []
     for line in loads.lines():
         begins.append(float(loads.places[line][0] - slope * loads.across[line][0]))
-        rows.append(np.interp(along, nodes[line], values[line]))
+        rows.append(_smooth(along, nodes[line], values[line]))
     order = np.argsort(begins)
     begin, of_lines = np.array(begins)[order], np.array(rows)[order]
     target = g[:, np.newaxis] - slope * y
@@ -69,6 +74,19 @@ def over_flank(result: GearResult, values: Array) -> tuple[Array, Array, Array]:
     # Outside of all lines, and next to a single one, the nearest line has the value.
     between = np.where(part == 0.0, before, np.where(part == 1.0, behind, before + part * (behind - before)))
     return g, y, between
+
+
+def _smooth(along: Array, nodes: Array, values: Array) -> Array:
+    """Values of a line at places along it, from values at its nodes by a monotone cubic curve; NaN between
+    nodes of which one has none.
+    """
+    known = ~np.isnan(values)
+    places, first = np.unique(nodes[known], return_index=True)
+    linear = np.interp(along, nodes, values)
+    if places.size < _FEW:
+        return linear
+    curve = MonotoneCubic(places, values[known][first][np.newaxis])
+    return np.where(np.isnan(linear), np.nan, curve(np.clip(along, places[0], places[-1]))[0])
 
 
 @dataclass(frozen=True)
