@@ -178,6 +178,7 @@ def test_the_first_stage_of_an_e_axle():
     )
     solution = solve_gear_pair(case)
     capacitance, voltage = solution.capacitance, solution.breakdown_voltage
+    # The separate program has isothermal films, which are 4.6 % thicker.
     assert solution.loads.mean(capacitance) == pytest.approx(1.592e-9, rel=0.04)
     assert np.ptp(capacitance) / solution.loads.mean(capacitance) == pytest.approx(0.016, abs=0.002)
     assert np.max(voltage) / np.min(voltage) - 1.0 < 4.5e-3
@@ -227,7 +228,8 @@ def test_films_from_the_formula_keep_its_error():
 
 def test_the_example_is_solved_with_its_warnings():
     result = ehlectric.solve_gear(ehlectric.GearCase.from_toml(EXAMPLE))
-    assert [warning.code for warning in result.warnings] == []
+    # The fluid of the library has no measured pressure-viscosity coefficient.
+    assert [warning.code for warning in result.warnings] == ["estimated-alpha"]
     mesh = result.summary()["mesh"]
     # E (h_min - k Rq), with the Rq of two flanks of Rq = sqrt(pi/2) Ra.
     rq = math.sqrt(math.pi / 2.0) * math.sqrt(2.0) * 0.05e-6

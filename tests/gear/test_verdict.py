@@ -91,4 +91,5 @@ def test_warnings_state_what_is_assumed():
         "load-factors-1",
         "relief-unknown",
         "backlash-unknown",
+        "estimated-alpha",
     }

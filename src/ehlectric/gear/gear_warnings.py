@@ -32,6 +32,8 @@ def gear_warnings(solution: GearSolution) -> Iterator[ResultWarning]:
     if solution.pair.normal_backlash is None:
         yield ResultWarning.of("backlash-unknown")
     yield from _outside_atlas(solution)
+    oil = solution.case.lubricant.at(solution.bulk_temperature, "gear.operation.bulk_temperature")
+    yield from oil.warnings(float(np.nanmax(solution.films.max_pressure)))
 
 
 def _outside_atlas(solution: GearSolution) -> Iterator[ResultWarning]:

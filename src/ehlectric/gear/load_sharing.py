@@ -139,6 +139,18 @@ _NODES, _CROWNED = 4, 9
 
 
 @dataclass(frozen=True)
+class OpenPieces:
+    """Pieces of lines of contact that relief and crowning keep apart, arrays of shape (n,)."""
+
+    phase: IntArray  # number of the phase
+    places: Array  # place g of the middle [m]
+    length: Array  # length along the line [m]
+    # Distances of the flanks at both ends of the piece, between which they are nearly linear [m].
+    first_gap: Array
+    last_gap: Array
+
+
+@dataclass(frozen=True)
 class Sharing:
     """Law of the load of a gear pair, with the state of the mesh at each phase."""
 
@@ -255,6 +267,29 @@ class Sharing:
     def state(self) -> Array:
         """Approach delta of the flanks [m], or length of all lines [m], at each phase, shape (p,)."""
         return self._solved[-1]
+
+    @property
+    def opened(self) -> OpenPieces:
+        """Pieces of the lines in which the flanks do not touch: none without relief and crowning."""
+        _, _, (start, end), state = self._solved
+        if self.modification.none:
+            # All flanks touch.
+            start, end = np.zeros_like(start), np.ones_like(end)
+        # Both ends of the pieces before and behind the loaded one; a part without a load is the first piece.
+        last = np.where(start >= 1.0, 1.0, end)
+        at = np.stack([np.zeros_like(start), start, last, np.ones_like(end)], axis=1)
+        gap = np.maximum(self._at(at, np.ones_like(at))[0] - state[self.parts.phase][:, np.newaxis], 0.0)
+        low, width = self.parts.low[:, np.newaxis], self.parts.width[:, np.newaxis]
+        middle = low + 0.5 * width * (at[:, 0::2] + at[:, 1::2])
+        length = width * (at[:, 1::2] - at[:, 0::2]) / math.cos(self.plane.path.base_helix_angle)
+        inside = length > 0.0
+        return OpenPieces(
+            np.broadcast_to(self.parts.phase[:, np.newaxis], inside.shape)[inside],
+            self.parts.places(middle)[inside],
+            length[inside],
+            gap[:, 0::2][inside],
+            gap[:, 1::2][inside],
+        )
 
     def load(self, places: Array, across: Array, state: Array) -> Array:
         """Line loads [N/m] at places g and y [m] and states of the mesh, which broadcast to a shape (...)."""

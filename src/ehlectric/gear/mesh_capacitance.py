@@ -6,7 +6,9 @@ permittivity eps_p under the pressure,
     C' = eps0 (integral of eps_p dx/h over the Hertz zone + eps_r integral of dx/gap before and behind it).
 
 The gap outside the zone is the dry gap plus the film; beyond a few half-widths it is the gap of two circles
-with the radii of curvature of both flanks. The whole gears have more: the flanks at the normal backlash j_n
+with the radii of curvature of both flanks. If relief or crowning keeps the flanks of a line apart, by the
+gap f - delta, C' is the one of cylinders at this gap, eps0 eps_r pi sqrt(2 rho_n/gap), with the film of a
+contact without a load added to the gap. The whole gears have more: the flanks at the normal backlash j_n
 behind each pair, cylinders that approach each other to j_n, have per pair
 
     C_back = eps0 eps_r pi sqrt(2 rho_n/j_n) b/cos beta_b.
@@ -29,6 +31,7 @@ from ehlectric.formulas.dry_means import wedge_beyond, wedge_integral
 from ehlectric.formulas.hertz import line_gap
 from ehlectric.gear.film_table import FilmShape
 from ehlectric.gear.flank_films import FlankFilms, Flanks
+from ehlectric.gear.load_sharing import OpenPieces
 
 # Ends of the domain of the atlas before and behind the contact, over the half-width.
 _ENDS = DEFAULT_ENDS[False]
@@ -97,6 +100,19 @@ def _of_circles(flanks: Flanks, places: Array) -> Array:
     ratio = np.asarray(first / np.abs(second) if concave else np.minimum(first / second, second / first))
     known = _tabulated_circles(concave=concave)
     return np.asarray(np.interp(ratio, _RATIOS[: known.size], known))
+
+
+def open_capacitance(flanks: Flanks, pieces: OpenPieces, film: float, phases: int) -> Array:
+    """Capacitance of lines at which the flanks do not touch at each phase [F], shape (phases,).
+
+    Over a length L between the gaps g_1 and g_2, including the ``film`` [m] of a contact without a load, the
+    mean of 1/sqrt(gap) of a linear gap is 2/(sqrt(g_1) + sqrt(g_2)).
+    """
+    roots = np.sqrt(pieces.first_gap + film) + np.sqrt(pieces.last_gap + film)
+    radius = np.asarray(flanks.path.reduced_radius(pieces.places))
+    mean = 2.0 * np.sqrt(2.0 * radius) / roots
+    each = EPSILON_0 * flanks.oil.relative_permittivity * math.pi * mean * pieces.length
+    return np.asarray(np.bincount(pieces.phase, each, phases), dtype=float)
 
 
 def back_capacitance(

@@ -51,6 +51,8 @@ class GearSolution:
     stiffness: float  # c' of a pair of teeth per face width [N/m^2]
     # Capacitance per length of the lines.
     capacitance_of_lines: Array = field(metadata=stored("node", "F/m", "not negative or NaN"))
+    # Capacitance of the lines at which relief and crowning keep the flanks apart.
+    open_capacitance: Array = field(metadata=stored("phase", "F", "not negative"))
 
     @property
     def path(self) -> ContactPath:
@@ -115,7 +117,8 @@ class GearSolution:
     @property
     def capacitance(self) -> Array:
         """Capacitance of the mesh at each phase, shape (p,) [F], with the flanks behind the working ones."""
-        return self.loads.along(self.capacitance_of_lines) + self.back_capacitance
+        lines = self.loads.along(self.capacitance_of_lines)
+        return np.asarray(lines + self.open_capacitance + self.back_capacitance)
 
     @property
     def back_capacitance(self) -> float:

@@ -16,8 +16,8 @@ from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.gear.film_table import FilmTable, film_tables
 from ehlectric.gear.flank_films import FlankFilms, Flanks, contacts_of, flank_films
 from ehlectric.gear.flank_oil import check_oils, flank_oils
-from ehlectric.gear.load_sharing import SIDES, LineLoads, loads_at_points
-from ehlectric.gear.mesh_capacitance import capacitance_per_length
+from ehlectric.gear.load_sharing import SIDES, LineLoads, OpenPieces, loads_at_points
+from ehlectric.gear.mesh_capacitance import capacitance_per_length, open_capacitance
 from ehlectric.gear.solution import GearSolution, OperatingPair
 
 # Result of a pair, or why it has none.
@@ -42,6 +42,7 @@ class _LoadedPair:
     at: OperatingPair
     loads: LineLoads
     at_points: Array  # line loads at A to E [N/m], shape (5,)
+    opened: OpenPieces  # pieces of the lines at which the flanks do not touch
 
     @property
     def contacts(self) -> tuple[Array, Array]:
@@ -80,7 +81,7 @@ def _solved_together(cases: Sequence[GearCase], *, unloaded: bool) -> list[Outco
             at = OperatingPair.of(case)
             sharing = at.sharing(case.gear)
             loads = sharing.loads(unloaded=unloaded)
-            pairs.append(_LoadedPair(number, case, at, loads, loads_at_points(sharing)))
+            pairs.append(_LoadedPair(number, case, at, loads, loads_at_points(sharing), sharing.opened))
         except InputError as error:
             outcomes[number] = error
     for lubricant, of_oil in _by_lubricant(pairs):
@@ -154,6 +155,9 @@ def _solution(pair: _LoadedPair, flanks: Flanks, table: FilmTable) -> GearSoluti
         bulk_temperature=pair.at.bulk_temperature,
         stiffness=pair.at.stiffness,
         capacitance_of_lines=capacitance,
+        open_capacitance=open_capacitance(
+            flanks, pair.opened, float(np.nanmax(films.central)), loads.phases.size
+        ),
     )
 
 
