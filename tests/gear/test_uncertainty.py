@@ -11,6 +11,7 @@ from ehlectric.formulas.sobol import sobol_points
 from ehlectric.gear import solve_gear
 from ehlectric.gear.solving import solve_gear_pair
 from ehlectric.gear.uncertainty import MeshDesign, changes_of, uncertainty_of
+from ehlectric.tables.gear_tables import gear_rows
 from tests.gear.pairs import case_of
 from tests.helpers.each import each
 
@@ -98,6 +99,25 @@ def test_summits_that_touch_count_as_breakdown():
     assert found.touching == 1.0
     assert found.probability == 1.0
     assert found.summary()["breakdown_voltage_high"] == 0.0
+
+
+@pytest.mark.slow
+@pytest.mark.gate
+def test_a_mesh_without_margins_has_no_rows_about_them():
+    """Ground flanks: each point conducts or touches, so that both probabilities add up to 1."""
+    result = solve_gear(
+        case_of(contact__voltage="5 V", flank_ra="0.3 um", operation__pinion_torque="100 N m")
+    )
+    table = result.summary()["uncertainty"]
+    assert 0.0 < table["conduction_probability"] < 1.0
+    assert table["conduction_probability"] + table["asperity_contact_probability"] == pytest.approx(1.0)
+    assert (table["indices"], table["predicted"]) == ([], None)
+    rows = {row.key: row for row in gear_rows(result.summary()) if row.key.startswith("uncertainty.")}
+    assert [key for key in rows if "indices" in key or "breakdown_probability" in key] == []
+    voltages = [row.value for key, row in rows.items() if "voltage" in key]
+    assert len(voltages) == 1
+    assert isinstance(voltages[0], str)
+    assert "mesh-conducts-in-cases" in {reason.code for reason in result.verdict.reasons}
 
 
 def test_a_result_without_voltage_or_strength_has_no_probability():

@@ -93,3 +93,19 @@ def test_warnings_state_what_is_assumed():
         "backlash-unknown",
         "estimated-alpha",
     }
+
+
+@pytest.mark.parametrize("strength", [None, "15 V/um"])
+def test_touching_summits_come_before_a_missing_strength(strength):
+    """No strength gives a voltage to summits that touch."""
+    changes = {**GROUND, "discharge.dielectric_strength": strength}
+    result, verdict = verdict_of(changes)
+    assert result.summary()["mesh"]["lambda_ratio"] < EXAMPLE.gear.summit_height
+    assert (verdict.level, verdict.code, verdict.answer.code) == ("red", "discharges-likely", "mesh-touching")
+    assumed = {statement.code for statement in verdict.assumptions}
+    assert ("strength" in assumed, "exact-roughness" in assumed) == (False, True)
+
+
+def test_conduction_comes_before_a_missing_strength():
+    _, verdict = verdict_of({**LOADED, "discharge.dielectric_strength": None})
+    assert verdict.code == "mesh-conducts"

@@ -73,8 +73,9 @@ def gear_verdict(solution: GearSolution, uncertainty: _Probable | None = None) -
     """Verdict on a solved gear pair, whose level follows the probability of breakdown if it is known.
 
     Grey without a strength or a voltage between both gears. A mesh that conducts has no voltage to break
-    down. Without a range of the strength, a margin that a change by 20 % or the error of the film takes
-    across 1 is yellow. A mesh that conducts at times is not green, because contacts discharge as they open.
+    down, and no strength gives a voltage to summits that touch: both come before a missing strength. Without
+    a range of the strength, a margin that a change by 20 % or the error of the film takes across 1 is yellow.
+    A mesh that conducts at times is not green, because contacts discharge as they open.
     """
     at = _operating_point(solution)
     state = state_of(solution)
@@ -86,19 +87,21 @@ def gear_verdict(solution: GearSolution, uncertainty: _Probable | None = None) -
     of_state = Statement.of(
         "mesh-state-given" if given else "mesh-state", state=state, share=share, lambda_ratio=ratio
     )
+    probable = tuple(_probability(uncertainty))
     if state == CONDUCTS:
         values = {} if given else {"share": share, "lambda_ratio": ratio}
         answer = Statement.of("mesh-conducts-given" if given else "mesh-conducts", **values)
         of_share = (Fact("mesh.contact_time_share", share),)
-        return replace(no_verdict(answer, code="mesh-conducts"), at=at, assumptions=assumed, facts=of_share)
+        conducting = replace(no_verdict(answer, code="mesh-conducts"), reasons=probable, facts=of_share)
+        return replace(conducting, at=at, assumptions=assumed)
+    if np.nanmin(solution.gap) <= 0.0:
+        chance = None if uncertainty is None else uncertainty.chance
+        return _touching(solution, (of_state, *probable), assumed, chance)
     if breakdown is None:
         return replace(
             no_verdict(Statement.of("no-strength")), at=at, reasons=(of_state,), assumptions=assumed
         )
-    first, probable = float(np.min(breakdown)), tuple(_probability(uncertainty))
-    if not first:
-        chance = None if uncertainty is None else uncertainty.chance
-        return _touching(solution, (of_state, *probable), assumed, chance)
+    first = float(np.min(breakdown))
     margin, voltage = breakdown_margin(solution), solution.case.gear.contact.voltage
     if margin is None or voltage is None:
         answer = Statement.of("mesh-breakdown", breakdown=first)
@@ -167,10 +170,12 @@ def _assumptions(solution: GearSolution) -> Iterator[Statement]:
     """Clauses on what is assumed."""
     operation = solution.case.gear.operation
     yield Statement.of("mesh-film", law=operation.load_sharing, factor=operation.load_factor)
-    if solution.case.discharge.has_strength:
-        stated = {entry.key: (entry.low, entry.high) for entry in solution.case.ranges or ()}
+    touching = np.nanmin(solution.gap) <= 0.0
+    stated = {entry.key: (entry.low, entry.high) for entry in solution.case.ranges or ()}
+    has_strength = solution.case.discharge.has_strength
+    if has_strength and not touching and state_of(solution) != CONDUCTS:
         yield strength_clause(solution.case.discharge, stated.get("discharge.dielectric_strength"))
-        if not {"gear.flank_ra", "gear.composite_rq"} & stated.keys():
-            yield Statement.of("exact-roughness", rq=solution.rq)
+    if (has_strength or touching) and not {"gear.flank_ra", "gear.composite_rq"} & stated.keys():
+        yield Statement.of("exact-roughness", rq=solution.rq)
     if isinstance(operation.bulk_temperature, str):
         yield Statement.of("mesh-bulk", temperature=solution.bulk_temperature)

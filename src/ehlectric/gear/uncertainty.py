@@ -56,6 +56,10 @@ _NOT_IN_FILMS = (
 )
 
 _AREA = "gear.contact.reference_area"
+
+# Share of the points with a breakdown voltage below which the inputs have no shares of the spread: the
+# variance of so few margins is not the variance of the distribution (engineering judgement).
+_LEAST_WITH_MARGIN = 0.05
 _OF_AREA = "engineering judgement: the area of the measurement is known to a factor of 3"
 
 # Reason for which a mesh has no distribution of its margin.
@@ -90,7 +94,9 @@ class MeshUncertainty(Uncertainty):
         return float(np.mean(self.conducting))
 
     def summary(self) -> dict[str, Any]:
-        """Values as in the table ``uncertainty`` of summary.json, SI units."""
+        """Values as in the table ``uncertainty`` of summary.json, SI units. Without margins to spread, the
+        inputs have no shares.
+        """
         table = super().summary() | {"conduction_probability": self.conduction_probability}
         for name, values in (
             ("lambda_ratio", self.lambda_ratios),
@@ -99,6 +105,8 @@ class MeshUncertainty(Uncertainty):
         ):
             ends = np.quantile(values, INTERVAL).tolist()
             table |= {f"{name}_{end}": at for end, at in zip(("low", "median", "high"), ends, strict=True)}
+        if np.mean(self.voltages > 0.0) < _LEAST_WITH_MARGIN:
+            table |= {"indices": [], "predicted": None}
         return dict(plain(table))
 
 
