@@ -13,9 +13,10 @@ from ehlectric.app.form_fields.field_defaults import default_of
 from ehlectric.app.form_fields.field_rules import Memory, changed
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.frame import GEAR
-from ehlectric.app.view_models import PENDING
+from ehlectric.app.view_models import PENDING, WITHOUT_PROBABILITY
 from ehlectric.quantities.sheets import GEAR_CARDS
 from ehlectric.runs.example_files import example_text
+from ehlectric.runs.preview import preview_of
 from tests.helpers.each import each
 
 FIELDS = {field.key: field for group in GEAR_GROUPS for field in group.fields}
@@ -169,6 +170,8 @@ def test_a_gear_file_is_opened_and_belongs_to_its_page(tmp_path):
 def test_the_probability_follows_and_is_that_of_the_result(example):
     assert not example.whole
     assert ("probability of breakdown", PENDING) in example.deciding.facts
+    assert ("margin, within what is uncertain", PENDING) in example.deciding.facts
+    assert example.deciding.gauge.interval is None
     whole = whole_answer(dict(GEAR.changed({"gear.contact.voltage": "0.7 V"}).table))
     case = GearCase.from_written(GEAR.table).replace({"gear.contact.voltage": "0.7 V"})
     chance = solve_gear(case).summary()["uncertainty"]["breakdown_probability"]
@@ -176,6 +179,26 @@ def test_the_probability_follows_and_is_that_of_the_result(example):
     assert whole.whole
     assert float(shown.removesuffix(" %")) == pytest.approx(100.0 * chance, rel=0.05)
     assert whole.deciding.gauge.interval == whole.verdict.interval
+    assert PENDING not in dict(whole.deciding.facts).values()
+    assert WITHOUT_PROBABILITY not in {reason.code for reason in whole.verdict.reasons}
+
+
+@pytest.mark.slow
+@each("changes", [{}, {"gear.flank_ra": ["0.12 um"]}])
+def test_the_page_and_the_commands_give_one_verdict(changes):
+    """The whole answer is the answer of ``gear``, and the answer at once the answer of ``check``, which
+    states that it has no probability of breakdown.
+    """
+    inputs = GEAR.changed(changes)
+    case = GearCase.from_written(inputs.table)
+    whole, first = whole_answer(dict(inputs.table)).verdict, answer(inputs).verdict
+    assert whole.text == solve_gear(case).verdict.text
+    assert first.text == preview_of(case).verdict.text
+    assert first.level == whole.level == "red"
+    stated = [
+        WITHOUT_PROBABILITY in {reason.code for reason in verdict.reasons} for verdict in (first, whole)
+    ]
+    assert stated == [True, False]
 
 
 @pytest.mark.slow

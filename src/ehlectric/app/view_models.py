@@ -566,6 +566,9 @@ class Deciding:
 PENDING = "…"
 RANGE_FOLLOWS = "its range within the stated ranges follows"
 
+# Code of the statement that an answer about a gear pair does not contain its probability of breakdown.
+WITHOUT_PROBABILITY = "mesh-without-probability"
+
 
 @dataclass(frozen=True)
 class Table:

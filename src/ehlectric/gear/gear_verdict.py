@@ -69,9 +69,12 @@ class _Probable(Protocol):
         """Probability that the mesh conducts."""
 
 
-def gear_verdict(solution: GearSolution, uncertainty: _Probable | None = None) -> Verdict:
+def gear_verdict(
+    solution: GearSolution, uncertainty: _Probable | None = None, *, pending: bool = False
+) -> Verdict:
     """Verdict on a solved gear pair, whose level follows the probability of breakdown if it is known.
 
+    ``pending``, whether the mesh has a probability that is not computed; the verdict then states this.
     Grey without a strength or a voltage between both gears. A mesh that conducts has no voltage to break
     down, and no strength gives a voltage to summits that touch: both come before a missing strength. Without
     a range of the strength, a margin that a change by 20 % or the error of the film takes across 1 is yellow.
@@ -88,6 +91,7 @@ def gear_verdict(solution: GearSolution, uncertainty: _Probable | None = None) -
         "mesh-state-given" if given else "mesh-state", state=state, share=share, lambda_ratio=ratio
     )
     probable = tuple(_probability(uncertainty))
+    without = (Statement.of("mesh-without-probability"),) if pending else ()
     if state == CONDUCTS:
         values = {} if given else {"share": share, "lambda_ratio": ratio}
         answer = Statement.of("mesh-conducts-given" if given else "mesh-conducts", **values)
@@ -96,7 +100,7 @@ def gear_verdict(solution: GearSolution, uncertainty: _Probable | None = None) -
         return replace(conducting, at=at, assumptions=assumed)
     if np.nanmin(solution.gap) <= 0.0:
         chance = None if uncertainty is None else uncertainty.chance
-        return _touching(solution, (of_state, *probable), assumed, chance)
+        return _touching(solution, (of_state, *probable, *without), assumed, chance)
     if breakdown is None:
         return replace(
             no_verdict(Statement.of("no-strength")), at=at, reasons=(of_state,), assumptions=assumed
@@ -129,7 +133,7 @@ def gear_verdict(solution: GearSolution, uncertainty: _Probable | None = None) -
         Statement.of("mesh-voltages", voltage=voltage, breakdown=first, margin=margin),
         at,
         facts=facts,
-        reasons=(of_state, *doubts),
+        reasons=(of_state, *doubts, *without),
         assumptions=assumed,
         bound="best",
     )

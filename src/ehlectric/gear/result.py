@@ -67,7 +67,8 @@ class GearResult(Shown):
     @read_only_property
     def verdict(self) -> Verdict:
         """Verdict: the state of the mesh, and whether its film breaks down at the voltage of the case."""
-        return gear_verdict(self.solution, self.uncertainty)
+        pending = not self.probable and has_chance(self.case)
+        return gear_verdict(self.solution, self.uncertainty, pending=pending)
 
     @property
     def uncertainty(self) -> MeshUncertainty | None:

@@ -18,6 +18,7 @@ from ehlectric.app.compute.answer_parts import (
 )
 from ehlectric.app.view_models import (
     PENDING,
+    WITHOUT_PROBABILITY,
     Deciding,
     Figure,
     Gauge,
@@ -140,14 +141,14 @@ def _how(result: GearResult) -> str:
 
 
 # Statements of the verdict that say no more than the margin with its voltages and its probability.
-_SAID = ("mesh-voltages", "probability", "probability-between")
+_SAID = ("mesh-voltages", "probability", "probability-between", WITHOUT_PROBABILITY)
 
 _PROBABILITY = "uncertainty.breakdown_probability"
 
 
 def deciding(summary: Summary, verdict: Verdict, *, probable: bool) -> Deciding:
-    """Margin with its interval, whose probability follows unless the answer is ``probable``; without a margin
-    the breakdown voltage, and the lambda ratio if summits touch.
+    """Margin with its interval and probability, which follow unless the answer is ``probable``; without a
+    margin the breakdown voltage, and the lambda ratio if summits touch.
     """
     margin, interval = verdict.margin, verdict.interval
     if margin is None or interval is None:
@@ -159,11 +160,15 @@ def deciding(summary: Summary, verdict: Verdict, *, probable: bool) -> Deciding:
         (GEAR_BOOK[key].label, row_of(key, GEAR_BOOK[key], summary["mesh"][key.partition(".")[2]]).amount)
         for key in keys
     ]
+    within = PENDING
     if not probable:
+        interval = None
         facts.append((GEAR_BOOK[_PROBABILITY].label, PENDING))
     elif (row := next((row for row in gear_rows(summary) if row.key == _PROBABILITY), None)) is not None:
         facts.append((row.name, row.amount))
-    facts.append(("margin, within what is uncertain", " to ".join(map(ratio_text, interval))))
+    if interval is not None:
+        within = " to ".join(map(ratio_text, interval))
+    facts.append(("margin, within what is uncertain", within))
     gauge = Gauge(gauge_text(margin, facts), margin, interval)
     return Deciding("mesh.margin", tuple(facts), gauge, "film", _SAID)
 

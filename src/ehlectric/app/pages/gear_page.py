@@ -14,7 +14,7 @@ from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.answer_page import AnswerPage, AnswerView
 from ehlectric.app.pages.frame import GEAR, PATHS
 from ehlectric.app.pages.result_parts import behind, table_html
-from ehlectric.app.view_models import PENDING, GearAnswer
+from ehlectric.app.view_models import PENDING, WITHOUT_PROBABILITY, GearAnswer
 from ehlectric.quantities.sheets import GEAR_CARDS
 
 
@@ -37,7 +37,8 @@ class GearView(AnswerView[GearAnswer]):
         super().stop()
         if self._pending is not None:
             facts = tuple(fact for fact in self._pending.deciding.facts if fact[1] != PENDING)
-            deciding = replace(self._pending.deciding, facts=facts)
+            said = tuple(code for code in self._pending.deciding.said if code != WITHOUT_PROBABILITY)
+            deciding = replace(self._pending.deciding, facts=facts, said=said)
             self.tell(replace(self._pending, whole=True, deciding=deciding))
             self.panel.dim(dimmed=False)
             self._pending = None
