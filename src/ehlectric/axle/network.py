@@ -12,23 +12,32 @@ voltage U_r, while the potential of the winding stays:
     C_th = 1/(u' C^-1 u)        Q = C_th (U - U_r)        v+ = v - C^-1 u Q        W = C_th (U^2 - U_r^2)/2
 
 An element that conducts merges its nodes: with T from merged nodes to all nodes, C becomes T'C T.
+
+A link with a resistance adds its conductance to the matrix G. While the voltage of the source rises by V in
+the time t_r,
+
+    C v' + G v = b V/t_r,        v(t_r) = sum over k of phi_k (phi_k'b V/t_r) (1 - exp(-s_k t_r))/s_k
+
+with the modes G phi_k = s_k C phi_k and phi_k'C phi_k = 1. Without conductances this is C^-1 b V.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
+from ehlectric.cases.axle_inputs import HOUSING as HOUSING
 
 Floats = NDArray[np.floating[Any]]
 
-# Name of the node whose potential is 0, and of the node that the source drives.
-HOUSING, WINDING = "housing", "winding"
+# Name of the node that the source drives.
+WINDING = "winding"
 
 
 @dataclass(frozen=True)
@@ -40,6 +49,7 @@ class Film:
     second: str
     capacitance: float  # [F]
     conducts: bool = False
+    conductance: float = 0.0  # [S]
 
 
 @dataclass(frozen=True)
@@ -60,9 +70,10 @@ class Network:
     shafts: tuple[str, ...]
     elements: tuple[Film, ...]
 
-    def potentials(self, edge: float) -> dict[str, float]:
+    def potentials(self, edge: float, rise_time: float = 0.0) -> dict[str, float]:
         """Potentials of the shafts right after an edge of the source [V], which were 0 before.
 
+        ``rise_time`` of the edge [s], in which conductances discharge the shafts; without it they do not.
         Raises ValueError if a shaft has no path of capacitances to the housing.
 
         Examples
@@ -73,7 +84,14 @@ class Network:
         >>> Network(("rotor",), shaft).potentials(300.0)
         {'rotor': 18.75}
         """
-        return self._named(self._spread(np.linalg.solve(self._matrix(), self._charge() * edge)))
+        matrix, charge = self._matrix(), self._charge() * edge
+        if rise_time == 0.0 or not matrix.size:
+            return self._named(self._spread(np.linalg.solve(matrix, charge)))
+        rates, modes = scipy.linalg.eigh(self._assembled(lambda each: each.conductance), matrix)
+        # (1 - exp(-x))/x, which is 1 for x = 0.
+        decay = np.maximum(rates, 0.0) * rise_time
+        remaining = np.where(decay > 0.0, -np.expm1(-decay) / np.where(decay > 0.0, decay, 1.0), 1.0)
+        return self._named(self._spread(modes @ (remaining * (modes.T @ charge))))
 
     def voltage(self, element: Film, potentials: Mapping[str, float]) -> float:
         """Voltage of an element at potentials of the shafts [V]."""
@@ -115,12 +133,17 @@ class Network:
 
     def _matrix(self) -> Array:
         """Capacitances of the groups of shafts [F], shape (groups, groups)."""
-        rows = [(self._incidence(each), each.capacitance) for each in self.elements if not each.conducts]
-        whole = np.sum([value * np.outer(row, row) for row, value in rows], axis=0)
-        merge = self._merge
-        matrix: Array = merge.T @ whole @ merge
+        matrix = self._assembled(lambda each: each.capacitance)
         if matrix.size and np.linalg.matrix_rank(matrix, tol=1e-12 * np.max(np.abs(matrix))) < len(matrix):
             raise ValueError("a shaft has no path of capacitances to the housing")
+        return matrix
+
+    def _assembled(self, value: Callable[[Film], float]) -> Array:
+        """Matrix of a value of all elements between the groups of shafts, shape (groups, groups)."""
+        rows = [(self._incidence(each), value(each)) for each in self.elements if not each.conducts]
+        whole = np.sum([number * np.outer(row, row) for row, number in rows], axis=0)
+        merge = self._merge
+        matrix: Array = merge.T @ whole @ merge
         return matrix
 
     def _charge(self) -> Array:
@@ -139,11 +162,14 @@ class Network:
         return dict(zip(self.shafts, values.tolist(), strict=True))
 
 
-def rank(network: Network, breakdown_voltages: Mapping[str, float], edge: float) -> list[tuple[str, float]]:
+def rank(
+    network: Network, breakdown_voltages: Mapping[str, float], edge: float, rise_time: float = 0.0
+) -> list[tuple[str, float]]:
     """Names of elements with the ratio of their voltage after an edge to their breakdown voltage, the largest
-    first. ``breakdown_voltages`` by the name of the element [V]; ``edge`` of the source [V].
+    first. ``breakdown_voltages`` by the name of the element [V]; ``edge`` of the source [V] and its
+    ``rise_time`` [s].
     """
-    potentials = network.potentials(edge)
+    potentials = network.potentials(edge, rise_time)
     ratios = [
         (each.name, abs(network.voltage(each, potentials)) / breakdown_voltages[each.name])
         for each in network.elements

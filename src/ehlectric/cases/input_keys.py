@@ -60,11 +60,14 @@ def _files() -> Iterator[type[Table]]:
     from ehlectric.cases.drive_case import DriveCase
 
     yield DriveCase
+    from ehlectric.cases.axle_case import AxleCase
+
+    yield AxleCase
 
 
 @cache
 def tables_of_files() -> Mapping[str, type[Table]]:
-    """Tables of case, bearing, gear and drive files by their names in the book of inputs.
+    """Tables of case, bearing, gear, drive and axle files by their names in the book of inputs.
 
     The table of sweep files is in the package sweep.
     """

@@ -29,7 +29,7 @@ REPLACED = {SPEED: "drive.speed", TEMPERATURE: "drive.temperature", "contacts": 
 _REPLACING = {above: key for key, above in REPLACED.items()}
 
 # Tables of the keys that stand in no table.
-_FILES = ("case_file", "bearing_file", "drive_file", "gear_file")
+_FILES = ("case_file", "bearing_file", "drive_file", "gear_file", "axle_file")
 
 # Attributes of an entry that are no fields of ``Input``; ``attributes`` returns them.
 _FURTHER = frozenset(

@@ -1,0 +1,223 @@
+"""Static answer of an axle: loads of all bearings, state of all films, and their voltages after an edge.
+
+The films of bearings and meshes are solved at the speed and the load of the axle, with capacitances as mean
+values over the positions of the rolling elements and over the phase of the mesh. Right after an edge of the
+common-mode voltage the network of capacitances gives the voltage of each element. The element with the
+largest ratio of its voltage to its breakdown voltage breaks down first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal
+
+import numpy as np
+
+from ehlectric.axle.network import HOUSING, WINDING, Film, Network, rank
+from ehlectric.axle.shaft_loads import BearingLoads, ForceAt, bearing_loads, forces_of_mesh
+from ehlectric.bearing import (
+    BearingSolution,
+    breakdown_of,
+    duty_of,
+    shaft_capacitance,
+    solve_bearing,
+)
+from ehlectric.cases.axle_case import AxleCase, Turning
+from ehlectric.cases.axle_inputs import CONDUCTING
+from ehlectric.cases.gear_inputs import Conduction
+from ehlectric.errors import within
+from ehlectric.gear import GearSolution, drawing_of, gear_pair, solve_gear_pair, state_at
+from ehlectric.quantities.lubrication_states import CONDUCTS
+
+# Assumptions about the conduction of gear meshes.
+CONDUCTIONS: tuple[Conduction, ...] = ("by-film", "always", "never")
+
+# Axial forces that are no load of a bearing [N].
+_NO_FORCE = 1e-6
+
+
+@dataclass(frozen=True)
+class Element:
+    """Bearing or gear mesh of an axle, with its film."""
+
+    name: str
+    kind: Literal["bearing", "mesh"]
+    first: str  # shaft
+    second: str  # shaft or housing
+    capacitance: float  # mean capacitance [F]
+    # Voltage at which the film breaks down [V]; None where summits touch, and for ceramic elements.
+    breakdown_voltage: float | None
+    contact_time_share: float  # share of time in which metallic contacts conduct
+    lambda_ratio: float  # smallest film over the composite Rq
+    # Loads of a bearing: radial load, and axial force along z [N]; None for a mesh.
+    radial_load: float | None = None
+    axial_load: float | None = None
+    conduction: Conduction = "by-film"  # of the gear file of a mesh
+
+    @property
+    def state(self) -> str:
+        """State: conducts, conducts at times, or insulates."""
+        return state_at(self.contact_time_share, self.conduction)
+
+    def film(self, conduction: Conduction) -> Film:
+        """Element of the network; ``conduction`` is an assumption about meshes, "by-film" as in its file."""
+        given = self.conduction if self.kind == "bearing" or conduction == "by-film" else conduction
+        conducts = state_at(self.contact_time_share, given) == CONDUCTS
+        return Film(self.name, self.first, self.second, self.capacitance, conducts)
+
+
+@dataclass(frozen=True, eq=False)
+class AxleSolution:
+    """Axle with solved films."""
+
+    case: AxleCase
+    turning: Mapping[str, Turning]  # speeds and torques of the shafts
+    elements: tuple[Element, ...]
+
+    def network(self, conduction: Conduction = "by-film") -> Network:
+        """Network of all elements, links and capacitances of the machine."""
+        case, given = self.case, self.case.circuit.capacitances
+        rotor = case.rotor
+        films = [
+            Film("winding", WINDING, rotor, given["winding_rotor_capacitance"]),
+            Film("rotor and frame", rotor, HOUSING, given["rotor_frame_capacitance"]),
+        ]
+        ring = case.circuit.grounding_ring_resistance
+        if ring is not None:
+            films.append(Film("grounding ring", rotor, HOUSING, 0.0, conductance=1.0 / ring))
+        for shaft in case.shaft:
+            if shaft.housing_capacitance is not None:
+                films.append(Film(f"{shaft.name} and housing", shaft.name, HOUSING, shaft.housing_capacitance))
+        for number, link in enumerate(case.link, 1):
+            films.append(
+                Film(
+                    f"link {number}",
+                    *link.between,
+                    link.capacitance or 0.0,
+                    link.kind in CONDUCTING,
+                    0.0 if link.resistance is None else 1.0 / link.resistance,
+                )
+            )
+        return Network(tuple(shaft.name for shaft in case.shaft), (*films, *self.films(conduction)))
+
+    def films(self, conduction: Conduction = "by-film") -> tuple[Film, ...]:
+        """Bearings and meshes as elements of the network."""
+        return tuple(element.film(conduction) for element in self.elements)
+
+    def potentials(self, conduction: Conduction = "by-film", edge: float | None = None) -> dict[str, float]:
+        """Voltages of the shafts against the housing after an edge [V], by default the edge of the case."""
+        edge = self.case.edge if edge is None else edge
+        return self.network(conduction).potentials(edge, self.case.source.rise_time or 0.0)
+
+    @property
+    def breakdown_voltages(self) -> dict[str, float]:
+        """Breakdown voltages by the names of the elements that have one [V]."""
+        return {
+            element.name: element.breakdown_voltage
+            for element in self.elements
+            if element.breakdown_voltage is not None
+        }
+
+    def ranking(self, conduction: Conduction = "by-film") -> list[tuple[str, float]]:
+        """Names of elements with the ratio U/V_b after the edge of the case, the largest first."""
+        rise_time = self.case.source.rise_time or 0.0
+        return rank(self.network(conduction), self.breakdown_voltages, self.case.edge, rise_time)
+
+    @cached_property
+    def changed_ranks(self) -> tuple[str, ...]:
+        """Names of elements whose rank depends on whether all meshes conduct or none does."""
+        places = [
+            {name: place for place, (name, _) in enumerate(self.ranking(conduction))}
+            for conduction in ("always", "never")
+        ]
+        names = [element.name for element in self.elements]
+        return tuple(name for name in names if places[0].get(name) != places[1].get(name))
+
+
+def shaft_loads(case: AxleCase) -> dict[str, BearingLoads]:
+    """Loads of the bearings of all shafts with gears, in the order of their tables, by the name of the shaft."""
+    turning = case.turning()
+    forces: dict[str, list[ForceAt]] = {}
+    for number, mesh in enumerate(case.mesh):
+        gear = mesh.pair.gear
+        with within("mesh.pair.gear"):
+            pair = gear_pair(drawing_of(gear))
+        torque = case.torque_of_gear(number, turning)
+        both = forces_of_mesh(pair, torque, gear.hand or "right", mesh.direction, (mesh.at[0], mesh.at[1]))
+        for name, force in zip(mesh.gears, both, strict=True):
+            forces.setdefault(name, []).append(force)
+    loads = {}
+    for name, of_shaft in forces.items():
+        first, second = (case.bearing[number].at for number in case.bearings_of(name))
+        loads[name] = bearing_loads(of_shaft, (first, second))
+    return loads
+
+
+def solve_elements(case: AxleCase) -> AxleSolution:
+    """Solve the films of all bearings and meshes of an axle.
+
+    Raises InputError where a bearing cannot carry its load, or gears cannot run together.
+    """
+    turning, loads = case.turning(), shaft_loads(case)
+    names = case.names_of_bearings()
+    elements = []
+    for number, bearing in enumerate(case.bearing):
+        radial, axial = _loads_of(case, number, loads)
+        of_bearing = case.bearing_case(number, turning[bearing.shaft].speed, radial, abs(axial))
+        with case.naming(number):
+            solution = solve_bearing(of_bearing, workers=1).solution
+        given = of_bearing.bearing
+        elements.append(
+            _bearing(names[number], bearing.shaft, solution, given.radial_load, axial or given.axial_load)
+        )
+    for number, mesh in enumerate(case.mesh):
+        with within("mesh.pair"):
+            gears = solve_gear_pair(case.gear_case(number, turning))
+        elements.append(_mesh(f"mesh {' and '.join(mesh.gears)}", mesh.gears, gears))
+    return AxleSolution(case, turning, tuple(elements))
+
+
+def _loads_of(case: AxleCase, number: int, loads: Mapping[str, BearingLoads]) -> tuple[float, float]:
+    """Radial load and axial force of a bearing from the meshes [N]; 0 on a shaft without gears."""
+    bearing = case.bearing[number]
+    if bearing.shaft not in loads:
+        return 0.0, 0.0
+    on_shaft = loads[bearing.shaft]
+    radial = on_shaft.radial[case.bearings_of(bearing.shaft).index(number)]
+    return radial, on_shaft.axial if bearing.locating and abs(on_shaft.axial) > _NO_FORCE else 0.0
+
+
+def _bearing(name: str, shaft: str, solution: BearingSolution, radial: float, axial: float) -> Element:
+    """Element of a solved bearing."""
+    breakdown = breakdown_of(solution)
+    bearing = solution.case.bearing
+    return Element(
+        name=name,
+        kind="bearing",
+        first=shaft,
+        second=HOUSING,
+        capacitance=float(shaft_capacitance(solution)),
+        breakdown_voltage=None if breakdown is None else float(breakdown.shaft_ring_to_ring_breakdown) or None,
+        contact_time_share=float(duty_of(solution).contact_time_share),
+        lambda_ratio=float(solution.least_film / bearing.composite_rq),
+        radial_load=radial,
+        axial_load=axial,
+    )
+
+
+def _mesh(name: str, gears: tuple[str, ...], solution: GearSolution) -> Element:
+    """Element of a solved mesh."""
+    loads, breakdown = solution.loads, solution.breakdown_voltage
+    return Element(
+        name=name,
+        kind="mesh",
+        first=gears[0],
+        second=gears[1],
+        capacitance=float(loads.mean(solution.capacitance)),
+        breakdown_voltage=None if breakdown is None else float(np.min(breakdown)) or None,
+        contact_time_share=float(loads.mean(solution.contact_time_share())),
+        lambda_ratio=float(np.nanmin(solution.films.minimum)) / solution.rq,
+        conduction=solution.case.gear.contact.conduction,
+    )

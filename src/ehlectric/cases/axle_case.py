@@ -1,0 +1,379 @@
+"""Case of an axle: a drive file with shafts that gear meshes connect, read from TOML and written back."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Self
+
+from pydantic import model_validator
+
+from ehlectric.cases.axle_inputs import (
+    HOUSING,
+    AxleMesh,
+    AxleOperation,
+    Link,
+    MountedBearing,
+    Shaft,
+)
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.bearing_kinds import KINDS_OF_BEARINGS
+from ehlectric.cases.case_oil import Lubricant
+from ehlectric.cases.discharge_inputs import Discharge
+from ehlectric.cases.drive_inputs import Circuit, Source
+from ehlectric.cases.gear_case import GearCase
+from ehlectric.cases.key_names import refuse_deep
+from ehlectric.cases.table import CaseFile, Title
+from ehlectric.cases.table_edits import displace, flattened, set_keys
+from ehlectric.errors import InputError, within
+from ehlectric.quantities.alternatives import ALTERNATIVES
+from ehlectric.quantities.formats import amount, operating_point
+from ehlectric.runtime.display import headline
+
+# Relative difference of speeds along two paths that is rounding.
+_ROUNDING = 1e-9
+
+# Keys of the circuit and the source that the static answer does not contain.
+_NOT_OF_AXLES = ("common_mode_inductance", "ground_inductance", "grounding_ring_table")
+
+# Kinds of bearings whose axial load follows from the whole shaft, which is not computed.
+_ADJUSTED = ("angular-contact ball", "tapered roller")
+
+# Load with which the keys of a bearing are checked before its loads are known [N].
+_CHECK_LOAD = 100.0
+
+
+@dataclass(frozen=True)
+class Turning:
+    """Speed of a shaft, and the torque that it gets from the rotor, both about z."""
+
+    speed: float  # [rad/s]
+    torque: float  # [N m]
+
+
+class AxleCase(CaseFile, book="axle_file"):
+    """Axle: inverter, rotor, and shafts that gear meshes connect, with all of their bearings.
+
+    A case is made from a drive file with tables ``[[shaft]]`` by ``from_toml``, or from nested tables by
+    ``from_dict``. Wrong inputs raise an ``InputError`` that names their keys. A case is frozen; ``replace``
+    returns a changed copy. Numbers are in SI units.
+
+    Parameters
+    ----------
+    drive : mapping
+        Speed and torque of the rotor, and temperature of the oil.
+    shaft, bearing, mesh, link : sequence of mapping
+        Shafts; bearings on them; gear meshes between them; rings, couplings and other links.
+    source, circuit : mapping
+        Common-mode voltage; capacitances of the machine.
+    lubricant : Lubricant or mapping
+        Oil of all bearings and meshes.
+    discharge : mapping, optional
+        Dielectric strength and conductivity of the oil.
+    title : str, optional
+        Title of tables and figures.
+    """
+
+    if TYPE_CHECKING:
+
+        def __init__(self, **tables: Any) -> None: ...
+
+    title: Title = ""
+    drive: AxleOperation
+    shaft: tuple[Shaft, ...]
+    bearing: tuple[MountedBearing, ...]
+    mesh: tuple[AxleMesh, ...] = ()
+    link: tuple[Link, ...] = ()
+    source: Source
+    circuit: Circuit
+    lubricant: Lubricant
+    discharge: Discharge = Discharge()
+
+    @classmethod
+    def of_file(cls, table: dict[str, Any], path: Path) -> Self:
+        """Make a case from the tables of the file at a path, with the gear files that its meshes name."""
+        tables = dict(table)
+        if isinstance(tables.get("mesh"), list):
+            tables["mesh"] = [_with_pair(mesh, path.parent) for mesh in tables["mesh"]]
+        return cls.from_written(tables)
+
+    @property
+    def rotor(self) -> str:
+        """Name of the shaft of the rotor."""
+        return next(shaft.name for shaft in self.shaft if shaft.rotor)
+
+    @property
+    def edge(self) -> float:
+        """Largest edge of the common-mode voltage [V]: a third of the voltage of the DC link."""
+        assert self.source.dc_link is not None
+        return self.source.dc_link / 3.0
+
+    def bearings_of(self, shaft: str) -> list[int]:
+        """Return the numbers of the bearings on a shaft, from 0."""
+        return [number for number, bearing in enumerate(self.bearing) if bearing.shaft == shaft]
+
+    def names_of_bearings(self) -> list[str]:
+        """Return names of all bearings: the shaft, and the number on it."""
+        return [
+            f"bearing {self.bearings_of(bearing.shaft).index(number) + 1} of {bearing.shaft}"
+            for number, bearing in enumerate(self.bearing)
+        ]
+
+    def bearing_case(self, number: int, speed: float, radial: float, axial: float) -> BearingCase:
+        """Case of a bearing at a speed [rad/s] and loads [N]."""
+        loads = {"radial_load": radial, "axial_load": axial}
+        operation = {"inner_speed": abs(speed), "temperature": self.drive.temperature}
+        keys = loads | self.bearing[number].keys | operation
+        table = {"contacts": "atlas", "bearing": keys, "lubricant": self.lubricant.model_copy()}
+        with self.naming(number):
+            return BearingCase.from_dict(table | {"discharge": self._discharge()})
+
+    @contextmanager
+    def naming(self, number: int) -> Iterator[None]:
+        """Context in which an error names a bearing."""
+        try:
+            yield
+        except InputError as error:
+            text = f"{error.text} ({self.names_of_bearings()[number]})"
+            raise error.with_text(error.key or "bearing", text) from None
+
+    def gear_case(self, number: int, turning: Mapping[str, Turning]) -> GearCase:
+        """Case of the gear pair of a mesh, at the speeds and torques of all shafts by their names.
+
+        The difference between flanks and oil is the difference in the gear file.
+        """
+        mesh, torque = self.mesh[number], self.torque_of_gear(number, turning)
+        speed = turning[mesh.gears[0]].speed
+        of_file = mesh.pair.gear.operation
+        bulk = of_file.bulk_temperature
+        if not isinstance(bulk, str):
+            bulk += self.drive.temperature - of_file.oil_temperature
+        table = mesh.pair.to_dict()
+        table.pop("ranges", None)
+        table["gear"]["operation"] |= {
+            "pinion_torque": math.copysign(torque, torque * speed),
+            "pinion_speed": abs(speed),
+            "oil_temperature": self.drive.temperature,
+            "bulk_temperature": bulk,
+        }
+        with within("mesh.pair"):
+            return GearCase.from_dict(
+                table | {"lubricant": self.lubricant.model_copy(), "discharge": self._discharge()}
+            )
+
+    def torque_of_gear(self, number: int, turning: Mapping[str, Turning]) -> float:
+        """Return the torque about z with which a shaft turns gear 1 of a mesh [N m]."""
+        mesh = self.mesh[number]
+        first, second = (turning[name].torque for name in mesh.gears)
+        # The gear that is nearer to the rotor has the torque of its shaft; the other shaft gets what is left.
+        return first if _nearer(mesh.gears, turning) else second / _ratio(mesh)
+
+    def turning(self) -> dict[str, Turning]:
+        """Return speeds and torques of all shafts by their names, those nearer to the rotor first.
+
+        A mesh of the ratio u = z_2/z_1 turns gear 2 with -omega_1/u, and gives it the torque -u T_1. Raises
+        InputError for ratios that contradict each other, for a shaft that nothing turns, and for torques
+        that take two paths.
+        """
+        done = {self.rotor: Turning(self.drive.speed, self.drive.torque)}
+        used: set[int] = set()
+        joints = [*self._joints()]
+        for name in _growing(done):
+            further = []
+            for number, (key, first, second, ratio) in enumerate(joints):
+                if number in used or name not in (first, second):
+                    continue
+                used.add(number)
+                other, factor = (second, ratio) if name == first else (first, 1.0 / ratio)
+                speed = done[name].speed / factor
+                if other in done:
+                    raise _second_path(key, other, speed, done[other].speed)
+                further.append(other)
+                done[other] = Turning(speed, factor * done[name].torque)
+            if len(further) > 1:
+                raise InputError.worded(
+                    "mesh.gears",
+                    f"shaft {name!r} drives {' and '.join(further)}; a torque that divides is not computed",
+                )
+        for shaft in self.shaft:
+            if shaft.name not in done:
+                raise InputError.worded(
+                    "shaft.name", f"shaft {shaft.name!r} has no mesh or coupling towards the rotor"
+                )
+        return done
+
+    def _joints(self) -> Iterator[tuple[str, str, str, float]]:
+        """Joints that turn shafts: key, first and second shaft, torque of the second over the first."""
+        for mesh in self.mesh:
+            yield "mesh.gears", mesh.gears[0], mesh.gears[1], -_ratio(mesh)
+        for link in self.link:
+            if link.turns:
+                yield "link.between", link.between[0], link.between[1], 1.0
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        self._check_names()
+        self._check_bearings()
+        for key in _NOT_OF_AXLES:
+            if getattr(self.circuit, key) is not None:
+                raise InputError.worded(f"circuit.{key}", "is not used by an axle")
+        if self.source.dc_link is None:
+            raise InputError.missing("source.dc_link", "a voltage; an axle takes no measured waveform")
+        turning = self.turning()
+        for number in range(len(self.mesh)):
+            self.gear_case(number, turning)
+        for number, bearing in enumerate(self.bearing):
+            needs_axial = "axial_load" in bearing.keys
+            case = self.bearing_case(number, self.drive.speed, _CHECK_LOAD, 0.0)
+            if case.bearing.kind in _ADJUSTED and case.bearing.pair is None and not needs_axial:
+                raise InputError(
+                    "bearing.base",
+                    got=f"a single {case.bearing.kind} bearing",
+                    takes="another kind, or a pair: the axial loads of adjusted bearings are not computed",
+                )
+            if not KINDS_OF_BEARINGS[case.bearing.kind].radial:
+                raise InputError(
+                    "bearing.base", got=f"a {case.bearing.kind} bearing", takes="one that carries radial loads"
+                )
+        return self
+
+    def _check_names(self) -> None:
+        names = [shaft.name for shaft in self.shaft]
+        twice = [name for name, count in Counter(names).items() if count > 1]
+        if twice or HOUSING in names or "" in names:
+            name = twice[0] if twice else HOUSING if HOUSING in names else ""
+            raise InputError("shaft.name", got=repr(name), takes="a name of its own for each shaft")
+        rotors = [shaft.name for shaft in self.shaft if shaft.rotor]
+        if len(rotors) != 1:
+            got = f"{len(rotors)} shafts with rotor = true" if rotors else "no shaft with rotor = true"
+            raise InputError("shaft.rotor", got=got, takes="one: [circuit] acts on it")
+        places = (
+            *(("bearing.shaft", bearing.shaft, False) for bearing in self.bearing),
+            *(("mesh.gears", name, False) for mesh in self.mesh for name in mesh.gears),
+            *(("link.between", name, True) for link in self.link for name in link.between),
+        )
+        for key, name, housing in places:
+            if name not in names and not (housing and name == HOUSING):
+                takes = ", ".join(map(repr, [*names, HOUSING] if housing else names))
+                raise InputError(key, got=repr(name), takes=f"one of {takes}")
+
+    def _check_bearings(self) -> None:
+        """Check that each shaft has two bearings, of which one carries its axial force."""
+        meshing = {name for mesh in self.mesh for name in mesh.gears}
+        helical = {
+            name for mesh in self.mesh if mesh.pair.gear.helix_angle for name in mesh.gears
+        }
+        for shaft in self.shaft:
+            bearings = [self.bearing[number] for number in self.bearings_of(shaft.name)]
+            if not bearings:
+                raise InputError.worded(
+                    "bearing.shaft", f"shaft {shaft.name!r} has no path to the housing; give it two bearings"
+                )
+            if len(bearings) != 2:
+                raise InputError(
+                    "bearing.shaft",
+                    got=f"{len(bearings)} on shaft {shaft.name!r}",
+                    takes="two: the loads of more bearings do not follow from statics",
+                )
+            locating = sum(bearing.locating for bearing in bearings)
+            if locating > 1 or (shaft.name in helical and locating != 1):
+                raise InputError(
+                    "bearing.locating",
+                    got=f"{locating} of the bearings of shaft {shaft.name!r}",
+                    takes="one, which carries the axial force of the helical gears",
+                )
+            if shaft.name in meshing and any(bearing.loaded for bearing in bearings):
+                raise InputError.worded(
+                    "bearing.radial_load", f"shaft {shaft.name!r} has gears, from which its loads follow"
+                )
+            if shaft.name not in meshing and not all(bearing.loaded for bearing in bearings):
+                raise InputError.worded(
+                    "bearing.radial_load", f"missing; shaft {shaft.name!r} has no gears that load its bearings"
+                )
+
+    def _speeds(self, table: dict[str, Any]) -> Iterator[tuple[dict[str, Any], str]]:
+        yield table["drive"], "speed"
+        for mesh in table.get("mesh", ()):
+            yield mesh["pair"]["gear"]["operation"], "pinion_speed"
+
+    def _discharge(self) -> dict[str, Any]:
+        return self.discharge.model_dump(mode="json", exclude_none=True, exclude_defaults=True)
+
+    def _headline(self) -> str:
+        """Title, number of shafts, torque and speed on one line."""
+        count = len(self.shaft)
+        return headline(
+            self.title,
+            "1 shaft" if count == 1 else f"{count} shafts",
+            amount(self.drive.torque, "N m"),
+            *operating_point(self.drive.speed, self.drive.temperature, "degC"),
+        )
+
+    def replace(self, changes: Mapping[str, Any] | None = None, /, **tables: Any) -> Self:
+        """Return a changed copy of the case.
+
+        Parameters
+        ----------
+        changes : mapping, optional
+            New values by dotted key, as in ``{"drive.torque": "-30 N m"}``. The tables of a list are given
+            as a whole, as in ``{"link": []}``.
+        **tables
+            New values by table, as in ``drive={"speed": "6000 rpm"}``.
+        """
+        refuse_deep({**tables, "changes": changes})
+        flat = flattened(tables) | dict(changes or {})
+        table = self.to_dict()
+        if "lubricant.base" in flat or "lubricant" in flat:
+            table["lubricant"] = {}
+        displace(table, flat, {name: ALTERNATIVES[name] for name in ("source", "circuit", "discharge")})
+        set_keys(table, flat)
+        return self.from_dict(table)
+
+
+def _ratio(mesh: AxleMesh) -> float:
+    """Ratio z_2/z_1 of a mesh, negative with a ring."""
+    first, second = mesh.pair.gear.teeth
+    return second / first
+
+
+def _nearer(gears: tuple[str, ...], turning: Mapping[str, Turning]) -> bool:
+    """Whether the shaft of gear 1 is nearer to the rotor: it comes first."""
+    order = list(turning)
+    return order.index(gears[0]) < order.index(gears[1])
+
+
+def _growing(names: Mapping[str, Any]) -> Iterator[str]:
+    """Names of a table that grows while it is read."""
+    number = 0
+    while number < len(names):
+        yield list(names)[number]
+        number += 1
+
+
+def _second_path(key: str, name: str, speed: float, known: float) -> InputError:
+    """Error of a shaft that turns by two paths."""
+    if abs(speed - known) > _ROUNDING * abs(known):
+        return InputError(
+            key,
+            got=f"{amount(speed, 'rad/s')} of shaft {name!r} by this path, and {amount(known, 'rad/s')} by another",
+            takes="ratios that agree",
+        )
+    return InputError.worded(key, f"shaft {name!r} turns by two paths; a torque that divides is not computed")
+
+
+def _with_pair(mesh: Any, folder: Path) -> Any:
+    """Table of a mesh with the tables of the gear file that it names."""
+    if not isinstance(mesh, Mapping) or "file" not in mesh:
+        return mesh
+    name = mesh["file"]
+    if not isinstance(name, str):
+        raise InputError("mesh.file", got=str(name), takes="the path of a gear file")
+    try:
+        pair = GearCase.from_toml(folder / name)
+    except InputError as error:
+        raise error.with_text(f"mesh.file, {error.key}", error.text) from None
+    return {key: value for key, value in mesh.items() if key != "file"} | {"pair": pair}

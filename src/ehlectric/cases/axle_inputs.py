@@ -1,0 +1,135 @@
+"""Tables of an axle in a drive file: operating point, shafts, mounted bearings, gear meshes and links."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Literal, Self
+
+from pydantic import ConfigDict, model_validator
+
+from ehlectric.cases.bearing_inputs import Bearing
+from ehlectric.cases.gear_case import GearCase
+from ehlectric.cases.table import Table
+from ehlectric.errors import InputError, shown
+
+# Name of the node whose potential is 0.
+HOUSING = "housing"
+
+LinkKind = Literal["ring", "brush", "seal", "spline", "coupling", "insulated"]
+
+# Links between two shafts that turn together, and of these the links that conduct.
+TURNING: tuple[LinkKind, ...] = ("spline", "coupling", "insulated")
+CONDUCTING: tuple[LinkKind, ...] = ("spline", "coupling")
+
+# Keys of a bearing that the axle determines.
+_OF_AXLE = ("inner_speed", "temperature")
+
+
+class AxleOperation(Table, book="axle.drive"):
+    """Operating point of an axle: speed and torque of its rotor, and temperature of its oil."""
+
+    speed: float
+    torque: float
+    temperature: float
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        for key in ("speed", "torque"):
+            if getattr(self, key) == 0.0:
+                raise InputError(key, got="0", takes="a value with a sign, about the positive z axis")
+        return self
+
+
+class Shaft(Table, book="axle.shaft"):
+    """Shaft of an axle; all shafts are parallel to z."""
+
+    name: str
+    rotor: bool = False
+    housing_capacitance: float | None = None
+
+
+class MountedBearing(Table, book="axle.bearing"):
+    """Bearing on a shaft, with further keys of the table ``bearing`` of a bearing file."""
+
+    model_config = ConfigDict(extra="allow")
+
+    shaft: str
+    at: float
+    locating: bool = False
+
+    @property
+    def keys(self) -> dict[str, Any]:
+        """Keys of the table ``bearing`` of a bearing file."""
+        return dict(self.__pydantic_extra__ or {})
+
+    @property
+    def loaded(self) -> bool:
+        """Whether the table has a load."""
+        return any(key in self.keys for key in ("radial_load", "axial_load"))
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        for key in self.keys:
+            if key in _OF_AXLE:
+                raise InputError.worded(key, "is a value of the axle; give it in [drive]")
+            if key not in Bearing.known_keys():
+                raise InputError.worded(key, "unknown key; a bearing of an axle has the keys of [bearing]")
+        return self
+
+
+class AxleMesh(Table, book="axle.mesh"):
+    """Gear mesh between two shafts."""
+
+    gears: tuple[str, ...]
+    at: tuple[float, ...]
+    direction: float = 0.0
+    pair: GearCase
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        for key in ("gears", "at"):
+            if len(getattr(self, key)) != 2:
+                raise InputError(key, got=shown(list(getattr(self, key))), takes="two, of gear 1 and of gear 2")
+        if self.gears[0] == self.gears[1]:
+            raise InputError("gears", got=f"{self.gears[0]!r} twice", takes="two different shafts")
+        if self.pair.gear.helix_angle and self.pair.gear.hand is None:
+            raise InputError.worded(
+                "pair.gear.hand", 'missing; "left" or "right" of gear 1 determines the axial force'
+            )
+        return self
+
+
+class Link(Table, book="axle.link"):
+    """Electrical connection between two shafts, or between a shaft and the housing."""
+
+    between: tuple[str, ...]
+    kind: LinkKind
+    resistance: float | None = None
+    capacitance: float | None = None
+
+    @property
+    def turns(self) -> bool:
+        """Whether the link transmits speed and torque from one shaft to the other."""
+        return self.kind in TURNING
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if len(self.between) != 2 or self.between[0] == self.between[1]:
+            raise InputError(
+                "between", got=shown(list(self.between)), takes=f"two shafts, or a shaft and {HOUSING!r}"
+            )
+        if self.turns and HOUSING in self.between:
+            raise InputError("kind", got=f"{self.kind!r} to the housing", takes="'ring', 'brush' or 'seal'")
+        needed = {"insulated": "capacitance"}.get(self.kind, None if self.turns else "resistance")
+        for key in ("resistance", "capacitance"):
+            given = getattr(self, key) is not None
+            if given and key != needed:
+                raise InputError.worded(key, f"is not used by a link of the kind {self.kind!r}")
+            if not given and key == needed:
+                raise InputError.worded(key, f"missing; a link of the kind {self.kind!r} needs it")
+        return self
+
+
+def as_tables(given: Any) -> list[Mapping[str, Any]]:
+    """Tables of a list; the other items are left to the checks of the case."""
+    return [item for item in given if isinstance(item, Mapping)] if isinstance(given, list | tuple) else []
