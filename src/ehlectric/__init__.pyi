@@ -1,7 +1,10 @@
 """Public names of ehlectric."""
 
+from .axle import AxleResult as AxleResult
+from .axle import solve_axle as solve_axle
 from .bearing import BearingResult as BearingResult
 from .bearing import solve_bearing as solve_bearing
+from .cases.axle_case import AxleCase as AxleCase
 from .cases.bearing_case import BearingCase as BearingCase
 from .cases.case import Case as Case
 from .cases.case import LineCase as LineCase

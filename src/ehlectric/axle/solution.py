@@ -8,7 +8,7 @@ largest ratio of its voltage to its breakdown voltage breaks down first.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
@@ -28,8 +28,10 @@ from ehlectric.cases.axle_case import AxleCase, Turning
 from ehlectric.cases.axle_inputs import CONDUCTING
 from ehlectric.cases.gear_inputs import Conduction
 from ehlectric.errors import within
-from ehlectric.gear import GearSolution, drawing_of, gear_pair, solve_gear_pair, state_at
+from ehlectric.gear import GearSolution, drawing_of, gear_pair, gear_warnings, solve_gear_pair, state_at
 from ehlectric.quantities.lubrication_states import CONDUCTS
+from ehlectric.quantities.result_warnings import ResultWarning
+from ehlectric.runtime.progress import Progress, silent
 
 # Assumptions about the conduction of gear meshes.
 CONDUCTIONS: tuple[Conduction, ...] = ("by-film", "always", "never")
@@ -55,6 +57,8 @@ class Element:
     radial_load: float | None = None
     axial_load: float | None = None
     conduction: Conduction = "by-film"  # of the gear file of a mesh
+    # Whether summits touch, so that no breakdown voltage is computed.
+    touching: bool = False
 
     @property
     def state(self) -> str:
@@ -75,6 +79,7 @@ class AxleSolution:
     case: AxleCase
     turning: Mapping[str, Turning]  # speeds and torques of the shafts
     elements: tuple[Element, ...]
+    warnings: tuple[ResultWarning, ...] = ()  # of bearings and meshes, each with the name of its element
 
     def network(self, conduction: Conduction = "by-film") -> Network:
         """Network of all elements, links and capacitances of the machine."""
@@ -89,12 +94,15 @@ class AxleSolution:
             films.append(Film("grounding ring", rotor, HOUSING, 0.0, conductance=1.0 / ring))
         for shaft in case.shaft:
             if shaft.housing_capacitance is not None:
-                films.append(Film(f"{shaft.name} and housing", shaft.name, HOUSING, shaft.housing_capacitance))
+                films.append(
+                    Film(f"{shaft.name} and housing", shaft.name, HOUSING, shaft.housing_capacitance)
+                )
         for number, link in enumerate(case.link, 1):
             films.append(
                 Film(
                     f"link {number}",
-                    *link.between,
+                    link.between[0],
+                    link.between[1],
                     link.capacitance or 0.0,
                     link.kind in CONDUCTING,
                     0.0 if link.resistance is None else 1.0 / link.resistance,
@@ -127,17 +135,17 @@ class AxleSolution:
 
     @cached_property
     def changed_ranks(self) -> tuple[str, ...]:
-        """Names of elements whose rank depends on whether all meshes conduct or none does."""
-        places = [
-            {name: place for place, (name, _) in enumerate(self.ranking(conduction))}
-            for conduction in ("always", "never")
-        ]
-        names = [element.name for element in self.elements]
-        return tuple(name for name in names if places[0].get(name) != places[1].get(name))
+        """Names of elements whose rank depends on whether all meshes conduct or none does, among the elements
+        that insulate in both cases.
+        """
+        always, never = ([name for name, _ in self.ranking(conduction)] for conduction in ("always", "never"))
+        first = [name for name in always if name in never]
+        second = [name for name in never if name in always]
+        return tuple(name for name in second if first.index(name) != second.index(name))
 
 
 def shaft_loads(case: AxleCase) -> dict[str, BearingLoads]:
-    """Loads of the bearings of all shafts with gears, in the order of their tables, by the name of the shaft."""
+    """Loads of the bearings of each shaft with gears, by the name of the shaft."""
     turning = case.turning()
     forces: dict[str, list[ForceAt]] = {}
     for number, mesh in enumerate(case.mesh):
@@ -155,28 +163,53 @@ def shaft_loads(case: AxleCase) -> dict[str, BearingLoads]:
     return loads
 
 
-def solve_elements(case: AxleCase) -> AxleSolution:
+def solve_elements(case: AxleCase, progress: Progress = silent) -> AxleSolution:
     """Solve the films of all bearings and meshes of an axle.
 
-    Raises InputError where a bearing cannot carry its load, or gears cannot run together.
+    ``progress`` is called with the number of solved elements, the number of all, and a text. Raises
+    InputError where a bearing cannot carry its load, or gears cannot run together.
     """
     turning, loads = case.turning(), shaft_loads(case)
     names = case.names_of_bearings()
-    elements = []
+    elements: list[Element] = []
+    warnings: list[tuple[str, tuple[ResultWarning, ...]]] = []
+    count = len(case.bearing) + len(case.mesh)
     for number, bearing in enumerate(case.bearing):
         radial, axial = _loads_of(case, number, loads)
         of_bearing = case.bearing_case(number, turning[bearing.shaft].speed, radial, abs(axial))
         with case.naming(number):
-            solution = solve_bearing(of_bearing, workers=1).solution
+            result = solve_bearing(of_bearing, workers=1)
+        warnings.append((names[number], result.warnings))
         given = of_bearing.bearing
         elements.append(
-            _bearing(names[number], bearing.shaft, solution, given.radial_load, axial or given.axial_load)
+            _bearing(
+                names[number], bearing.shaft, result.solution, given.radial_load, axial or given.axial_load
+            )
         )
+        progress(len(elements), count, names[number])
     for number, mesh in enumerate(case.mesh):
         with within("mesh.pair"):
             gears = solve_gear_pair(case.gear_case(number, turning))
-        elements.append(_mesh(f"mesh {' and '.join(mesh.gears)}", mesh.gears, gears))
-    return AxleSolution(case, turning, tuple(elements))
+        name = f"mesh of {' and '.join(mesh.gears)}"
+        elements.append(_mesh(name, mesh.gears, gears))
+        warnings.append((name, tuple(gear_warnings(gears))))
+        progress(len(elements), count, name)
+    return AxleSolution(case, turning, tuple(elements), tuple(_named(warnings)))
+
+
+def _named(warnings: Iterable[tuple[str, Iterable[ResultWarning]]]) -> Iterator[ResultWarning]:
+    """Warnings with the names of their elements: each code once, with the text of the first element."""
+    first: dict[str, ResultWarning] = {}
+    names: dict[str, list[str]] = {}
+    for name, of_element in warnings:
+        for warning in of_element:
+            first.setdefault(warning.code, warning)
+            if name not in names.setdefault(warning.code, []):
+                names[warning.code].append(name)
+    for code, warning in first.items():
+        name, *others = names[code]
+        further = f" The same holds for {', '.join(others)}, with other numbers." if others else ""
+        yield ResultWarning(warning.code, f"{name}: {warning}{further}")
 
 
 def _loads_of(case: AxleCase, number: int, loads: Mapping[str, BearingLoads]) -> tuple[float, float]:
@@ -196,10 +229,13 @@ def _bearing(name: str, shaft: str, solution: BearingSolution, radial: float, ax
     return Element(
         name=name,
         kind="bearing",
+        touching=breakdown is None and not solution.conditions.ceramic,
         first=shaft,
         second=HOUSING,
         capacitance=float(shaft_capacitance(solution)),
-        breakdown_voltage=None if breakdown is None else float(breakdown.shaft_ring_to_ring_breakdown) or None,
+        breakdown_voltage=None
+        if breakdown is None
+        else float(breakdown.shaft_ring_to_ring_breakdown) or None,
         contact_time_share=float(duty_of(solution).contact_time_share),
         lambda_ratio=float(solution.least_film / bearing.composite_rq),
         radial_load=radial,
@@ -213,6 +249,7 @@ def _mesh(name: str, gears: tuple[str, ...], solution: GearSolution) -> Element:
     return Element(
         name=name,
         kind="mesh",
+        touching=breakdown is not None and not np.min(breakdown),
         first=gears[0],
         second=gears[1],
         capacitance=float(loads.mean(solution.capacitance)),

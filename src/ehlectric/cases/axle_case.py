@@ -31,7 +31,7 @@ from ehlectric.cases.table import CaseFile, Title
 from ehlectric.cases.table_edits import displace, flattened, set_keys
 from ehlectric.errors import InputError, within
 from ehlectric.quantities.alternatives import ALTERNATIVES
-from ehlectric.quantities.formats import amount, operating_point
+from ehlectric.quantities.formats import amount, operating_point, speed_text
 from ehlectric.runtime.display import headline
 
 # Relative difference of speeds along two paths that is rounding.
@@ -181,6 +181,7 @@ class AxleCase(CaseFile, book="axle_file"):
         """
         done = {self.rotor: Turning(self.drive.speed, self.drive.torque)}
         used: set[int] = set()
+        divided: list[str] = []
         joints = [*self._joints()]
         for name in _growing(done):
             further = []
@@ -195,10 +196,9 @@ class AxleCase(CaseFile, book="axle_file"):
                 further.append(other)
                 done[other] = Turning(speed, factor * done[name].torque)
             if len(further) > 1:
-                raise InputError.worded(
-                    "mesh.gears",
-                    f"shaft {name!r} drives {' and '.join(further)}; a torque that divides is not computed",
-                )
+                divided.append(f"shaft {name!r} drives {' and '.join(further)}")
+        if divided:
+            raise InputError.worded("mesh.gears", f"{divided[0]}; a torque that divides is not computed")
         for shaft in self.shaft:
             if shaft.name not in done:
                 raise InputError.worded(
@@ -224,6 +224,7 @@ class AxleCase(CaseFile, book="axle_file"):
         if self.source.dc_link is None:
             raise InputError.missing("source.dc_link", "a voltage; an axle takes no measured waveform")
         turning = self.turning()
+        self._check_loads()
         for number in range(len(self.mesh)):
             self.gear_case(number, turning)
         for number, bearing in enumerate(self.bearing):
@@ -237,7 +238,9 @@ class AxleCase(CaseFile, book="axle_file"):
                 )
             if not KINDS_OF_BEARINGS[case.bearing.kind].radial:
                 raise InputError(
-                    "bearing.base", got=f"a {case.bearing.kind} bearing", takes="one that carries radial loads"
+                    "bearing.base",
+                    got=f"a {case.bearing.kind} bearing",
+                    takes="one that carries radial loads",
                 )
         return self
 
@@ -263,10 +266,7 @@ class AxleCase(CaseFile, book="axle_file"):
 
     def _check_bearings(self) -> None:
         """Check that each shaft has two bearings, of which one carries its axial force."""
-        meshing = {name for mesh in self.mesh for name in mesh.gears}
-        helical = {
-            name for mesh in self.mesh if mesh.pair.gear.helix_angle for name in mesh.gears
-        }
+        helical = {name for mesh in self.mesh if mesh.pair.gear.helix_angle for name in mesh.gears}
         for shaft in self.shaft:
             bearings = [self.bearing[number] for number in self.bearings_of(shaft.name)]
             if not bearings:
@@ -286,13 +286,20 @@ class AxleCase(CaseFile, book="axle_file"):
                     got=f"{locating} of the bearings of shaft {shaft.name!r}",
                     takes="one, which carries the axial force of the helical gears",
                 )
+
+    def _check_loads(self) -> None:
+        """Check that bearings of shafts with gears have no load, and all others have one."""
+        meshing = {name for mesh in self.mesh for name in mesh.gears}
+        for shaft in self.shaft:
+            bearings = [self.bearing[number] for number in self.bearings_of(shaft.name)]
             if shaft.name in meshing and any(bearing.loaded for bearing in bearings):
                 raise InputError.worded(
                     "bearing.radial_load", f"shaft {shaft.name!r} has gears, from which its loads follow"
                 )
             if shaft.name not in meshing and not all(bearing.loaded for bearing in bearings):
                 raise InputError.worded(
-                    "bearing.radial_load", f"missing; shaft {shaft.name!r} has no gears that load its bearings"
+                    "bearing.radial_load",
+                    f"missing; shaft {shaft.name!r} has no gears that load its bearings",
                 )
 
     def _speeds(self, table: dict[str, Any]) -> Iterator[tuple[dict[str, Any], str]]:
@@ -359,7 +366,7 @@ def _second_path(key: str, name: str, speed: float, known: float) -> InputError:
     if abs(speed - known) > _ROUNDING * abs(known):
         return InputError(
             key,
-            got=f"{amount(speed, 'rad/s')} of shaft {name!r} by this path, and {amount(known, 'rad/s')} by another",
+            got=f"{speed_text(speed)} of shaft {name!r} by this path, and {speed_text(known)} by another",
             takes="ratios that agree",
         )
     return InputError.worded(key, f"shaft {name!r} turns by two paths; a torque that divides is not computed")

@@ -89,7 +89,9 @@ class AxleMesh(Table, book="axle.mesh"):
     def _check(self) -> Self:
         for key in ("gears", "at"):
             if len(getattr(self, key)) != 2:
-                raise InputError(key, got=shown(list(getattr(self, key))), takes="two, of gear 1 and of gear 2")
+                raise InputError(
+                    key, got=shown(list(getattr(self, key))), takes="two, of gear 1 and of gear 2"
+                )
         if self.gears[0] == self.gears[1]:
             raise InputError("gears", got=f"{self.gears[0]!r} twice", takes="two different shafts")
         if self.pair.gear.helix_angle and self.pair.gear.hand is None:

@@ -56,7 +56,7 @@ def check(file: Path, quiet: bool = False, as_json: bool = False) -> None:
         from ehlectric.runs.file_kinds import expect
         from ehlectric.runs.preview import preview_of
 
-        checked = expect(file, "contact", "motion", "bearing", "drive", "gear", "sweep")
+        checked = expect(file, "contact", "motion", "bearing", "drive", "gear", "axle", "sweep")
         preview = preview_of(by_kind.RUNS[checked.kind].read(checked))
     if as_json:
         typer.echo(json.dumps(preview.summary, indent=2))
@@ -341,6 +341,10 @@ def drive(
     remedy of the file. With the table [duty] in the file, duty.csv and a figure have the expected discharges
     over the time of a duty cycle.
 
+    A file with tables [[shaft]] is an axle, which is not simulated. Its files are summary.json, elements.csv
+    and shafts.csv with the voltages of all bearings, gear meshes and shafts right after an edge, and a
+    figure.
+
     The folder then holds only this result: files of an earlier result are removed, other files stay. A
     folder with a sweep or with moving roughness is refused.
 
@@ -355,11 +359,13 @@ def drive(
             from ehlectric.runs.file_kinds import expect
             from ehlectric.runtime.folders import RESULT_LOCK, alone_in
 
-            case = by_kind.read_drive(expect(drive_file, "drive"))
+            file = expect(drive_file, "drive", "axle")
+            kind, case = by_kind.RUNS[file.kind], by_kind.RUNS[file.kind].read(file)
             folder = locked.enter_context(alone_in(output, locks=[RESULT_LOCK]))
             with progress_bar(shown=not quiet) as progress:
-                outcome = by_kind.run_drive(case, folder, progress, contacts=contacts)
-        _print_and_draw(outcome, _drive_tables, folder, look if plots else None, quiet=quiet, as_json=as_json)
+                outcome = kind.run(case, folder, progress, contacts=contacts)
+        tables = _axle_tables if file.kind == "axle" else _drive_tables
+        _print_and_draw(outcome, tables, folder, look if plots else None, quiet=quiet, as_json=as_json)
 
 
 def _drive_tables(outcome: RunOutcome[object]) -> Iterator[Table]:
@@ -371,6 +377,14 @@ def _drive_tables(outcome: RunOutcome[object]) -> Iterator[Table]:
     yield ends_table(outcome.summary)
     if outcome.summary["remedies"]:
         yield remedies_table(outcome.summary)
+
+
+def _axle_tables(outcome: RunOutcome[object]) -> Iterator[Table]:
+    """Tables of an axle: its bearings and meshes, and its shafts."""
+    from ehlectric.tables.axle_tables import elements_table, shafts_table
+
+    yield elements_table(outcome.summary)
+    yield shafts_table(outcome.summary)
 
 
 @command("gear")

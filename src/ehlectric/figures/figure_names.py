@@ -89,6 +89,9 @@ DRIVE_FIGURE_FILES = (
 GEAR_FLANK_FIGURE = "gear_flank.png"
 GEAR_FIGURE_FILES = ("gear_path.png", "gear_film.png", GEAR_FLANK_FIGURE, "gear_mesh.png")
 
+# Figure of an axle: voltage of each element over its breakdown voltage.
+AXLE_FIGURE = "axle_elements.png"
+
 # Figures of an oil.
 OIL_FIGURE_FILES = ("oil_over_pressure.png", "oil_over_temperature.png")
 

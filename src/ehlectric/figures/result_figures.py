@@ -28,6 +28,7 @@ from ehlectric.runtime.undrawn import Drawn
 if TYPE_CHECKING:
     import xarray as xr
 
+    from ehlectric.axle import AxleResult
     from ehlectric.bearing import BearingResult
     from ehlectric.cases.film_factors import FilmFactors
     from ehlectric.contact import PointResult, Result
@@ -42,6 +43,7 @@ if TYPE_CHECKING:
         | BearingResult
         | DriveResult
         | GearResult
+        | AxleResult
         | xr.Dataset
         | MotionRun
         | SweepResults
@@ -256,6 +258,13 @@ def _of_gears() -> _Draws:
     return _Draws(gear.figure, lambda _: GEAR_FIGURE_FILES, _without_options(lambda _: GEAR_FLANK_FIGURE))
 
 
+def _of_axles() -> _Draws:
+    from ehlectric.figures import axle_figures as axle
+    from ehlectric.figures.figure_names import AXLE_FIGURE
+
+    return _Draws(axle.figure, lambda _: [AXLE_FIGURE], _without_options(lambda _: AXLE_FIGURE))
+
+
 def _of_measurements() -> _Draws:
     from ehlectric.figures import measured_figures as measured
 
@@ -294,6 +303,7 @@ _KINDS: Mapping[ResultKind | Literal["dataset"], Callable[[], _Draws]] = Mapping
         "bearing": _of_bearings,
         "drive": _of_drives,
         "gear": _of_gears,
+        "axle": _of_axles,
         "motion": _of_motions,
         "dataset": _of_datasets,
         "sweep": _of_sweeps,

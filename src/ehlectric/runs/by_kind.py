@@ -21,7 +21,9 @@ from ehlectric.runtime.undrawn import Drawn, kept_going
 if TYPE_CHECKING:
     import xarray as xr
 
+    from ehlectric.axle import AxleResult
     from ehlectric.bearing import BearingResult
+    from ehlectric.cases.axle_case import AxleCase
     from ehlectric.cases.bearing_case import BearingCase
     from ehlectric.cases.case import Case
     from ehlectric.cases.drive_case import DriveCase
@@ -110,6 +112,13 @@ def read_gear(file: InputFile) -> GearCase:
     from ehlectric.cases.gear_case import GearCase
 
     return GearCase.of_file(file.table, file.path)
+
+
+def read_axle(file: InputFile) -> AxleCase:
+    """Case of an axle."""
+    from ehlectric.cases.axle_case import AxleCase
+
+    return AxleCase.of_file(file.table, file.path)
 
 
 def read_sweep(file: InputFile) -> Sweep:
@@ -250,6 +259,19 @@ def run_gear(
         return solve_to_folder(case, folder, progress, others=files_of_results(folder))
 
 
+def run_axle(
+    case: AxleCase, folder: str | Path, progress: Progress = silent, *, contacts: str = ""
+) -> RunOutcome[AxleResult]:
+    """Solve an axle, and write its results. ``contacts`` other than "atlas" is refused."""
+    from ehlectric.axle import solve_to_folder
+
+    if contacts not in ("", "atlas"):
+        raise InputError("--contacts", got=f"{shown(contacts)} for an axle", takes="'atlas'")
+    with alone_in(folder, locks=[RESULT_LOCK]) as folder:
+        protect(folder)
+        return solve_to_folder(case, folder, progress, others=files_of_results(folder))
+
+
 def _with_factors(outcome: RunOutcome[R], factors: FilmFactors | None) -> RunOutcome[R]:
     """Outcome of a run, with the film factors of a measurement next to its result if there are any."""
     if factors is None:
@@ -290,6 +312,7 @@ RUNS: Mapping[FileKind, Kind] = MappingProxyType(
         "bearing": Kind(read_bearing, run_bearing),
         "drive": Kind(read_drive, run_drive),
         "gear": Kind(read_gear, run_gear),
+        "axle": Kind(read_axle, run_axle),
         "sweep": Kind(read_sweep, run_sweep),
     }
 )

@@ -1,6 +1,7 @@
 """Kinds of files: how each is recognised, and the message for a file given to the wrong command.
 
-The kinds are the cases of a contact, with or without motion, bearing files, drive files and sweep files.
+The kinds are the cases of a contact, with or without motion, bearing files, drive files with or without the
+shafts of an axle, gear files and sweep files.
 Results are recognised by the first bytes of their files, so that their names do not matter.
 """
 
@@ -18,7 +19,7 @@ from ehlectric.cases.table import read_toml, tables_of_text
 from ehlectric.errors import InputError
 from ehlectric.runtime.reading import read_text
 
-FileKind = Literal["contact", "motion", "bearing", "drive", "gear", "sweep"]
+FileKind = Literal["contact", "motion", "bearing", "drive", "gear", "axle", "sweep"]
 
 # Tables and keys that only sweep files have.
 _OF_SWEEPS = ("case", "vary", "design")
@@ -34,6 +35,7 @@ _NAMES: Mapping[FileKind, tuple[str, str]] = MappingProxyType(
         "bearing": ("a bearing file", "bearing"),
         "drive": ("a drive file", "drive"),
         "gear": ("a gear file", "gear"),
+        "axle": ("a drive file of an axle", "drive"),
         "sweep": ("a sweep file", "sweep"),
     }
 )
@@ -99,6 +101,8 @@ def kind_of_tables(table: Mapping[str, Any]) -> FileKind | None:
     """Kind of the tables of a file; None if none of them determines it."""
     if any(key in table for key in _OF_SWEEPS):
         return "sweep"
+    if "shaft" in table:
+        return "axle"
     if any(key in table for key in _OF_DRIVES):
         return "drive"
     if "gear" in table:

@@ -15,6 +15,7 @@ from ehlectric.quantities.rows import Row
 from ehlectric.runtime.display import headline
 
 if TYPE_CHECKING:
+    from ehlectric.cases.axle_case import AxleCase
     from ehlectric.cases.bearing_case import BearingCase
     from ehlectric.cases.case import Case
     from ehlectric.cases.drive_case import DriveCase
@@ -45,11 +46,12 @@ _MODULES = {
     "BearingCase": "bearing_preview",
     "DriveCase": "drive_preview",
     "GearCase": "gear_preview",
+    "AxleCase": "axle_preview",
     "Sweep": "sweep_preview",
 }
 
 
-def preview_of(case: Case | BearingCase | DriveCase | GearCase | Sweep) -> Preview:
+def preview_of(case: Case | BearingCase | DriveCase | GearCase | AxleCase | Sweep) -> Preview:
     """Preview of a case or of a sweep, at once: dry contact, groups, and what film formulas predict. Returns
     rows of a table, the same numbers as nested tables, and warnings. Raises InputError if the values
     contradict each other, a surface cannot be used, the grid fits into no memory or no point of a sweep is a

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 from ehlectric.errors import InputError
 from ehlectric.figures.figure_names import (
     ALL_FIGURES,
+    AXLE_FIGURE,
     BEARING_FIGURE_FILES,
     DRIVE_FIGURE_FILES,
     FORMATS,
@@ -34,6 +35,7 @@ from ehlectric.runtime.result_names import (
     GEAR_NETCDF,
     MOTION,
     MOTION_JOURNAL,
+    OF_AXLES,
     OF_BEARINGS,
     OF_CONTACTS,
     OF_DRIVES,
@@ -57,6 +59,7 @@ _FIGURES = (
     *BEARING_FIGURE_FILES,
     *DRIVE_FIGURE_FILES,
     *GEAR_FIGURE_FILES,
+    AXLE_FIGURE,
     *SPEED_FIGURE_FILES,
     SENSITIVITY_FIGURE,
     MEASURED_FIGURE,
@@ -80,6 +83,7 @@ def files_of_results(folder: str | Path, *, keep: tuple[str, ...] = ()) -> tuple
         *OF_BEARINGS,
         *OF_DRIVES,
         *OF_GEARS,
+        *OF_AXLES,
         *OF_SWEEPS,
         *OF_MEASUREMENTS,
         SENSITIVITY,

@@ -11,8 +11,10 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeAlias, TypedDict, TypeVar, Unpack, overload
 
-from ehlectric import bearing, contact, drive, gear
+from ehlectric import axle, bearing, contact, drive, gear
+from ehlectric.axle import AxleResult, solve_axle
 from ehlectric.bearing import BearingResult, solve_bearing
+from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case, LineCase, PointCase
 from ehlectric.cases.drive_case import DriveCase, case_of_dict
@@ -118,7 +120,7 @@ def load(path: str | Path) -> AnyResult:
     return _OF_KINDS[kind](dataset, path)
 
 
-def save(result: SolvedResult, folder: str | Path) -> list[Path]:
+def save(result: SolvedResult | AxleResult, folder: str | Path) -> list[Path]:
     """Save the result of a contact, bearing, gear pair or drive.
 
     Parameters
@@ -150,6 +152,8 @@ def save(result: SolvedResult, folder: str | Path) -> list[Path]:
         return gear.save(result, folder)
     if isinstance(result, DriveResult):
         return drive.save(result, folder)
+    if isinstance(result, AxleResult):
+        return axle.save(result, folder)
     if isinstance(result, Result | PointResult):
         return contact.save(result, folder)
     raise InputError(
@@ -160,7 +164,7 @@ def save(result: SolvedResult, folder: str | Path) -> list[Path]:
 
 
 # A case, its tables, or the path of its file.
-Solvable: TypeAlias = SolvedCase | Mapping[str, Any] | str | PathLike[str]
+Solvable: TypeAlias = SolvedCase | AxleCase | Mapping[str, Any] | str | PathLike[str]
 
 
 class _Options(TypedDict, total=False):
@@ -195,6 +199,8 @@ def solve(case: DriveCase, **options: Unpack[_BearingOptions]) -> DriveResult: .
 @overload
 def solve(case: GearCase, **options: Unpack[_Options]) -> GearResult: ...
 @overload
+def solve(case: AxleCase, **options: Unpack[_Options]) -> AxleResult: ...
+@overload
 def solve(case: Mapping[str, Any] | str | PathLike[str], **options: Unpack[_AnyOptions]) -> Any: ...
 
 
@@ -207,14 +213,14 @@ def solve(
     beside_smooth: bool = True,
     laws: Laws | None = None,
     workers: int | None = None,
-) -> SolvedResult:
-    """Solve a contact, a bearing, a gear pair or a drive.
+) -> SolvedResult | AxleResult:
+    """Solve a contact, a bearing, a gear pair, a drive or an axle.
 
     Parameters
     ----------
-    case : Case, BearingCase, GearCase, DriveCase, mapping, str or Path
-        Case of a stationary contact, of a bearing, of a gear pair or of a drive, its nested tables, or the
-        path of its TOML file.
+    case : Case, BearingCase, GearCase, DriveCase, AxleCase, mapping, str or Path
+        Case of a stationary contact, of a bearing, of a gear pair, of a drive or of an axle, its nested
+        tables, or the path of its TOML file.
     progress : callable, optional
         Called with a number of parts done, the number of all parts, and a text. The parts of a contact are
         percent of the expected work; they never decrease, and reach 100 at the end. If a grid is refined,
@@ -261,6 +267,8 @@ def solve(
     """
     valid_case = case_of(case)
     progress_or_silent(progress)
+    if isinstance(valid_case, AxleCase):
+        return _of_axle(valid_case, progress or silent, solvers, laws)
     if laws is not None:
         valid_case = case_with_laws(valid_case, laws)
     if isinstance(valid_case, GearCase):
@@ -298,6 +306,17 @@ def _of_gears(case: GearCase, progress: Progress, solvers: str | Solvers) -> Gea
     return result
 
 
+def _of_axle(case: AxleCase, progress: Progress, solvers: str | Solvers, laws: Laws | None) -> AxleResult:
+    """Result of an axle; its warnings are logged."""
+    if solvers_of(solvers) is not DEFAULT_SOLVERS:
+        raise InputError("solvers", got=shown(solvers), takes="'ehlectric' for an axle")
+    if laws is not None:
+        raise InputError("laws", got="them with an axle", takes="a contact")
+    result = solve_axle(case, progress=progress)
+    log_warnings(case.title, result.warnings)
+    return result
+
+
 def _of_bearings(
     case: BearingCase | DriveCase,
     progress: Progress | None,
@@ -320,24 +339,26 @@ def _of_bearings(
     return result
 
 
-def case_of(given: object) -> SolvedCase:
+def case_of(given: object) -> SolvedCase | AxleCase:
     """Case that is given as itself, as its nested tables, or by the path of its file. Raises InputError if it
     is none of these, or not valid.
     """
-    if isinstance(given, SolvedCase):
+    if isinstance(given, SolvedCase | AxleCase):
         return given
     if isinstance(given, Mapping):
         kind = kind_of_tables(given)
         _refuse_sweep("case", kind)
         if kind == "gear":
             return GearCase.from_dict(given)
+        if kind == "axle":
+            return AxleCase.from_dict(given)
         return DriveCase.from_dict(given) if kind == "drive" else case_of_dict(given)
     if isinstance(given, str | PathLike):
         file = read_input(Path(given))
         _refuse_sweep(file.path, file.kind)
-        case: SolvedCase = RUNS[file.kind].read(file)
+        case: SolvedCase | AxleCase = RUNS[file.kind].read(file)
         return case
-    takes = "a Case, a BearingCase, a GearCase, a DriveCase, a dict, or the path of a TOML file"
+    takes = "a Case, a BearingCase, a GearCase, a DriveCase, an AxleCase, a dict, or the path of a TOML file"
     sweep = "; run_sweep solves a Sweep" if type(given).__name__ == "Sweep" else ""
     raise InputError("case", got=shown(type(given).__name__), takes=takes + sweep)
 
@@ -424,7 +445,7 @@ def solve_motion(case: Case, *, progress: Progress = silent) -> MotionResult:
 R = TypeVar("R")
 
 # Result of a case, or the error instead.
-_Outcome = SolvedResult | Exception
+_Outcome = SolvedResult | AxleResult | Exception
 
 
 class Solved(NamedTuple, Generic[R]):
@@ -488,7 +509,7 @@ def solve_many(
     *,
     progress: Progress | None = None,
     laws: Laws | None = None,
-) -> Iterator[Solved[SolvedResult]]: ...
+) -> Iterator[Solved[SolvedResult | AxleResult]]: ...
 
 
 def solve_many(
@@ -546,7 +567,7 @@ def solve_many(
     """
     if isinstance(workers, bool) or not (workers is None or (isinstance(workers, int) and workers >= 1)):
         raise InputError("workers", got=shown(workers), takes="a whole number of at least 1")
-    single = isinstance(cases, SolvedCase | Mapping | str | PathLike)
+    single = isinstance(cases, SolvedCase | AxleCase | Mapping | str | PathLike)
     if single or not isinstance(cases, Iterable):
         raise InputError(
             "cases", got=shown(type(cases).__name__), takes="a list of cases; solve takes one case"
@@ -645,6 +666,8 @@ def solve_case(given: Solvable | InputError) -> _Outcome:
             return solve_bearing(case, workers=1)
         if isinstance(case, GearCase):
             return solve_gear(case)
+        if isinstance(case, AxleCase):
+            return solve_axle(case)
         return solve_stationary(case)
     except Exception as error:
         return error

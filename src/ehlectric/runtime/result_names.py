@@ -7,7 +7,7 @@ from __future__ import annotations
 
 SUMMARY = "summary.json"
 
-# Results of contacts, of bearings, of gear pairs and of drives.
+# Results of contacts, of bearings, of gear pairs, of drives and of axles.
 CONTACT_NETCDF, FILM = "result.nc", "film.csv"
 OF_CONTACTS = (SUMMARY, CONTACT_NETCDF, FILM)
 BEARING_NETCDF, CONTACTS, IMPEDANCE, DUTY = "bearing.nc", "contacts.csv", "impedance.csv", "duty.csv"
@@ -15,6 +15,8 @@ OF_BEARINGS = (SUMMARY, CONTACTS, IMPEDANCE, DUTY, BEARING_NETCDF)
 DRIVE_NETCDF, EVENTS, SPECTRUM = "drive.nc", "events.csv", "spectrum.csv"
 GEAR_NETCDF, PATH, MESH = "gear.nc", "path.csv", "mesh.csv"
 OF_GEARS = (SUMMARY, PATH, MESH, GEAR_NETCDF)
+ELEMENTS, SHAFTS = "elements.csv", "shafts.csv"
+OF_AXLES = (SUMMARY, ELEMENTS, SHAFTS)
 OF_DRIVES = (SUMMARY, EVENTS, SPECTRUM, DUTY, DRIVE_NETCDF)
 
 # Run with moving roughness, its journal while it is not complete, with SQLite's file of a transaction, and

@@ -7,7 +7,9 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from html import escape as escaped
 from typing import Any
 
+from ehlectric.axle import AxleResult
 from ehlectric.bearing import BearingResult
+from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.drive_case import DriveCase
@@ -27,6 +29,7 @@ from ehlectric.quantities.rows import Row
 from ehlectric.readable import readable
 from ehlectric.runtime.display import is_number
 from ehlectric.sweep import Range, Sweep, SweepResults, label_of, sweep_warnings
+from ehlectric.tables.axle_tables import axle_rows
 from ehlectric.tables.bearing_tables import total_rows
 from ehlectric.tables.contact_tables import result_rows
 from ehlectric.tables.drive_tables import drive_rows
@@ -148,6 +151,7 @@ _ROWS: Mapping[type, Callable[[Any], Iterable[Row]]] = {
     BearingResult: lambda result: total_rows(result.summary()),
     DriveResult: lambda result: drive_rows(result.summary()),
     GearResult: lambda result: gear_rows(result.summary()),
+    AxleResult: lambda result: axle_rows(result.summary()),
     MotionResult: lambda result: run_rows(result.summary()),
     SweepResults: sweep_rows,
     FilmFactors: factor_rows,
@@ -155,5 +159,6 @@ _ROWS: Mapping[type, Callable[[Any], Iterable[Row]]] = {
     BearingCase: input_rows,
     DriveCase: input_rows,
     GearCase: input_rows,
+    AxleCase: input_rows,
     Sweep: _sweep_rows,
 }

@@ -1,0 +1,103 @@
+"""Result of an axle, as ``solve_axle`` returns it."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, field
+from typing import Any, ClassVar
+
+from ehlectric.axle.axle_verdict import axle_verdict
+from ehlectric.axle.solution import AxleSolution, solve_elements
+from ehlectric.axle.summary import axle_summary
+from ehlectric.cases.axle_case import AxleCase
+from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
+from ehlectric.quantities.verdict import Verdict
+from ehlectric.runtime.display import ResultKind, Shown, headline, read_only_property
+from ehlectric.runtime.progress import Progress, silent
+from ehlectric.version import __version__
+
+SCHEMA = "ehlectric.axle/1"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class AxleResult(Shown):
+    """Result of an axle: loads, films and voltages of all of its bearings and meshes right after an edge.
+
+    Attributes
+    ----------
+    solution : AxleSolution
+        Elements with their loads, capacitances and breakdown voltages, and their network.
+    seconds : float
+        Computing time [s].
+    version : str
+        Version of ehlectric that solved it.
+    """
+
+    result_kind: ClassVar[ResultKind] = "axle"
+
+    solution: AxleSolution
+    seconds: float = field(default=0.0, compare=False)
+    version: str = __version__
+
+    @property
+    def case(self) -> AxleCase:
+        """Case of the axle."""
+        return self.solution.case
+
+    @property
+    def warnings(self) -> tuple[ResultWarning, ...]:
+        """Warnings about where the result is unreliable, each with the name of its bearing or mesh."""
+        return self.solution.warnings
+
+    @read_only_property
+    def verdict(self) -> Verdict:
+        """Verdict: the element that breaks down first, and when another one is first."""
+        return axle_verdict(self.solution)
+
+    def summary(self) -> dict[str, Any]:
+        """Return the results nested as in summary.json, SI units."""
+        return {
+            "schema": SCHEMA,
+            "version": self.version,
+            "title": self.case.title,
+            **texts_and_codes(self.warnings),
+            **self.verdict.as_data(),
+            "inputs": self.case.to_dict(),
+            **axle_summary(self.solution),
+            "seconds": self.seconds,
+        }
+
+    def key_numbers(self) -> tuple[str, ...]:
+        """Return the number of elements and the first of them as texts."""
+        ranking = self.solution.ranking()
+        count = f"{len(self.solution.elements)} bearings and meshes"
+        return (count, f"{ranking[0][0]} breaks down first") if ranking else (count,)
+
+    def _headline(self) -> str:
+        return headline(self.case.title, *self.key_numbers(), verdict=self.verdict)
+
+
+def solve_axle(case: AxleCase, *, progress: Progress = silent) -> AxleResult:
+    """Solve the films of all bearings and meshes of an axle, and the voltages right after an edge.
+
+    Parameters
+    ----------
+    case : AxleCase
+        Shafts, bearings, meshes and links, with inverter, machine and oil.
+    progress : callable, optional
+        Called with the number of solved bearings and meshes, the number of all, and a text.
+
+    Returns
+    -------
+    AxleResult
+        Result with its summary and its verdict.
+
+    Raises
+    ------
+    InputError
+        If a bearing cannot carry its load, gears cannot run together, or the oil has no value at its
+        temperature.
+    """
+    start = time.perf_counter()
+    solution = solve_elements(case, progress)
+    return AxleResult(solution, seconds=time.perf_counter() - start)

@@ -1,0 +1,50 @@
+"""Run of an axle and the files of its result: summary.json and tables as CSV."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from ehlectric.axle.result import AxleResult, solve_axle
+from ehlectric.axle.summary import ELEMENT_COLUMNS, SHAFT_COLUMNS
+from ehlectric.cases.axle_case import AxleCase
+from ehlectric.runtime.files import Content, column_head, csv_of, json_of, plain, write_together
+from ehlectric.runtime.folders import RESULT_LOCK, alone_in
+from ehlectric.runtime.progress import Progress, RunOutcome, silent
+from ehlectric.runtime.result_names import ELEMENTS, SHAFTS, SUMMARY
+from ehlectric.runtime.result_names import OF_AXLES as FILES
+
+
+def solve_to_folder(
+    case: AxleCase, folder: str | Path, progress: Progress = silent, *, others: Sequence[str] = ()
+) -> RunOutcome[AxleResult]:
+    """Solve an axle, and write summary.json, elements.csv with all bearings and meshes, and shafts.csv.
+
+    Files of an earlier result in the folder are removed when the axle is solved, also the ``others``.
+    """
+    result = solve_axle(case, progress=progress)
+    files = save(result, folder, replaced=(*FILES, *others))
+    return RunOutcome(result, result.summary(), tuple(files), result.warnings)
+
+
+def save(result: AxleResult, folder: str | Path, *, replaced: Sequence[str] = ()) -> list[Path]:
+    """Save the result of an axle: summary.json and its tables as CSV, all files or none.
+
+    Files of the names ``replaced``, of an earlier result there, are removed. Raises an InputError where the
+    folder cannot be used.
+    """
+    summary = result.summary()
+    contents: dict[str, Content] = {
+        SUMMARY: json_of(plain(summary)),
+        ELEMENTS: _csv(summary["elements"], ELEMENT_COLUMNS),
+        SHAFTS: _csv(summary["shafts"], SHAFT_COLUMNS),
+    }
+    with alone_in(folder, FILES, locks=[RESULT_LOCK]) as folder:
+        return write_together(folder, contents, (*FILES, *replaced))
+
+
+def _csv(rows: Sequence[Mapping[str, Any]], columns: Mapping[str, str]) -> Content:
+    """Rows as CSV, with the units of the columns in their heads."""
+    heads = [column_head(key, unit) for key, unit in columns.items()]
+    return csv_of(heads, ([row[key] for key in columns] for row in rows))

@@ -1,0 +1,15 @@
+"""Preview of an axle: its whole answer, as films of the atlas take no time."""
+
+from __future__ import annotations
+
+from ehlectric.axle import solve_axle
+from ehlectric.cases.axle_case import AxleCase
+from ehlectric.runs.preview import Preview
+from ehlectric.tables.axle_tables import axle_rows
+
+
+def preview(case: AxleCase) -> Preview:
+    """Preview of an axle, whose films are not solved."""
+    result = solve_axle(case)
+    summary = result.summary()
+    return Preview(case.title, tuple(axle_rows(summary)), summary, result.warnings, result.verdict)

@@ -1,0 +1,168 @@
+"""Case of an axle: speeds, torques and loads of all shafts, its files, and inputs that it refuses."""
+
+import math
+
+import pytest
+
+from ehlectric import AxleCase, DriveCase, InputError
+from ehlectric.axle.solution import shaft_loads
+from tests.axle.axles import ALONE, two_stages
+from tests.helpers.each import each
+from tests.helpers.places import EXAMPLES
+
+
+@pytest.mark.parametrize(
+    ("torque", "radial", "axial"),
+    [
+        (
+            "150 N m",
+            [(4945.440, 2534.413), (11443.578, 15179.439), (6822.580, 14051.224)],
+            [-3149.950, -2535.397, 5685.347],
+        ),
+        (
+            "-150 N m",
+            [(4298.173, 3164.348), (8581.013, 15102.733), (9690.202, 10886.516)],
+            [3149.950, 2535.397, -5685.347],
+        ),
+    ],
+)
+def test_loads_of_an_axle(torque, radial, axial):
+    """Loads [N] that a separate program computed, driving and coasting."""
+    loads = list(shaft_loads(two_stages(**{"drive.torque": torque})).values())
+    for of_shaft, expected, force in zip(loads, radial, axial, strict=True):
+        assert of_shaft.radial == pytest.approx(expected, rel=2e-6)
+        assert of_shaft.axial == pytest.approx(force, rel=2e-6)
+
+
+def test_speeds_and_torques_follow_from_the_teeth():
+    """Each mesh reverses the rotation; the power of all shafts is the power of the rotor."""
+    case = two_stages(**{"drive.torque": "150 N m"})
+    rotor, intermediate, output = case.turning().values()
+    first, second = 67.0 / 23.0, 73.0 / 19.0
+    assert intermediate.speed == pytest.approx(-rotor.speed / first, rel=1e-12)
+    assert output.speed == pytest.approx(rotor.speed / first / second, rel=1e-12)
+    assert output.torque == pytest.approx(1678.83295, rel=1e-8)
+    for shaft in (intermediate, output):
+        assert shaft.speed * shaft.torque == pytest.approx(rotor.speed * rotor.torque, rel=1e-12)
+
+
+def test_a_mesh_gets_torque_speed_and_temperature_of_the_axle():
+    """The flanks of the gear file are 5 K hotter than its oil."""
+    case = two_stages(**{"drive.torque": "-20 N m", "drive.temperature": "70 degC"})
+    turning = case.turning()
+    first, second = (case.gear_case(number, turning).gear.operation for number in range(2))
+    assert first.pinion_torque == pytest.approx(-20.0, rel=1e-12)
+    assert second.pinion_torque == pytest.approx(-20.0 * 67.0 / 23.0, rel=1e-12)
+    assert second.pinion_speed == pytest.approx(case.drive.speed * 23.0 / 67.0, rel=1e-12)
+    assert (first.oil_temperature, first.bulk_temperature) == pytest.approx((343.15, 348.15), rel=1e-12)
+
+
+def test_the_order_of_the_gears_changes_no_load():
+    """Gear 1 of the second stage is on the intermediate shaft, so that torque passes from gear 1 to gear 2;
+    with the output shaft as the rotor it passes from gear 2 to gear 1.
+    """
+    case = two_stages()
+    turning = case.turning()
+    table = case.to_dict()
+    for shaft in table["shaft"]:
+        shaft["rotor"] = shaft["name"] == "output"
+    table["drive"] |= {"torque": turning["output"].torque, "speed": turning["output"].speed}
+    reversed_case = AxleCase.from_dict(table)
+    # The torque of the rotor now acts at the other end, so that all torques on the gears change their sign.
+    back = reversed_case.turning()
+    assert back["rotor"].speed == pytest.approx(turning["rotor"].speed, rel=1e-12)
+    assert back["rotor"].torque == pytest.approx(turning["rotor"].torque, rel=1e-12)
+    assert reversed_case.torque_of_gear(0, back) == pytest.approx(-30.0, rel=1e-12)
+
+
+def test_shafts_with_a_coupling_turn_together():
+    table = two_stages().to_dict()
+    table["shaft"].append({"name": "wheel"})
+    bearing = {**ALONE["bearing"][0], "shaft": "wheel"}
+    table["bearing"] += [bearing, {**bearing, "at": "90 mm"}]
+    table["link"] = [{"between": ["output", "wheel"], "kind": "insulated", "capacitance": "50 pF"}]
+    turning = AxleCase.from_dict(table).turning()
+    assert turning["wheel"] == turning["output"]
+
+
+def test_a_case_is_written_and_read_again(tmp_path):
+    case = two_stages()
+    (tmp_path / "axle.toml").write_text(case.to_toml(), encoding="utf-8")
+    assert AxleCase.from_toml(tmp_path / "axle.toml") == case
+    assert AxleCase.from_dict(case.to_dict()) == case
+
+
+def test_a_drive_file_without_shafts_is_a_drive():
+    assert isinstance(DriveCase.from_toml(EXAMPLES / "drive.toml"), DriveCase)
+
+
+def _changed(key, change):
+    """Tables of the example with a change of one of its tables."""
+    table = two_stages().to_dict()
+    table[key] = change(table[key])
+    return table
+
+
+def _first(**entries):
+    """Change of the first table of a list."""
+    return lambda rows: [{**rows[0], **entries}, *rows[1:]]
+
+
+def _loop(rows):
+    """Meshes with a second path between the first and the last shaft."""
+    return [*rows, {**rows[0], "gears": ["rotor", "output"]}]
+
+
+def _tapered(rows):
+    """Bearings of which the first is a tapered roller bearing."""
+    kept = {key: value for key, value in rows[0].items() if key != "radial_clearance"}
+    return [{**kept, "base": "32208", "profile": "logarithmic"}, *rows[1:]]
+
+
+REFUSED = [
+    ("mesh", _first(gears=["rotor", "wheel"]), "mesh.gears", "'wheel'"),
+    ("mesh", _first(gears=["rotor", "rotor"]), "mesh.gears", "two different shafts"),
+    ("mesh", _first(gears=["rotor"]), "mesh.gears", "two"),
+    ("mesh", _loop, "mesh.gears", "ratios that agree"),
+    ("mesh", lambda rows: [*rows, rows[0]], "mesh.gears", "two paths"),
+    ("mesh", lambda rows: rows[:1], "shaft.name", "'output'"),
+    ("shaft", _first(rotor=False), "shaft.rotor", "no shaft"),
+    ("shaft", lambda rows: [{**row, "rotor": True} for row in rows], "shaft.rotor", "3 shafts"),
+    ("shaft", lambda rows: [*rows, rows[1]], "shaft.name", "'intermediate'"),
+    ("shaft", lambda rows: [*rows, {"name": "wheel"}], "bearing.shaft", "no path to the housing"),
+    ("bearing", lambda rows: [*rows, {**rows[0], "at": 0.1}], "bearing.shaft", "3 on shaft 'rotor'"),
+    ("bearing", lambda rows: rows[1:], "bearing.shaft", "1 on shaft 'rotor'"),
+    ("bearing", _first(locating=False), "bearing.locating", "'rotor'"),
+    ("bearing", _first(shaft="wheel"), "bearing.shaft", "'wheel'"),
+    ("bearing", _first(radial_load="1 kN"), "bearing.radial_load", "'rotor'"),
+    ("bearing", _first(inner_speed="1 rpm"), "bearing.inner_speed", "drive"),
+    ("bearing", _tapered, "bearing.base", "adjusted"),
+    ("bearing", _first(radial_lode=1.0), "bearing.radial_lode", "unknown key"),
+    (
+        "link",
+        lambda _: [{"between": ["rotor", "x"], "kind": "ring", "resistance": 1.0}],
+        "link.between",
+        "'x'",
+    ),
+    ("link", lambda _: [{"between": ["rotor", "housing"], "kind": "ring"}], "link.resistance", "missing"),
+    ("link", lambda _: [{"between": ["rotor", "housing"], "kind": "spline"}], "link.kind", "housing"),
+    ("drive", lambda row: {**row, "torque": 0.0}, "drive.torque", "0"),
+    ("circuit", lambda row: {**row, "ground_inductance": 1e-6}, "circuit.ground_inductance", "not used"),
+]
+
+
+@each("table, change, key, words", REFUSED)
+def test_contradictions_are_refused(table, change, key, words):
+    with pytest.raises(InputError) as refused:
+        AxleCase.from_dict(_changed(table, change))
+    assert refused.value.key == key
+    assert words in str(refused.value)
+    assert "\n" not in str(refused.value)
+
+
+def test_a_shaft_without_gears_needs_loads():
+    table = {**ALONE, "bearing": [ALONE["bearing"][0], {**ALONE["bearing"][1]}]}
+    del table["bearing"][1]["radial_load"]
+    with pytest.raises(InputError, match=r"bearing.radial_load"):
+        AxleCase.from_dict(table)
+    assert math.isclose(AxleCase.from_dict(ALONE).edge, 300.0)

@@ -1,0 +1,135 @@
+"""Static answer of an axle: today's divider, voltages by hand, films and ranks."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from ehlectric import AxleCase, solve, solve_axle, solve_bearing
+from ehlectric.axle.network import HOUSING, WINDING, Film, Network
+from ehlectric.axle.solution import AxleSolution, Element, solve_elements
+from ehlectric.cases.drive_inputs import Breakdown, Circuit
+from ehlectric.drive.drive_bearings import bearing_element
+from ehlectric.drive.motor_circuit import capacitive_divider
+from tests.axle.axles import ALONE, two_stages
+
+NANO = 1e-9
+
+
+def by_hand(**changes):
+    """Axle with the capacitances of three shafts that are small numbers of nanofarads."""
+    case = two_stages(
+        **{
+            "source.dc_link": "900 V",
+            "source.rise_time": "100 ns",
+            "circuit.rotor_frame_capacitance": "0.5 nF",
+            **changes,
+        }
+    )
+    rows = [
+        ("b1", "bearing", "rotor", HOUSING, 1.0, 3.0),
+        ("m12", "mesh", "rotor", "intermediate", 1.0, 1.8),
+        ("b2", "bearing", "intermediate", HOUSING, 5.0, 2.0),
+        ("m23", "mesh", "intermediate", "output", 4.0, 0.74),
+        ("b3", "bearing", "output", HOUSING, 11.0, 1.0),
+    ]
+    elements = tuple(
+        Element(name, kind, first, second, NANO * value, limit, 0.0, 3.0)
+        for name, kind, first, second, value, limit in rows
+    )
+    return AxleSolution(case, case.turning(), elements)
+
+
+def test_voltages_by_hand():
+    """By Cramer's rule: the determinant is 333.4 nF^3, and the potentials are 30 (134, 15, 4)/333.4 V."""
+    expected = [30.0 * part / 333.4 for part in (134.0, 15.0, 4.0)]
+    axle = by_hand()
+    assert list(axle.potentials().values()) == pytest.approx(expected, rel=1e-12)
+    assert list(axle.potentials("always").values()) == pytest.approx([30.0 / 17.6] * 3, rel=1e-12)
+    assert list(axle.potentials(edge=100.0).values()) == pytest.approx([part / 3.0 for part in expected])
+
+
+def test_the_first_element_depends_on_the_conduction_of_the_meshes():
+    """Ratios of the voltages by hand to the breakdown voltages above."""
+    axle = by_hand()
+    assert axle.ranking()[0] == ("m12", pytest.approx(10.70786 / 1.8, rel=1e-5))
+    assert [name for name, _ in axle.ranking("never")] == ["m12", "b1", "m23", "b2", "b3"]
+    assert axle.ranking("always") == [
+        (name, pytest.approx(30.0 / 17.6 / limit)) for name, limit in (("b3", 1.0), ("b2", 2.0), ("b1", 3.0))
+    ]
+    assert set(axle.changed_ranks) == {"b1", "b3"}
+
+
+def test_a_ring_on_the_rotor_discharges_all_shafts_during_the_edge():
+    """1 ohm and an edge of 100 ns: 0.3 V, b dV/dt R, as the time constant of 2.5 ns is short."""
+    ring = [{"between": ["rotor", "housing"], "kind": "ring", "resistance": "1 ohm"}]
+    potentials = by_hand(link=ring).potentials()
+    assert list(potentials.values()) == pytest.approx((0.30000, 0.03358, 0.00896), abs=5e-6)
+    given = by_hand(**{"circuit.grounding_ring_resistance": "1 ohm"}).potentials()
+    assert list(given.values()) == pytest.approx(list(potentials.values()), rel=1e-12)
+
+
+def test_a_ramp_on_one_node_is_the_solution_of_its_equation():
+    """V = R b (V_s/t) (1 - exp(-t/(R C))) of a node with C and R."""
+    films = (Film("w", WINDING, "a", 0.1 * NANO), Film("c", "a", HOUSING, 0.9 * NANO, False, 0.05))
+    expected = 20.0 * 0.1 * NANO * 300.0 / 50e-9 * (1.0 - np.exp(-50.0 / 20.0))
+    assert Network(("a",), films).potentials(300.0, 50e-9)["a"] == pytest.approx(expected, rel=1e-12)
+
+
+def test_an_insulated_coupling_divides_and_a_spline_merges():
+    """A large capacitance of a coupling is a spline."""
+    table = two_stages().to_dict()
+    table["shaft"].append({"name": "wheel"})
+    bearing = {**ALONE["bearing"][0], "shaft": "wheel"}
+    table["bearing"] += [bearing, {**bearing, "at": "90 mm"}]
+    voltages = []
+    for kind in ({"kind": "spline"}, {"kind": "insulated", "capacitance": 1e-3}):
+        case = AxleCase.from_dict(table | {"link": [{"between": ["output", "wheel"], **kind}]})
+        axle = AxleSolution(case, case.turning(), by_hand().elements)
+        voltages.append(axle.potentials())
+    assert voltages[0]["output"] == voltages[0]["wheel"]
+    assert list(voltages[1].values()) == pytest.approx(list(voltages[0].values()), rel=1e-5)
+
+
+def test_a_shaft_alone_has_the_divider_of_a_drive():
+    """Mean capacitances of both bearings in the circuit of a drive."""
+    case = AxleCase.from_dict(ALONE)
+    axle = solve_elements(case)
+    breakdown = Breakdown.from_dict(
+        {"arc_resistance": 10.0, "extinction_voltage": "1 uV", "recovery_time": "100 ns"}
+    )
+    bearings = []
+    for number, (radial, axial) in enumerate(((800.0, 100.0), (400.0, 0.0))):
+        result = solve_bearing(case.bearing_case(number, case.drive.speed, radial, axial))
+        element = bearing_element(result, breakdown, "drive_end")
+        bearings.append(replace(element, capacitance=np.array([element.mean_capacitance])))
+        assert axle.elements[number].breakdown_voltage == pytest.approx(np.min(element.breakdown), rel=1e-12)
+    divider, _ = capacitive_divider(Circuit.from_dict(ALONE["circuit"]), bearings)
+    assert axle.potentials()["rotor"] == pytest.approx(divider * 300.0, rel=1e-9)
+
+
+def test_the_example_of_an_axle():
+    """Loads and voltages agree with the network and statics; coasting changes loads, and not the speeds."""
+    driving, coasting = (solve_axle(two_stages(**{"drive.torque": torque})) for torque in (30.0, -30.0))
+    assert driving.solution.ranking()[0][0] == "mesh of rotor and intermediate"
+    assert "bearing 2 of output is first" in driving.verdict.text
+    assert driving.verdict.level == "red"
+    summary = driving.summary()
+    rows = {row["element"]: row for row in summary["elements"]}
+    assert rows["mesh of intermediate and output"]["state"] == "conducts"
+    assert rows["mesh of intermediate and output"]["voltage"] == 0.0
+    # The loads of the separate program at 150 N m, in proportion to the torque.
+    assert rows["bearing 1 of rotor"]["radial_load"] == pytest.approx(4945.440 / 5.0, rel=2e-6)
+    assert rows["bearing 1 of rotor"]["axial_load"] == pytest.approx(-3149.950 / 5.0, rel=2e-6)
+    other = {row["element"]: row for row in coasting.summary()["elements"]}
+    assert other["bearing 1 of rotor"]["radial_load"] == pytest.approx(4298.173 / 5.0, rel=2e-6)
+    assert other["bearing 1 of rotor"]["axial_load"] == pytest.approx(3149.950 / 5.0, rel=2e-6)
+
+
+def test_conduction_of_the_gear_file_is_kept():
+    table = two_stages().to_dict()
+    table["mesh"][0]["pair"]["gear"]["contact"] = {"conduction": "always"}
+    result = solve(table)
+    assert result.solution.potentials()["rotor"] == result.solution.potentials()["intermediate"]
+    assert result.verdict.margin > 0.0
+    assert "conducts" in result.verdict.text
