@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from ehlectric import (
+    AxleResult,
     BearingCase,
     BearingResult,
     Case,
@@ -96,6 +97,7 @@ def test_each_class_of_results_has_its_figures():
         SweepResults,
         FilmFactors,
         GearResult,
+        AxleResult,
     ]
     assert {kind.result_kind for kind in [*classes, MotionRun]} == {*get_args(ResultKind)}
     for kind in get_args(ResultKind):

@@ -99,12 +99,50 @@ bulk_temperature = "80 degC"
 [lubricant]
 base = "fva-3"
 """
+AXLE = """\
+[drive]
+speed = "6000 rpm"
+torque = "30 N m"
+temperature = "60 degC"
+[[shaft]]
+name = "rotor"
+rotor = true
+[[bearing]]
+shaft = "rotor"
+at = "0 mm"
+base = "6208"
+radial_clearance = "10 um"
+radial_load = "800 N"
+composite_rq = "0.03 um"
+[[bearing]]
+shaft = "rotor"
+at = "80 mm"
+base = "6208"
+radial_clearance = "10 um"
+radial_load = "400 N"
+composite_rq = "0.03 um"
+[source]
+dc_link = "800 V"
+modulation = "space-vector"
+switching_frequency = "10 kHz"
+pole_pairs = 2
+modulation_index = 0.6
+rise_time = "50 ns"
+[circuit]
+winding_rotor_capacitance = "100 pF"
+rotor_frame_capacitance = "1 nF"
+[lubricant]
+base = "fva-3"
+[discharge]
+dielectric_strength = "15 V/um"
+"""
 FILES = {
     "contact": CASE,
     "motion": CASE + MOTION,
     "bearing": BEARING,
     "drive": DRIVE,
     "gear": GEAR,
+    "axle": AXLE,
     "sweep": SWEEP,
 }
 WRITTEN = {
@@ -113,6 +151,7 @@ WRITTEN = {
     "bearing": ["summary.json", "contacts.csv", "bearing.nc"],
     "drive": ["summary.json", "events.csv", "spectrum.csv", "drive.nc"],
     "gear": ["summary.json", "path.csv", "mesh.csv", "gear.nc"],
+    "axle": ["summary.json", "elements.csv", "shafts.csv"],
     "sweep": ["sweep.csv", "sweep.parquet", "sweep.nc"],
 }
 
@@ -168,6 +207,8 @@ def test_kinds_of_the_examples():
         "duty_drive": "drive",
         "drive": "drive",
         "drive_map": "sweep",
+        "e_axle": "axle",
+        "e_axle_stage_1": "gear",
         "grounding_brush": "drive",
         "grounding_brush_speeds": "sweep",
         "moving_roughness": "motion",

@@ -9,6 +9,7 @@ from typing import Any
 from ehlectric.cases.drive_case import AnyCase, DriveCase, case_of_dict, with_absolute_files
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.table import read_toml
+from ehlectric.errors import InputError
 from ehlectric.quantities.inputs import ENDS
 
 # Case of anything that is solved.
@@ -22,6 +23,10 @@ def solved_case_of_dict(table: Mapping[str, Any], *, written: bool = False) -> S
     """
     if any(end in table for end in ENDS):
         return DriveCase.from_written(table) if written else DriveCase.from_dict(table)
+    if "shaft" in table:
+        raise InputError(
+            "shaft", "is a table of an axle", takes="a case of another kind; no sweep varies axles"
+        )
     if "gear" in table:
         return GearCase.from_written(table) if written else GearCase.from_dict(table)
     return case_of_dict(table, written=written)

@@ -182,6 +182,8 @@ def _needed(file: str) -> Iterator[str]:
     for end in ENDS:
         if "file" in table.get(end, ()):
             yield from _needed(table[end]["file"])
+    for mesh in table.get("mesh", ()):
+        yield from _needed(mesh["file"])
     for surface in table.get("roughness", ()):
         if "file" in surface:
             yield surface["file"]

@@ -117,7 +117,7 @@ def _report_formats(output: Path | None, formats: list[str] | None) -> tuple[str
     return endings
 
 
-KINDS = ("contact", "bearing", "drive", "gear", "sweep")
+KINDS = ("contact", "bearing", "drive", "axle", "gear", "sweep")
 
 
 @command("schema", kind=KINDS)

@@ -1,4 +1,4 @@
-"""JSON Schema of case, bearing, drive and sweep files, by which editors complete and explain their keys."""
+"""JSON Schema of case, bearing, drive, axle, gear and sweep files, by which editors complete and explain their keys."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from typing import Any, Literal
 import tomli
 from pydantic.json_schema import models_json_schema
 
+from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.discharge_inputs import BearingDischarge
@@ -24,7 +25,14 @@ from ehlectric.sweep import Sweep
 
 # Tables of each kind of file; a case of a contact may have motion or not.
 SCHEMAS: Mapping[str, type[Table]] = MappingProxyType(
-    {"contact": Case, "bearing": BearingCase, "drive": DriveCase, "gear": GearCase, "sweep": Sweep}
+    {
+        "contact": Case,
+        "bearing": BearingCase,
+        "drive": DriveCase,
+        "axle": AxleCase,
+        "gear": GearCase,
+        "sweep": Sweep,
+    }
 )
 
 # How pydantic names a schema of what is read.
@@ -153,6 +161,10 @@ def _as_written(schema: dict[str, Any], kind: str) -> None:
                     {"$ref": "#/definitions/BearingCase"},
                 ],
             }
+    if kind == "axle":
+        mesh = schema["definitions"]["AxleMesh"]
+        mesh["required"] = [key for key in mesh["required"] if key != "pair"]
+        mesh["properties"]["file"] = {"type": "string", "description": "path of a gear file, instead of pair"}
     if kind == _SWEEP:
         case = properties["case"]
         case["anyOf"] = [{"type": "string"}, *case["anyOf"]]

@@ -120,6 +120,10 @@ def case_of(table: Mapping[str, Any], folder: Path | None = None) -> AnyCase:
     """
     if kind_of(table) == "drive":
         raise InputError("file", "is a drive file", takes="the case of a contact or a bearing")
+    if kind_of(table) == "axle":
+        raise InputError(
+            "shaft", "is a table of an axle", takes="another file; the command drive solves axles"
+        )
     return case_of_dict(with_session_files(table, folder), written=True)
 
 
