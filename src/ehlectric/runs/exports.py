@@ -344,6 +344,10 @@ def export(result: Exported | str | Path, path: str | Path) -> Path:
     """
     path = check_target(path)
     loaded = stored(result) if isinstance(result, str | Path) else result
+    if getattr(type(loaded), "result_kind", None) == "axle":
+        raise InputError(
+            "result", got="the result of an axle", takes="another one; save writes its tables as CSV"
+        )
     write(path, WRITERS[path.suffix.lower()](loaded))
     return path
 

@@ -1,4 +1,4 @@
-"""JSON Schema of case, bearing, drive, axle, gear and sweep files, by which editors complete and explain their keys."""
+"""JSON Schema of files of each kind, by which editors complete and explain their keys."""
 
 from __future__ import annotations
 

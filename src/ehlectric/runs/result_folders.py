@@ -32,6 +32,7 @@ from ehlectric.runtime.result_names import (
     BEARING_NETCDF,
     CONTACT_NETCDF,
     DRIVE_NETCDF,
+    ELEMENTS,
     GEAR_NETCDF,
     MOTION,
     MOTION_JOURNAL,
@@ -151,6 +152,10 @@ def stored_result(path: str | Path) -> Path:
             return path
         path = path.parent
     files = [path / name for name in names if _is_result(path / name)]
+    if not files and (path / ELEMENTS).is_file():
+        raise InputError(
+            path, "has the result of an axle", takes="another one: ehlectric drive draws its figure"
+        )
     if not files:
         raise InputError(path, "has no result", takes=f"a folder with one of {', '.join(names)}")
     if len(files) > 1:

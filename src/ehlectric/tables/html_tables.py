@@ -145,6 +145,13 @@ def _sweep_rows(sweep: Sweep) -> Iterator[Row]:
             yield Row(key, ", ".join(texts[:_LISTED]) + more, scale.unit)
 
 
+def _axle_rows(case: AxleCase) -> Iterator[Row]:
+    """Rows of the inputs of an axle in SI units, with each list of tables in one row."""
+    for key, value in flattened(case.to_dict()).items():
+        if key != "title":
+            yield Row(key, value if isinstance(value, str) else json.dumps(value))
+
+
 # Rows by the class of what is shown.
 _ROWS: Mapping[type, Callable[[Any], Iterable[Row]]] = {
     ContactResult: result_rows,
@@ -159,6 +166,6 @@ _ROWS: Mapping[type, Callable[[Any], Iterable[Row]]] = {
     BearingCase: input_rows,
     DriveCase: input_rows,
     GearCase: input_rows,
-    AxleCase: input_rows,
+    AxleCase: _axle_rows,
     Sweep: _sweep_rows,
 }
