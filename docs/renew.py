@@ -93,6 +93,7 @@ RUNS: Mapping[str, Callable[[Run, Path], str]] = {
     "contact": partial(_contact, "run contact.toml --no-plots -o out"),
     "drive": partial(_example, "drive examples/drive.toml --no-plots -o out"),
     "gear": partial(_example, "gear examples/gear_pair.toml --no-plots -o out"),
+    "axle": partial(_example, "check examples/e_axle.toml"),
     "index": partial(_example, f"bearing examples/bearing_6208.toml {_SOLVED}"),
 }
 

@@ -52,7 +52,7 @@ class Element:
     # Voltage at which the film breaks down [V]; None where summits touch, and for ceramic elements.
     breakdown_voltage: float | None
     contact_time_share: float  # share of time in which metallic contacts conduct
-    lambda_ratio: float  # smallest film over the composite Rq
+    lambda_ratio: float  # smallest film divided by the composite Rq
     # Loads of a bearing: radial load, and axial force along z [N]; None for a mesh.
     radial_load: float | None = None
     axial_load: float | None = None

@@ -64,7 +64,7 @@ class MountedBearing(Table, book="axle.bearing"):
 
     @property
     def loaded(self) -> bool:
-        """Whether the table has a load."""
+        """Whether the table contains a load."""
         return any(key in self.keys for key in ("radial_load", "axial_load"))
 
     @model_validator(mode="after")

@@ -42,7 +42,7 @@ def element_cells(summary: Summary) -> Iterator[tuple[str, ...]]:
 
 
 def _in_order(summary: Summary) -> list[Mapping[str, Any]]:
-    """Rows of all elements by their rank; those without a rank last."""
+    """Rows of all elements by their rank; elements without a rank are last."""
     rows = summary["elements"]
     return sorted(rows, key=lambda row: len(rows) + 1 if row["rank"] is None else row["rank"])
 
@@ -93,4 +93,4 @@ def axle_rows(summary: Summary) -> Iterator[Row]:
             yield Row("breakdown voltage", row["breakdown_voltage"], "V")
         yield Row("voltage after an edge", row["voltage"], "V")
         if row["voltage_ratio"] is not None:
-            yield Row("voltage over breakdown voltage", row["voltage_ratio"])
+            yield Row("voltage / breakdown voltage", row["voltage_ratio"])
