@@ -121,7 +121,7 @@ def _tapered(rows):
 
 REFUSED = [
     ("mesh", _first(gears=["rotor", "wheel"]), "mesh.gears", "'wheel'"),
-    ("mesh", _first(gears=["rotor", "rotor"]), "mesh.gears", "two different shafts"),
+    ("mesh", _first(gears=["rotor", "rotor"]), "mesh.gears", "two different"),
     ("mesh", _first(gears=["rotor"]), "mesh.gears", "two"),
     ("mesh", _loop, "mesh.gears", "ratios that agree"),
     ("mesh", lambda rows: [*rows, rows[0]], "mesh.gears", "two paths"),

@@ -33,6 +33,7 @@ from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
 from ehlectric.cases.axle_inputs import HOUSING as HOUSING
+from ehlectric.errors import InputError
 
 Floats = NDArray[np.floating[Any]]
 
@@ -74,7 +75,7 @@ class Network:
         """Potentials of the shafts right after an edge of the source [V], which were 0 before.
 
         ``rise_time`` of the edge [s], in which conductances discharge the shafts; without it they do not.
-        Raises ValueError if a shaft has no path of capacitances to the housing.
+        Raises InputError if a shaft has no path of capacitances to the housing.
 
         Examples
         --------
@@ -135,7 +136,7 @@ class Network:
         """Capacitances of the groups of shafts [F], shape (groups, groups)."""
         matrix = self._assembled(lambda each: each.capacitance)
         if matrix.size and np.linalg.matrix_rank(matrix, tol=1e-12 * np.max(np.abs(matrix))) < len(matrix):
-            raise ValueError("a shaft has no path of capacitances to the housing")
+            raise InputError.worded("shaft", "a shaft has no path of capacitances to the housing")
         return matrix
 
     def _assembled(self, value: Callable[[Film], float]) -> Array:

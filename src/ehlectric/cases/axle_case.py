@@ -43,6 +43,9 @@ _NOT_OF_AXLES = ("common_mode_inductance", "ground_inductance", "grounding_ring_
 # Kinds of bearings whose axial load follows from the whole shaft, which is not computed.
 _ADJUSTED = ("angular-contact ball", "tapered roller")
 
+# Most shafts of an axle.
+_MOST_SHAFTS = 20
+
 # Load with which the keys of a bearing are checked before its loads are known [N].
 _CHECK_LOAD = 100.0
 
@@ -100,6 +103,11 @@ class AxleCase(CaseFile, book="axle_file"):
         if isinstance(tables.get("mesh"), list):
             tables["mesh"] = [_with_pair(mesh, path.parent) for mesh in tables["mesh"]]
         return cls.from_written(tables)
+
+    @classmethod
+    def missing_table_hint(cls, key: str, given: Mapping[str, Any]) -> str:  # noqa: ARG003
+        """Return the text that a drive file names a gear file instead."""
+        return "; or file, the path of a gear file" if key == "mesh.pair" else ""
 
     @property
     def rotor(self) -> str:
@@ -250,6 +258,8 @@ class AxleCase(CaseFile, book="axle_file"):
         if twice or HOUSING in names or "" in names:
             name = twice[0] if twice else HOUSING if HOUSING in names else ""
             raise InputError("shaft.name", got=repr(name), takes="a name of its own for each shaft")
+        if len(names) > _MOST_SHAFTS:
+            raise InputError("shaft", got=f"{len(names)} shafts", takes=f"at most {_MOST_SHAFTS}")
         rotors = [shaft.name for shaft in self.shaft if shaft.rotor]
         if len(rotors) != 1:
             got = f"{len(rotors)} shafts with rotor = true" if rotors else "no shaft with rotor = true"

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
-from pydantic import ConfigDict, model_validator
+from pydantic import BeforeValidator, ConfigDict, model_validator
 
 from ehlectric.cases.bearing_inputs import Bearing
 from ehlectric.cases.gear_case import GearCase
-from ehlectric.cases.table import Table
+from ehlectric.cases.table import Table, Title, any_of, similar_keys
 from ehlectric.errors import InputError, shown
 
 # Name of the node whose potential is 0.
@@ -23,6 +22,24 @@ CONDUCTING: tuple[LinkKind, ...] = ("spline", "coupling")
 
 # Keys of a bearing that the axle determines.
 _OF_AXLE = ("inner_speed", "temperature")
+
+
+def _two_names(entry: object) -> tuple[str, ...]:
+    """Names of two nodes."""
+    if (
+        not isinstance(entry, list | tuple)
+        or not all(isinstance(name, str) for name in entry)
+        or len(entry) != 2
+    ):
+        raise InputError(
+            got=shown(entry), takes=f'two names of shafts, as ["rotor", "output"], or {HOUSING!r}'
+        )
+    if entry[0] == entry[1]:
+        raise InputError(got=f"{shown(entry[0])} twice", takes="two different ones")
+    return tuple(entry)
+
+
+_Names = Annotated[tuple[str, ...], BeforeValidator(_two_names)]
 
 
 class AxleOperation(Table, book="axle.drive"):
@@ -43,7 +60,7 @@ class AxleOperation(Table, book="axle.drive"):
 class Shaft(Table, book="axle.shaft"):
     """Shaft of an axle; all shafts are parallel to z."""
 
-    name: str
+    name: Title
     rotor: bool = False
     housing_capacitance: float | None = None
 
@@ -73,27 +90,22 @@ class MountedBearing(Table, book="axle.bearing"):
             if key in _OF_AXLE:
                 raise InputError.worded(key, "is a value of the axle; give it in [drive]")
             if key not in Bearing.known_keys():
-                raise InputError.worded(key, "unknown key; a bearing of an axle has the keys of [bearing]")
+                raise InputError.unknown(key, any_of(similar_keys(key, [*Bearing.known_keys()])))
         return self
 
 
 class AxleMesh(Table, book="axle.mesh"):
     """Gear mesh between two shafts."""
 
-    gears: tuple[str, ...]
+    gears: _Names
     at: tuple[float, ...]
     direction: float = 0.0
     pair: GearCase
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        for key in ("gears", "at"):
-            if len(getattr(self, key)) != 2:
-                raise InputError(
-                    key, got=shown(list(getattr(self, key))), takes="two, of gear 1 and of gear 2"
-                )
-        if self.gears[0] == self.gears[1]:
-            raise InputError("gears", got=f"{self.gears[0]!r} twice", takes="two different shafts")
+        if len(self.at) != 2:
+            raise InputError("at", got=f"{len(self.at)} places", takes="two, of gear 1 and of gear 2")
         if self.pair.gear.helix_angle and self.pair.gear.hand is None:
             raise InputError.worded(
                 "pair.gear.hand", 'missing; "left" or "right" of gear 1 determines the axial force'
@@ -104,7 +116,7 @@ class AxleMesh(Table, book="axle.mesh"):
 class Link(Table, book="axle.link"):
     """Electrical connection between two shafts, or between a shaft and the housing."""
 
-    between: tuple[str, ...]
+    between: _Names
     kind: LinkKind
     resistance: float | None = None
     capacitance: float | None = None
@@ -116,10 +128,6 @@ class Link(Table, book="axle.link"):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        if len(self.between) != 2 or self.between[0] == self.between[1]:
-            raise InputError(
-                "between", got=shown(list(self.between)), takes=f"two shafts, or a shaft and {HOUSING!r}"
-            )
         if self.turns and HOUSING in self.between:
             raise InputError("kind", got=f"{self.kind!r} to the housing", takes="'ring', 'brush' or 'seal'")
         needed = {"insulated": "capacitance"}.get(self.kind, None if self.turns else "resistance")
@@ -130,8 +138,3 @@ class Link(Table, book="axle.link"):
             if not given and key == needed:
                 raise InputError.worded(key, f"missing; a link of the kind {self.kind!r} needs it")
         return self
-
-
-def as_tables(given: Any) -> list[Mapping[str, Any]]:
-    """Tables of a list; the other items are left to the checks of the case."""
-    return [item for item in given if isinstance(item, Mapping)] if isinstance(given, list | tuple) else []
