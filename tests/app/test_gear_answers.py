@@ -2,9 +2,11 @@
 
 import tomllib
 
+import numpy as np
 import pytest
 
 from ehlectric import GearCase, InputError, solve_gear
+from ehlectric.app.charts.gear_charts import flank_figure
 from ehlectric.app.compute.gear_answers import meaning_of, quick_answer, solve_pair, whole_answer
 from ehlectric.app.compute.page_files import uploaded
 from ehlectric.app.compute.sweep_answers import choices
@@ -14,6 +16,7 @@ from ehlectric.app.form_fields.field_rules import Memory, changed
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.frame import GEAR
 from ehlectric.app.view_models import PENDING, WITHOUT_PROBABILITY
+from ehlectric.figures.gear_panels import flank_map
 from ehlectric.quantities.sheets import GEAR_CARDS
 from ehlectric.runs.example_files import example_text
 from ehlectric.runs.preview import preview_of
@@ -164,6 +167,26 @@ def test_a_gear_file_is_opened_and_belongs_to_its_page(tmp_path):
     assert Inputs(found.table) == GEAR
     with pytest.raises(InputError, match=r"gear\.teeth"):
         uploaded({"pair.toml": example_text("gear_pair").replace("23, 67", "2, 67").encode()}, tmp_path)
+
+
+def test_the_map_of_the_flank_has_the_dashed_line_of_its_summits():
+    """Summits just below the largest film, which is at an edge of the flank."""
+    case = GearCase.from_written(
+        GEAR.changed({"gear.tip_relief": None, "gear.tip_relief_length": None}).table
+    )
+    result = solve_gear(case, probable=False)
+    highest = float(np.nanmax(flank_map(result)[2])) / result.solution.rq
+    for height, lines in ((0.9999 * highest, 1), (1.0001 * highest, 0)):
+        drawn = flank_figure(solve_gear(case.replace({"gear.summit_height": height}), probable=False))["data"]
+        dashes = [trace for trace in drawn if trace.get("line", {}).get("dash") == "dash"]
+        assert len(dashes) == lines
+
+
+def test_the_caption_of_the_flank_names_one_colour_only_if_films_have_it():
+    for relief, capped in (("8 um", True), (None, False)):
+        lists = {"gear.tip_relief": relief, "gear.tip_relief_length": relief and "1 mm"}
+        caption = answer(GEAR.changed(lists)).figures["flank"].caption
+        assert ("one colour" in caption) == capped
 
 
 @pytest.mark.slow

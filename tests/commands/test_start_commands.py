@@ -23,10 +23,11 @@ KINDS = {
     "moving": "motion",
     **dict.fromkeys(("bearing", "tapered-pair", "needle", "thrust", "four-point"), "bearing"),
     "drive": "drive",
+    "gear": "gear",
     "sweep": "sweep",
     "uncertainty": "sweep",
 }
-COMMANDS = {"bearing": "bearing", "drive": "drive", "sweep": "sweep"}
+COMMANDS = {"bearing": "bearing", "drive": "drive", "gear": "gear", "sweep": "sweep"}
 
 
 @pytest.mark.slow

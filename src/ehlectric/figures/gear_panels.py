@@ -373,12 +373,11 @@ def film_finding(result: GearResult) -> str:
 def flank_finding(result: GearResult) -> str:
     """Sentence: the minimum film with its place, and the part of the flank on which summits touch."""
     _, _, films = flank_map(result)
-    known = films[~np.isnan(films)]
-    share = float(np.mean(known <= result.solution.summits))
-    if share >= 1.0:
+    known = films[~np.isnan(films)] <= result.solution.summits
+    if np.all(known):
         touching = "the highest summits touch on the whole flank"
-    elif share > 0.0:
-        touching = f"the highest summits touch on {readable(100.0 * share, 2)} % of the flank"
+    elif np.any(known):
+        touching = f"the highest summits touch on {_part_text(float(np.mean(known)))} of the flank"
     else:
         touching = "no summits touch"
     place = name_of_place(result.solution, weakest(result.solution)[0]).partition(",")[0]
@@ -393,23 +392,44 @@ def mesh_finding(result: GearResult) -> str:
     share = f"metallic contact {time_share_text(float(phase['contact_time_share'] @ phase['phase_weight']))}"
     if state == CONDUCTS:
         return f"The mesh conducts: {share}; {capacitance}"
-    if result.solution.strength is None:
+    touching = result.solution.loads.least(result.solution.gap) == 0.0
+    if result.solution.strength is None and not np.any(touching):
         return f"The mesh {state}: {share}; {capacitance}; no dielectric strength is given"
     voltage, applied = phase["breakdown_voltage"], result.case.gear.contact.voltage
     lead = f"The mesh {state}"
     if applied is not None:
         lead = f"{result.verdict.lead} at {_prefixed(applied, 'V')}"
-    touching = float((voltage == 0.0) @ phase["phase_weight"])
-    if touching == 1.0:
+    if np.all(touching):
         return f"{lead}: the highest summits touch at all phases, no breakdown voltage; {capacitance}"
-    if touching:
-        at = f"{readable(100.0 * touching, 2)} % of the phases"
+    if np.any(touching):
+        at = f"{_part_text(float(touching @ phase['phase_weight']))} of the phases"
+        if result.solution.strength is None:
+            return f"{lead}: the highest summits touch at {at}; {capacitance}"
         most = _prefixed(float(np.max(voltage)), "V")
         return f"{lead}: the highest summits touch at {at}; breakdown voltage elsewhere up to {most}"
     breakdown = f"breakdown voltage {_range(voltage, 'V')}"
     if result.margin is None:
         return f"{lead}: {breakdown}, {capacitance}"
     return f"{lead}: margin {ratio_text(result.margin)}; {breakdown}"
+
+
+def _part_text(part: float) -> str:
+    """Part of phases or places, between 0 and 1, which is not rounded to 0 or 100 %.
+
+    Examples
+    --------
+    >>> _part_text(0.334), _part_text(0.9996), _part_text(2e-4)
+    ('33 %', 'more than 99 %', 'less than 1 %')
+    """
+    if part > 0.99:
+        return "more than 99 %"
+    return "less than 1 %" if part < 0.01 else f"{readable(100.0 * part, 2)} %"
+
+
+def flank_capped(result: GearResult) -> bool:
+    """Whether the map of a flank has films above the film of the last colour."""
+    films = result.solution.films.minimum
+    return bool(np.nanmax(films) > LAST_COLOUR * np.nanmin(films))
 
 
 def _range(values: Array, unit: str) -> str:

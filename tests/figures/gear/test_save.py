@@ -9,7 +9,7 @@ import pytest
 from ehlectric import GearResult, InputError, figure, figure_names, save_figures, solve_gear
 from ehlectric.figures.figure_names import FORMATS, GEAR_FIGURE_FILES, STYLES, in_formats
 from ehlectric.figures.gear_figures import FIGURES
-from ehlectric.figures.gear_panels import flank_map
+from ehlectric.figures.gear_panels import flank_finding, flank_map, mesh_finding
 from ehlectric.figures.result_figures import default_figure
 from ehlectric.runtime.display import ResultKind
 from tests.helpers.each import each
@@ -174,6 +174,29 @@ def test_flanks_without_a_load_have_no_film(relieved):
     assert 0.5 < known[0] < known[-1] < 13.5
 
 
+def test_almost_all_and_almost_none_are_not_rounded_to_all_and_none(helical):
+    """Summits between the two thinnest or the two thickest films of the phases, and of the flank."""
+    solution = helical.solution
+    phases = np.unique(solution.loads.least(solution.films.minimum)) / solution.rq
+    flank = np.unique(flank_map(helical)[2]) / solution.rq
+
+    def findings(height):
+        case = helical_case(
+            **{"gear.contact.conduction": "never", "gear.contact.voltage": "3 V"},
+            **{"gear.summit_height": float(height)},
+        )
+        result = solve_gear(case, probable=False)
+        return mesh_finding(result), flank_finding(result)
+
+    # Summits touch at all phases except the one with the thickest film.
+    assert " of the phases; breakdown voltage elsewhere up to" in findings(np.mean(phases[-2:]))[0]
+    assert "touch on more than 99 % of the flank" in findings(np.mean(flank[-2:]))[1]
+    assert "touch on less than 1 % of the flank" in findings(np.mean(flank[:2]))[1]
+    for finding in findings(1.01 * flank[-1]):
+        assert "%" not in finding
+        assert " 0 " not in finding
+
+
 def test_the_mesh_is_drawn_over_its_phase(spur):
     capacitance, voltage, share = figure(spur, MESH).axes
     phase = spur.over_phase()
@@ -200,6 +223,11 @@ def test_the_mesh_is_drawn_over_its_phase(spur):
         (
             {"discharge.dielectric_strength": None},
             "The mesh insulates: metallic contact less than 0.01 % of the time",
+            2,
+        ),
+        (
+            {"gear.flank_ra": ["0.06 um"], "discharge.dielectric_strength": None},
+            "Discharges likely at 3 V: the highest summits touch at all phases",
             2,
         ),
         ({"gear.flank_ra": ["0.05 um"]}, "Discharges likely at 3 V: the highest summits touch at", 3),

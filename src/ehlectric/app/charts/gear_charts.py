@@ -37,7 +37,10 @@ from ehlectric.quantities.palette import ON_MAP, ORANGE, OUT_OF_RANGE
 from ehlectric.quantities.units import unit_for
 from ehlectric.readable import readable
 
-# Distance of the places on a flank that a page receives, in places of its map, and height of the map [px].
+# Largest numbers of places g and y on a flank that a page receives.
+_ROWS, _COLUMNS = 91, 61
+
+# Distance of the places on a line of contact, in places of the map, and height of the map [px].
 _STEP, _HEIGHT = 4, 560
 
 # Largest number of nodes of a curve along the path of contact.
@@ -149,15 +152,16 @@ class _Flank:
 
     @classmethod
     def of(cls, result: GearResult) -> _Flank:
-        """Map of a gear pair, with every fourth of its places."""
+        """Map of a gear pair, with about every fourth of its places, and with the root and the tip."""
         g, y, films = flank_map(result)
         least, highest = float(np.nanmin(films)), float(np.nanmax(films))
-        most = min(LAST_COLOUR * least, highest)
-        factor, unit = unit_for(most, "m", least=1.0)
-        at = {"x": values(1e3 * y[::_STEP], 5), "y": values(1e3 * g[::_STEP], 5)}
+        last = min(LAST_COLOUR * least, highest)
+        factor, unit = unit_for(last, "m", least=1.0)
+        rows, columns = (kept_nodes(at.size, most) for at, most in ((g, _ROWS), (y, _COLUMNS)))
+        at = {"x": values(1e3 * y[columns], 5), "y": values(1e3 * g[rows], 5)}
         summits, width = factor * result.solution.summits, 1e3 * result.solution.pair.face_width
-        films = factor * films[::_STEP, ::_STEP]
-        return cls(at, films, unit, factor * least, factor * most, summits, width)
+        films = factor * films[np.ix_(rows, columns)]
+        return cls(at, films, unit, factor * least, factor * last, summits, width)
 
     def map(self) -> list[Plot]:
         """Colours of the films, and grey without a load."""
@@ -192,6 +196,7 @@ class _Flank:
         """Line on which the film has the height of the highest summits; none if it has it nowhere."""
         if not self.least < self.summits < float(np.nanmax(self.films)):
             return []
+        dashed = {"color": INK, "width": 2, "dash": "dash"}
         contours = {"coloring": "none", "start": self.summits, "end": self.summits, "size": 1.0}
         line: Plot = self.at | {
             "type": "contour",
@@ -202,8 +207,8 @@ class _Flank:
             "hoverinfo": "skip",
         }
         return [
-            line | {"line": {"color": ON_MAP, "width": 6}, "showlegend": False},
-            line | {"line": {"color": ORANGE, "width": 3}, "name": f"film of {name}", "showlegend": True},
+            line | {"line": {"color": ON_MAP, "width": 5}, "showlegend": False},
+            line | {"line": dashed, "name": f"film of {name}", "showlegend": True},
         ]
 
 
