@@ -96,6 +96,37 @@ def test_a_drive_file_without_shafts_is_a_drive():
     assert isinstance(DriveCase.from_toml(EXAMPLES / "drive.toml"), DriveCase)
 
 
+def test_remedies_change_bearings_of_a_shaft_and_gear_files():
+    case = two_stages()
+    changes = {"bearing.rotor.base": "6308", "mesh.2.gear.flank_ra": "0.1 um", "link": []}
+    changed = case.replace(changes)
+    assert [bearing.keys["base"] for bearing in changed.bearing][:3] == ["6308", "6308", "6307"]
+    assert changed.mesh[1].pair.gear.rq < case.mesh[1].pair.gear.rq
+    assert changed.mesh[0] == case.mesh[0]
+    ring, hybrid, *_ = case.variants()
+    assert ring.circuit.grounding_ring_resistance == 1.0
+    assert hybrid.bearing[1].keys["element_material"] == "silicon-nitride"
+    assert not ring.remedies
+
+
+@each(
+    "key, value, words",
+    [
+        ("bearing.wheel.base", "6308", "'wheel'"),
+        ("bearing.rotor", "6308", "bearing.SHAFT.KEY"),
+        ("mesh.3.gear.flank_ra", "1 um", "'3'"),
+        ("mesh.x", "1 um", "mesh.NUMBER.KEY"),
+        ("mesh.1.gear.flank_rb", "1 um", "flank_ra"),
+        ("drive.spede", 1.0, "drive.speed"),
+    ],
+)
+def test_wrong_changes_are_refused(key, value, words):
+    case = two_stages(remedies=[{"title": "A", "changes": {key: value}}])
+    with pytest.raises(InputError, match=r"^remedies\.1\.changes\.") as refused:
+        case.variants()
+    assert words in str(refused.value)
+
+
 def _changed(key, change):
     """Tables of the example with a change of one of its tables."""
     table = two_stages().to_dict()

@@ -126,6 +126,25 @@ def test_the_example_of_an_axle():
     assert other["bearing 1 of rotor"]["axial_load"] == pytest.approx(3149.950 / 5.0, rel=2e-6)
 
 
+def test_remedies_of_the_example():
+    """A ring on the rotor has the voltage b dV/dt R. Hybrid bearings raise the voltage of the rotor. A first
+    stage that conducts makes one node of all shafts.
+    """
+    result = solve_axle(two_stages())
+    alone = result.solution.potentials()
+    ring, hybrid, other, conducting = (remedy.potentials() for remedy in result.remedies)
+    assert ring["rotor"] == pytest.approx(100e-12 * 800.0 / 3.0 / 50e-9, rel=1e-3)
+    assert hybrid["rotor"] > alone["rotor"]
+    assert (
+        dict(result.remedies[1].ranking())["mesh of rotor and intermediate"] > result.solution.ranking()[0][1]
+    )
+    assert other["intermediate"] < 0.1 * alone["intermediate"]
+    assert other["rotor"] > 0.9 * alone["rotor"]
+    assert conducting == result.solution.potentials("always")
+    rows = result.summary()["remedies"]
+    assert [row["title"] for row in rows] == [remedy.title for remedy in result.case.remedies]
+
+
 def test_conduction_of_the_gear_file_is_kept():
     table = two_stages().to_dict()
     table["mesh"][0]["pair"]["gear"]["contact"] = {"conduction": "always"}

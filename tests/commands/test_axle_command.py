@@ -24,6 +24,7 @@ def test_the_example_is_solved(typed, tmp_path, result):
     done = typed("drive", EXAMPLE, "-o", "out", "--no-plots")
     assert done.returncode == 0
     assert "mesh of rotor and intermediate first" in done.stdout
+    assert "Hybrid" in done.stdout
     folder = tmp_path / "out"
     assert sorted(path.name for path in folder.iterdir()) == ["elements.csv", "shafts.csv", "summary.json"]
     summary = json.loads((folder / "summary.json").read_text("utf-8"))

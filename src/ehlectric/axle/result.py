@@ -27,6 +27,8 @@ class AxleResult(Shown):
     ----------
     solution : AxleSolution
         Elements with their loads, capacitances and breakdown voltages, and their network.
+    remedies : tuple of AxleSolution
+        Solutions with the remedies of the case, in their order.
     seconds : float
         Computing time [s].
     version : str
@@ -36,6 +38,7 @@ class AxleResult(Shown):
     result_kind: ClassVar[ResultKind] = "axle"
 
     solution: AxleSolution
+    remedies: tuple[AxleSolution, ...] = ()
     seconds: float = field(default=0.0, compare=False)
     version: str = __version__
 
@@ -64,6 +67,10 @@ class AxleResult(Shown):
             **self.verdict.as_data(),
             "inputs": self.case.to_dict(),
             **axle_summary(self.solution),
+            "remedies": [
+                {"title": remedy.title, **axle_summary(solution)}
+                for remedy, solution in zip(self.case.remedies, self.remedies, strict=False)
+            ],
             "seconds": self.seconds,
         }
 
@@ -77,7 +84,7 @@ class AxleResult(Shown):
         return headline(self.case.title, *self.key_numbers(), verdict=self.verdict)
 
 
-def solve_axle(case: AxleCase, *, progress: Progress = silent) -> AxleResult:
+def solve_axle(case: AxleCase, *, progress: Progress = silent, remedies: bool = True) -> AxleResult:
     """Solve the films of all bearings and meshes of an axle, and the voltages right after an edge.
 
     Parameters
@@ -86,6 +93,8 @@ def solve_axle(case: AxleCase, *, progress: Progress = silent) -> AxleResult:
         Shafts, bearings, meshes and links, with inverter, machine and oil.
     progress : callable, optional
         Called with the number of solved bearings and meshes, the number of all, and a text.
+    remedies : bool, optional
+        Whether to solve also the axle with each of its remedies.
 
     Returns
     -------
@@ -99,5 +108,7 @@ def solve_axle(case: AxleCase, *, progress: Progress = silent) -> AxleResult:
         temperature.
     """
     start = time.perf_counter()
+    variants = case.variants()
     solution = solve_elements(case, progress)
-    return AxleResult(solution, seconds=time.perf_counter() - start)
+    changed = tuple(solve_elements(variant, progress) for variant in variants) if remedies else ()
+    return AxleResult(solution, changed, seconds=time.perf_counter() - start)

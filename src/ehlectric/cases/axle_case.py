@@ -24,12 +24,13 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.bearing_kinds import KINDS_OF_BEARINGS
 from ehlectric.cases.case_oil import Lubricant
 from ehlectric.cases.discharge_inputs import Discharge
+from ehlectric.cases.drive_case import Remedy
 from ehlectric.cases.drive_inputs import Circuit, Source
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.key_names import refuse_deep
 from ehlectric.cases.table import CaseFile, Title
 from ehlectric.cases.table_edits import displace, flattened, set_keys
-from ehlectric.errors import InputError, within
+from ehlectric.errors import InputError, shown, within
 from ehlectric.quantities.alternatives import ALTERNATIVES
 from ehlectric.quantities.formats import amount, operating_point, speed_text
 from ehlectric.runtime.display import headline
@@ -79,6 +80,8 @@ class AxleCase(CaseFile, book="axle_file"):
         Dielectric strength and conductivity of the oil.
     title : str, optional
         Title of tables and figures.
+    remedies : sequence of mapping, optional
+        Changes that are computed in addition to the axle, each with its title.
     """
 
     if TYPE_CHECKING:
@@ -95,6 +98,7 @@ class AxleCase(CaseFile, book="axle_file"):
     circuit: Circuit
     lubricant: Lubricant
     discharge: Discharge = Discharge()
+    remedies: tuple[Remedy, ...] = ()
 
     @classmethod
     def of_file(cls, table: dict[str, Any], path: Path) -> Self:
@@ -336,8 +340,9 @@ class AxleCase(CaseFile, book="axle_file"):
         Parameters
         ----------
         changes : mapping, optional
-            New values by dotted key, as in ``{"drive.torque": "-30 N m"}``. The tables of a list are given
-            as a whole, as in ``{"link": []}``.
+            New values by dotted key, as in ``{"drive.torque": "-30 N m"}``. ``bearing.SHAFT.KEY`` is a key
+            of all bearings of a shaft, and ``mesh.NUMBER.KEY`` a key of the gear file of a mesh, from 1. The
+            tables of a list are also given as a whole, as in ``{"link": []}``.
         **tables
             New values by table, as in ``drive={"speed": "6000 rpm"}``.
         """
@@ -347,8 +352,46 @@ class AxleCase(CaseFile, book="axle_file"):
         if "lubricant.base" in flat or "lubricant" in flat:
             table["lubricant"] = {}
         displace(table, flat, {name: ALTERNATIVES[name] for name in ("source", "circuit", "discharge")})
-        set_keys(table, flat)
+        inner = {key: value for key, value in flat.items() if key.startswith(("bearing.", "mesh."))}
+        set_keys(table, {key: value for key, value in flat.items() if key not in inner})
+        for key, value in inner.items():
+            name, place, rest = (*key.split(".", 2), "", "")[:3]
+            if name == "bearing":
+                self._change_bearings(table, key, place, {rest: value})
+            else:
+                self._change_mesh(table, key, place, {rest: value})
         return self.from_dict(table)
+
+    def variants(self) -> tuple[Self, ...]:
+        """Return changed copies of the axle, one for each of its remedies."""
+        return tuple(self._changed(number, remedy) for number, remedy in enumerate(self.remedies, 1))
+
+    def _changed(self, number: int, remedy: Remedy) -> Self:
+        with within(f"remedies.{number}.changes"):
+            return self.replace({**remedy.changes, "remedies": []})
+
+    def _change_bearings(
+        self, table: dict[str, Any], key: str, shaft: str, change: Mapping[str, Any]
+    ) -> None:
+        """Change a key of all bearings of a shaft in the tables of a case."""
+        numbers = self.bearings_of(shaft)
+        if not numbers or "" in change:
+            names = ", ".join(each.name for each in self.shaft)
+            raise InputError(key, got=shown(shaft), takes=f"bearing.SHAFT.KEY with a shaft of {names}")
+        for number in numbers:
+            set_keys(table["bearing"][number], change)
+
+    def _change_mesh(self, table: dict[str, Any], key: str, place: str, change: Mapping[str, Any]) -> None:
+        """Change a key of the gear file of a mesh in the tables of a case."""
+        numbers = [str(number) for number in range(1, len(self.mesh) + 1)]
+        if place not in numbers or "" in change:
+            takes = (
+                f"mesh.NUMBER.KEY with one of {', '.join(numbers)} as the number" if numbers else "no mesh"
+            )
+            raise InputError(key, got=shown(place), takes=takes)
+        number = int(place) - 1
+        with within(f"mesh.{place}"):
+            table["mesh"][number]["pair"] = self.mesh[number].pair.replace(change)
 
 
 def _ratio(mesh: AxleMesh) -> float:

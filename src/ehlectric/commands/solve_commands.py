@@ -381,10 +381,12 @@ def _drive_tables(outcome: RunOutcome[object]) -> Iterator[Table]:
 
 def _axle_tables(outcome: RunOutcome[object]) -> Iterator[Table]:
     """Tables of an axle: its bearings and meshes, and its shafts."""
-    from ehlectric.tables.axle_tables import elements_table, shafts_table
+    from ehlectric.tables.axle_tables import elements_table, remedies_table, shafts_table
 
     yield elements_table(outcome.summary)
     yield shafts_table(outcome.summary)
+    if outcome.summary["remedies"]:
+        yield remedies_table(outcome.summary)
 
 
 @command("gear")

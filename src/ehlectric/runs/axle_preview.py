@@ -10,6 +10,6 @@ from ehlectric.tables.axle_tables import axle_rows
 
 def preview(case: AxleCase) -> Preview:
     """Preview of an axle, whose films are not solved."""
-    result = solve_axle(case)
+    result = solve_axle(case, remedies=False)
     summary = result.summary()
     return Preview(case.title, tuple(axle_rows(summary)), summary, result.warnings, result.verdict)

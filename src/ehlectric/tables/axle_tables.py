@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +14,9 @@ from ehlectric.tables.measured_tables import columns_table
 
 if TYPE_CHECKING:
     from rich.table import Table
+
+# Letters on a line of a head.
+_HEAD = 12
 
 # Factor from rad/s to rpm.
 _RPM = 9.549296585513721
@@ -68,6 +72,24 @@ def shafts_table(summary: Summary) -> Table:
         for row in summary["shafts"]
     ]
     return columns_table(heads, rows)
+
+
+def remedies_table(summary: Summary) -> Table:
+    """Table of U/V_b of all bearings and meshes with each remedy, for the terminal; a dash for an element
+    that conducts or has no breakdown voltage.
+    """
+    cases = [("as it is", summary), *((each["title"], each) for each in summary["remedies"])]
+    heads = ["U/V_b", *("\n".join(textwrap.wrap(printable(title), _HEAD)) for title, _ in cases)]
+    ratios = [{row["element"]: row["voltage_ratio"] for row in table["elements"]} for _, table in cases]
+    rows: list[tuple[str, ...]] = [
+        (printable(row["element"]), *(_cell(table.get(row["element"])) for table in ratios))
+        for row in _in_order(summary)
+    ]
+    rotor = [table["shafts"] for _, table in cases]
+    for number, shaft in enumerate(summary["shafts"]):
+        voltages = [_cell(shafts[number]["voltage"]) for shafts in rotor]
+        rows.append((f"U of {printable(shaft['shaft'])} [V]", *voltages))
+    return columns_table(heads, rows, wrapped=(0,))
 
 
 def axle_rows(summary: Summary) -> Iterator[Row]:
