@@ -23,7 +23,7 @@ KINDS = {
     "moving": "motion",
     **dict.fromkeys(("bearing", "tapered-pair", "needle", "thrust", "four-point"), "bearing"),
     "drive": "drive",
-    "gear": "gear",
+    **dict.fromkeys(("gear", "helical-gear"), "gear"),
     "sweep": "sweep",
     "uncertainty": "sweep",
 }
