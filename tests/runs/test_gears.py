@@ -45,9 +45,10 @@ def test_progress_and_warnings_are_reported(caplog):
     result = solve(helical_case(), progress=lambda *state: texts.append(state[-1]))
     assert texts == ["solving films"]
     # Notes are not logged.
-    (logged,) = caplog.messages
-    (warning,) = (each for each in result.warnings if each.severity != "note")
-    assert warning.text in logged
+    warnings = [each.text for each in result.warnings if each.severity != "note"]
+    assert warnings
+    for text, logged in zip(warnings, caplog.messages, strict=True):
+        assert text in logged
 
 
 def test_files_of_gears_belong_to_results(tmp_path):
