@@ -8,10 +8,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+import ehlectric
 from ehlectric.errors import InputError
 from ehlectric.gear.contact_path import contact_path
 from ehlectric.gear.geometry import gear_pair, involute, pressure_angle
-from tests.gear.pairs import FIRST_STAGE, FZG_A, FZG_C, SECOND_STAGE
+from tests.gear.pairs import FIRST_STAGE, FZG_A, FZG_C, SECOND_STAGE, case_of
 
 
 @given(st.floats(1e-6, 1.5))
@@ -147,3 +148,37 @@ def test_impossible_drawings_are_refused_with_the_reason(name):
     changes, reason = BAD[name]
     with pytest.raises(InputError, match=reason):
         contact_path(gear_pair(replace(FZG_C, **changes)))
+
+
+def test_the_involute_begins_where_the_tip_of_the_rack_cut_it():
+    """A rack with a straight flank to one module below its datum line generates a gear. The normal of its last
+    straight point passes the pitch point when the gear touches it there.
+    """
+    pair = gear_pair(FZG_C)
+    radius, angle, module = 0.5 * pair.reference_diameter[0], pair.transverse_pressure_angle, 4.5e-3
+    # Depth of the last straight point below the pitch line of the rack, which the shift moves outwards.
+    depth = (1.0 - 0.1817) * module
+    along = depth / math.sin(angle)
+    # The line of action passes the pitch point; its tangent point on the base circle is r sin(alpha) away.
+    assert pair.form_curvature[0] == pytest.approx(radius * math.sin(angle) - along, rel=1e-12)
+    point = np.array([radius - depth, along * math.cos(angle)])
+    base = radius * math.cos(angle)
+    assert math.sqrt(point @ point - base**2) == pytest.approx(pair.form_curvature[0], rel=1e-12)
+
+
+@pytest.mark.parametrize(("tip", "warned"), [("138.9 mm", False), ("139.9 mm", True)])
+def test_contact_in_the_fillet_is_a_warning(tip, warned):
+    """Spur pair of 21 and 44 teeth of 3 mm: the involute of the pinion begins at a curvature of 4.2 mm."""
+    changes = {
+        "gear.normal_module": "3 mm",
+        "gear.teeth": [21, 44],
+        "gear.centre_distance": "98.5 mm",
+        "gear.profile_shift": [0.25],
+        "gear.face_width": "20 mm",
+        "gear.tip_diameter": ["70.2 mm", tip],
+    }
+    result = ehlectric.solve_gear(case_of().replace(changes), probable=False)
+    texts = [str(each) for each in result.warnings if each.code == "contact-in-fillet"]
+    assert bool(texts) is warned
+    if warned:
+        assert "from 4.19 mm" in texts[0] or "from 4.20 mm" in texts[0]

@@ -31,9 +31,20 @@ def gear_warnings(solution: GearSolution) -> Iterator[ResultWarning]:
         yield ResultWarning.of("flanks-touch", ratio=ratio, height=gear.summit_height)
     if solution.pair.normal_backlash is None:
         yield ResultWarning.of("backlash-unknown")
+    yield from _in_fillets(solution)
     yield from _outside_atlas(solution)
     oil = solution.case.lubricant.at(solution.bulk_temperature, "gear.operation.bulk_temperature")
     yield from oil.warnings(float(np.nanmax(solution.films.max_pressure)))
+
+
+def _in_fillets(solution: GearSolution) -> Iterator[ResultWarning]:
+    """Warnings about contact below the involutes of both gears, in the fillets of their teeth."""
+    path = solution.path
+    least = path.start, path.tangent_length - path.end
+    for gear, (curvature, limit) in enumerate(zip(least, solution.pair.form_curvature, strict=True), start=1):
+        if curvature < limit:
+            other, at, begin = 3 - gear, 1e3 * curvature, 1e3 * limit
+            yield ResultWarning.of("contact-in-fillet", gear=gear, other=other, curvature=at, limit=begin)
 
 
 def _outside_atlas(solution: GearSolution) -> Iterator[ResultWarning]:

@@ -148,6 +148,20 @@ class GearPair:
         return math.acos(sum(self.base_diameter) / (2.0 * self.centre_distance))
 
     @property
+    def form_curvature(self) -> tuple[float, float]:
+        """Transverse radii of curvature at which the involutes begin above the fillets of both gears [m].
+
+        Of external gears by a rack whose flanks are straight to m_n beyond its datum line, as of ISO 53:
+        d sin alpha_t/2 - (1 - x) m_n/sin alpha_t. The fillet of a ring, minus infinity, is not known.
+        """
+        sine = math.sin(self.transverse_pressure_angle)
+        first, second = (
+            0.5 * diameter * sine - (1.0 - shift) * self.normal_module / sine
+            for diameter, shift in zip(self.reference_diameter, self.profile_shift, strict=True)
+        )
+        return first, -math.inf if self.internal else second
+
+    @property
     def working_diameter(self) -> tuple[float, float]:
         """Diameters d_w of the working circles, which touch at the pitch point [m]."""
         first = 2.0 * self.centre_distance / (self.ratio + 1.0)
