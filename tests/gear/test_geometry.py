@@ -151,7 +151,7 @@ def test_impossible_drawings_are_refused_with_the_reason(name):
 
 
 def test_the_involute_begins_where_the_tip_of_the_rack_cut_it():
-    """A rack with a straight flank to one module below its datum line generates a gear. The normal of its last
+    """A rack with a straight flank to one module below its datum line makes a gear. The normal of its last
     straight point passes the pitch point when the gear touches it there.
     """
     pair = gear_pair(FZG_C)
