@@ -18,6 +18,7 @@ from ehlectric.app.pages.frame import GEAR
 from ehlectric.app.view_models import PENDING, WITHOUT_PROBABILITY
 from ehlectric.figures.gear_panels import flank_map
 from ehlectric.quantities.sheets import GEAR_CARDS
+from ehlectric.quantities.verdict import Verdict
 from ehlectric.runs.example_files import example_text
 from ehlectric.runs.preview import preview_of
 from tests.helpers.each import each
@@ -80,6 +81,11 @@ def test_every_verdict_has_a_number_that_decides(changes, level, key):
     assert (found.verdict.level, found.deciding.key) == (level, key)
     assert found.verdict.heading
     assert found.number(key) is not None
+
+
+@each("code", [("discharges-expected",), ("discharges-likely",), ("discharges-possible",)])
+def test_touching_summits_have_a_meaning_of_their_own(code):
+    assert meaning_of(Verdict("red", code)).startswith("Summits of the flanks")
 
 
 def test_a_mesh_that_conducts_has_a_meaning_of_its_own():
