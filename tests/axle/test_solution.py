@@ -8,6 +8,7 @@ import pytest
 from ehlectric import AxleCase, solve, solve_axle, solve_bearing
 from ehlectric.axle.network import HOUSING, WINDING, Film, Network
 from ehlectric.axle.solution import AxleSolution, Element, solve_elements
+from ehlectric.axle.summary import axle_summary
 from ehlectric.cases.drive_inputs import Breakdown, Circuit
 from ehlectric.drive.drive_bearings import bearing_element
 from ehlectric.drive.motor_circuit import capacitive_divider
@@ -124,6 +125,17 @@ def test_the_example_of_an_axle():
     other = {row["element"]: row for row in coasting.summary()["elements"]}
     assert other["bearing 1 of rotor"]["radial_load"] == pytest.approx(4298.173 / 5.0, rel=2e-6)
     assert other["bearing 1 of rotor"]["axial_load"] == pytest.approx(3149.950 / 5.0, rel=2e-6)
+
+
+def test_an_element_parallel_to_a_conducting_one_has_no_energy():
+    """A bearing of the rotor that conducts holds the shaft at the housing."""
+    axle = by_hand()
+    closed = replace(axle.elements[0], name="b0", contact_time_share=1.0)
+    shorted = AxleSolution(axle.case, axle.turning, (closed, *axle.elements))
+    rows = {row["element"]: row for row in axle_summary(shorted)["elements"]}
+    assert rows["b1"]["voltage"] == 0.0
+    assert rows["b1"]["energy"] is None
+    assert rows["b0"]["state"] == "conducts"
 
 
 def test_remedies_of_the_example():

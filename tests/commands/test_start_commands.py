@@ -24,10 +24,11 @@ KINDS = {
     **dict.fromkeys(("bearing", "tapered-pair", "needle", "thrust", "four-point"), "bearing"),
     "drive": "drive",
     **dict.fromkeys(("gear", "helical-gear"), "gear"),
+    "e-axle": "axle",
     "sweep": "sweep",
     "uncertainty": "sweep",
 }
-COMMANDS = {"bearing": "bearing", "drive": "drive", "gear": "gear", "sweep": "sweep"}
+COMMANDS = {"bearing": "bearing", "drive": "drive", "gear": "gear", "axle": "drive", "sweep": "sweep"}
 
 
 @pytest.mark.slow

@@ -89,7 +89,9 @@ def _elements(solution: AxleSolution) -> list[dict[str, Any]]:
                 "rank": places["by-film"],
                 "rank_always": places["always"],
                 "rank_never": places["never"],
-                "energy": None if film.conducts else network.breakdown(film, potentials).energy,
+                "energy": None
+                if film.conducts or voltage == 0.0
+                else network.breakdown(film, potentials).energy,
             }
         )
     return rows

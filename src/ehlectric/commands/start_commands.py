@@ -61,7 +61,11 @@ def init(
         refuse_special(path)
         if path.exists() and not force:
             raise InputError(path, "already exists; use --force to overwrite")
+        further = [file for file in _gear_files(source) if not (path.parent / file).exists() or force]
         clear_left_behind(prepare(path.parent))
+        for file in further:
+            refuse_special(path.parent / file)
+            _copy(source.parent / file, path.parent / file)
         schema_file = None
         if alone:
             _copy(source, path)
@@ -69,7 +73,7 @@ def init(
             schema_file = _write_with_schema(source, path)
         solver = command_of_file(path)
     if not quiet:
-        say(f"written: {path}")
+        say(f"written: {', '.join(map(str, (path, *(path.parent / file for file in further))))}")
         if schema_file is not None:
             say(f"  editors complete its keys by: {schema_file}")
         say(f"  check it with: ehlectric check {path}")
@@ -169,6 +173,12 @@ def _about(name: str) -> str:
     return str(table.get("title", ""))
 
 
+def _gear_files(file: Path) -> list[str]:
+    """Names of the gear files that the meshes of a file name."""
+    meshes = tomli.loads(file.read_text(encoding="utf-8")).get("mesh", ())
+    return [mesh["file"] for mesh in meshes]
+
+
 def _needed(file: str) -> Iterator[str]:
     """File of an example and the files that it names, relative to the folder of the examples."""
     yield file
@@ -182,8 +192,7 @@ def _needed(file: str) -> Iterator[str]:
     for end in ENDS:
         if "file" in table.get(end, ()):
             yield from _needed(table[end]["file"])
-    for mesh in table.get("mesh", ()):
-        yield from _needed(mesh["file"])
+    yield from _gear_files(examples_folder() / file)
     for surface in table.get("roughness", ()):
         if "file" in surface:
             yield surface["file"]
