@@ -83,7 +83,7 @@ def test_every_verdict_has_a_number_that_decides(changes, level, key):
     assert found.number(key) is not None
 
 
-@each("code", [("discharges-expected",), ("discharges-likely",), ("discharges-possible",)])
+@each("code", ["discharges-expected", "discharges-likely", "discharges-possible"])
 def test_touching_summits_have_a_meaning_of_their_own(code):
     assert meaning_of(Verdict("red", code)).startswith("Summits of the flanks")
 
