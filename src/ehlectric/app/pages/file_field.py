@@ -17,6 +17,8 @@ from ehlectric.readable import readable
 NOT_IN_LINKS = "A link cannot hold the file; a download with everything has it."
 LOST_FILE = "This file was uploaded in another session. Upload it again"
 
+_INSTRUMENT = f"File of an instrument: {', '.join(ENDINGS)} and others"
+
 
 class UploadField:
     """Field for the file of an instrument, which is stored in the folder of the session.
@@ -32,7 +34,7 @@ class UploadField:
         refuse: Callable[[str], None],
         *,
         name: str = "surface",
-        label: str = f"File of an instrument: {', '.join(ENDINGS)} and others",
+        label: str = _INSTRUMENT,
         most: int = LARGEST,
     ) -> None:
         self._session, self._take, self._refuse, self._most = session, take, refuse, most
