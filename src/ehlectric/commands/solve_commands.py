@@ -5,8 +5,8 @@ library.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import ExitStack, contextmanager
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import AbstractContextManager, ExitStack, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -38,7 +38,11 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from ehlectric.contact import PointResult, Result
+    from ehlectric.runs.file_kinds import FileKind
     from ehlectric.runtime.progress import RunOutcome
+
+    # Tables that a command prints of its outcome.
+    Tables = Callable[[RunOutcome[Any]], Iterable[Table]]
 
 
 @command("check")
@@ -151,7 +155,7 @@ def run(
 
 def _print_and_draw(
     outcome: RunOutcome[Any],
-    tables: Callable[[RunOutcome[Any]], Iterable[Table]],
+    tables: Tables,
     folder: Path,
     look: Look | None,
     *,
@@ -351,6 +355,34 @@ def drive(
     Exit status 0: solved. 2: the input is wrong. 3: a contact is not converged, all files are still
     written; or memory ran out, or the process of a contact was killed four times.
     """
+    _solve(
+        drive_file,
+        {"drive": _drive_tables, "axle": _axle_tables},
+        output,
+        progress=progress_bar,
+        contacts=contacts,
+        plots=plots,
+        formats=formats,
+        style=style,
+        quiet=quiet,
+        as_json=as_json,
+    )
+
+
+def _solve(
+    path: Path,
+    tables: Mapping[FileKind, Tables],
+    output: Path,
+    *,
+    progress: Callable[..., AbstractContextManager[Progress]],
+    contacts: str,
+    plots: bool,
+    formats: list[str] | None,
+    style: str,
+    quiet: bool,
+    as_json: bool,
+) -> None:
+    """Solve a file whose kind ``tables`` contains, and print and draw its answer with the given options."""
     with ExitStack() as locked:
         with user_errors():
             look = figure_options(formats, style)
@@ -359,13 +391,14 @@ def drive(
             from ehlectric.runs.file_kinds import expect
             from ehlectric.runtime.folders import RESULT_LOCK, alone_in
 
-            file = expect(drive_file, "drive", "axle")
+            file = expect(path, *tables)
             kind, case = by_kind.RUNS[file.kind], by_kind.RUNS[file.kind].read(file)
             folder = locked.enter_context(alone_in(output, locks=[RESULT_LOCK]))
-            with progress_bar(shown=not quiet) as progress:
-                outcome = kind.run(case, folder, progress, contacts=contacts)
-        tables = _axle_tables if file.kind == "axle" else _drive_tables
-        _print_and_draw(outcome, tables, folder, look if plots else None, quiet=quiet, as_json=as_json)
+            with progress(shown=not quiet) as shown:
+                outcome = kind.run(case, folder, shown, contacts=contacts)
+        _print_and_draw(
+            outcome, tables[file.kind], folder, look if plots else None, quiet=quiet, as_json=as_json
+        )
 
 
 def _drive_tables(outcome: RunOutcome[object]) -> Iterator[Table]:
@@ -411,19 +444,18 @@ def gear(
 
     Exit status 0: solved. 2: the input is wrong.
     """
-    with ExitStack() as locked:
-        with user_errors():
-            look = figure_options(formats, style)
-
-            from ehlectric.runs import by_kind
-            from ehlectric.runs.file_kinds import expect
-            from ehlectric.runtime.folders import RESULT_LOCK, alone_in
-
-            case = by_kind.read_gear(expect(gear_file, "gear"))
-            folder = locked.enter_context(alone_in(output, locks=[RESULT_LOCK]))
-            with progress_line(shown=not quiet) as progress:
-                outcome = by_kind.run_gear(case, folder, progress, contacts=contacts)
-        _print_and_draw(outcome, _gear_tables, folder, look if plots else None, quiet=quiet, as_json=as_json)
+    _solve(
+        gear_file,
+        {"gear": _gear_tables},
+        output,
+        progress=progress_line,
+        contacts=contacts,
+        plots=plots,
+        formats=formats,
+        style=style,
+        quiet=quiet,
+        as_json=as_json,
+    )
 
 
 def _gear_tables(outcome: RunOutcome[object]) -> Iterator[Table]:
