@@ -52,6 +52,12 @@ def contact_at_pitch_point(drawing, torque, modulus=STEEL_206):
     return flanks, *line_films(flanks, np.array([pair.path.pitch_point]), np.array([load]))
 
 
+def normal_radii(flanks, places):
+    """Radii of curvature of both flanks in the plane normal to the teeth [m]."""
+    cosine = math.cos(flanks.path.base_helix_angle)
+    return tuple(np.asarray(radius) / cosine for radius in flanks.path.transverse_radii(places))
+
+
 def at_pitch_point(drawing, torque, modulus=STEEL_206):
     """Flanks and film of ``contact_at_pitch_point``."""
     return contact_at_pitch_point(drawing, torque, modulus)[:2]
@@ -139,7 +145,7 @@ def beyond(flanks, films):
     The gap continues the gap at the end of the domain to 4 mm. What lies further away hardly depends on the
     film: it is the rest of the exact capacitance of two cylinders that do not touch.
     """
-    first, second = (float(radius[0]) for radius in flanks.normal_radii(films.places))
+    first, second = (float(radius[0]) for radius in normal_radii(flanks, films.places))
     b, far = films.half_width[0], 4e-3
 
     def circles(x):
@@ -261,7 +267,7 @@ def test_the_gaps_next_to_the_zone_are_those_of_cylinders():
     """
     flanks, films, shape = contact_at_pitch_point(FIRST_STAGE, 150.0)
     b = films.half_width
-    first, second = flanks.normal_radii(films.places)
+    first, second = normal_radii(flanks, films.places)
     race = RollerRaceway(np.minimum(first, second), np.maximum(first, second), False)
     ends = DEFAULT_ENDS[False]
     gaps = [films.central + b**2 / films.reduced_radius * line_gap(end) for end in ends]

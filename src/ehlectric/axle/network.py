@@ -23,7 +23,7 @@ with the modes G phi_k = s_k C phi_k and phi_k'C phi_k = 1. Without conductances
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -177,14 +177,3 @@ def rank(
         if each.name in breakdown_voltages and not each.conducts
     ]
     return sorted(ratios, key=lambda row: -row[1])
-
-
-def connected(shafts: Sequence[str], elements: Sequence[Film]) -> bool:
-    """Whether all shafts have a path of elements to the housing."""
-    reached = {HOUSING}
-    for _ in shafts:
-        for each in elements:
-            ends = {each.first, each.second}
-            if ends & reached and WINDING not in ends:
-                reached |= ends
-    return set(shafts) <= reached

@@ -9,7 +9,6 @@ its term of sliding.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field, fields, replace
 from functools import cache, cached_property, partial
 
@@ -43,12 +42,6 @@ class Flanks:
     modulus: float  # reduced modulus E' [Pa]
     temperature: float  # temperature of the flanks, and of the oil that enters [K]
     oil: FlankOil
-
-    def normal_radii(self, places: Array) -> tuple[Array, Array]:
-        """Radii of curvature of both flanks in the plane normal to the teeth [m], negative if concave."""
-        cosine = math.cos(self.path.base_helix_angle)
-        first, second = self.path.transverse_radii(places)
-        return np.asarray(first) / cosine, np.asarray(second) / cosine
 
 
 # Metadata of numbers at the places of films, NaN where there is no contact.
