@@ -12,7 +12,8 @@ straight shaft, the moments M = sum (p - z_A z) x F about A give the loads that 
 
     F_B,x = M_y/(z_B - z_A)        F_B,y = -M_x/(z_B - z_A)        F_A = sum F - F_B (x and y)
 
-The locating bearing carries the sum of the axial forces.
+The locating bearing carries the sum of the axial forces. Of two inclined rows that are adjusted against each
+other, z_A and z_B are the pressure centres, and each carries its share (``adjusted_rows``).
 """
 
 from __future__ import annotations
@@ -46,7 +47,11 @@ class BearingLoads:
     # Radial loads in x and y [N], shape (2,).
     first: Array
     second: Array
-    axial: float  # axial force along z on the locating bearing [N]
+    axial: float  # sum of the axial forces along z [N]
+    # Axial forces along z on A and B that are adjusted against each other [N], and whether each of them
+    # carries only the axial load that keeps it together.
+    shares: tuple[float, float] | None = None
+    unloaded: tuple[bool, bool] = (False, False)
 
     @property
     def radial(self) -> tuple[float, float]:

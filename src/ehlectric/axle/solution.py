@@ -8,24 +8,26 @@ largest ratio of its voltage to its breakdown voltage breaks down first.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal
 
 import numpy as np
 
+from ehlectric.axle.adjusted_rows import AdjustedRows
 from ehlectric.axle.network import HOUSING, WINDING, Film, Network, rank
 from ehlectric.axle.shaft_loads import BearingLoads, ForceAt, bearing_loads, forces_of_mesh
 from ehlectric.bearing import (
     BearingSolution,
+    InclinedRow,
     breakdown_of,
     duty_of,
     shaft_capacitance,
     solve_bearing,
 )
 from ehlectric.cases.axle_case import AxleCase, Turning
-from ehlectric.cases.axle_inputs import CONDUCTING
+from ehlectric.cases.axle_inputs import CONDUCTING, Shaft
 from ehlectric.cases.gear_inputs import Conduction
 from ehlectric.errors import within
 from ehlectric.gear import GearSolution, drawing_of, gear_pair, gear_warnings, solve_gear_pair, state_at
@@ -38,6 +40,9 @@ CONDUCTIONS: tuple[Conduction, ...] = ("by-film", "always", "never")
 
 # Axial forces that are no load of a bearing [N].
 _NO_FORCE = 1e-6
+
+# Load of a bearing case whose loads are not used [N].
+_ANY_LOAD = 100.0
 
 
 @dataclass(frozen=True)
@@ -157,10 +162,37 @@ def shaft_loads(case: AxleCase) -> dict[str, BearingLoads]:
         for name, force in zip(mesh.gears, both, strict=True):
             forces.setdefault(name, []).append(force)
     loads = {}
-    for name, of_shaft in forces.items():
-        first, second = (case.bearing[number].at for number in case.bearings_of(name))
-        loads[name] = bearing_loads(of_shaft, (first, second))
+    for shaft in case.shaft:
+        if shaft.name in forces:
+            rows = _adjusted_rows(case, shaft, turning[shaft.name].speed)
+            loads[shaft.name] = _loads_on(case, shaft.name, forces[shaft.name], rows)
     return loads
+
+
+def _loads_on(
+    case: AxleCase, shaft: str, forces: Sequence[ForceAt], rows: AdjustedRows | None
+) -> BearingLoads:
+    """Loads of both bearings of a shaft from the forces of its gears."""
+    if rows is None:
+        first, second = (case.bearing[number].at for number in case.bearings_of(shaft))
+        return bearing_loads(forces, (first, second))
+    loads = bearing_loads(forces, rows.pressure_centres)
+    share = rows.share(loads.radial, loads.axial)
+    return replace(loads, shares=share.forces, unloaded=share.unloaded)
+
+
+def _adjusted_rows(case: AxleCase, shaft: Shaft, speed: float) -> AdjustedRows | None:
+    """Rows of a shaft that are adjusted against each other; None if they are not adjusted."""
+    adjustment = case.adjustment_of(shaft)
+    if adjustment is None:
+        return None
+    rows = []
+    first, second = case.bearings_of(shaft.name)
+    for number in (first, second):
+        of_bearing = case.bearing_case(number, speed, _ANY_LOAD, _ANY_LOAD)
+        with case.naming(number):
+            rows.append(InclinedRow.of(of_bearing))
+    return AdjustedRows((rows[0], rows[1]), (case.bearing[first].at, case.bearing[second].at), adjustment)
 
 
 def solve_elements(case: AxleCase, progress: Progress = silent) -> AxleSolution:
@@ -172,7 +204,7 @@ def solve_elements(case: AxleCase, progress: Progress = silent) -> AxleSolution:
     turning, loads = case.turning(), shaft_loads(case)
     names = case.names_of_bearings()
     elements: list[Element] = []
-    warnings: list[tuple[str, tuple[ResultWarning, ...]]] = []
+    warnings = [*_adjustment_warnings(case, loads)]
     count = len(case.bearing) + len(case.mesh)
     for number, bearing in enumerate(case.bearing):
         radial, axial = _loads_of(case, number, loads)
@@ -197,6 +229,23 @@ def solve_elements(case: AxleCase, progress: Progress = silent) -> AxleSolution:
     return AxleSolution(case, turning, tuple(elements), tuple(_named(warnings)))
 
 
+def _adjustment_warnings(
+    case: AxleCase, loads: Mapping[str, BearingLoads]
+) -> Iterator[tuple[str, tuple[ResultWarning, ...]]]:
+    """Warnings about bearings that are adjusted against each other, with the names of shafts and bearings."""
+    names = case.names_of_bearings()
+    for shaft in case.shaft:
+        if shaft.name not in loads or loads[shaft.name].shares is None:
+            continue
+        if shaft.adjustment is None:
+            yield shaft.name, (ResultWarning.of("adjustment-assumed"),)
+        elif shaft.adjustment.arrangement is None:
+            yield shaft.name, (ResultWarning.of("adjustment-assumed", "arrangement"),)
+        for number, unloaded in zip(case.bearings_of(shaft.name), loads[shaft.name].unloaded, strict=True):
+            if unloaded:
+                yield names[number], (ResultWarning.of("row-unloaded"),)
+
+
 def _named(warnings: Iterable[tuple[str, Iterable[ResultWarning]]]) -> Iterator[ResultWarning]:
     """Warnings with the names of their elements: each code once, with the text of the first element."""
     first: dict[str, ResultWarning] = {}
@@ -218,7 +267,10 @@ def _loads_of(case: AxleCase, number: int, loads: Mapping[str, BearingLoads]) ->
     if bearing.shaft not in loads:
         return 0.0, 0.0
     on_shaft = loads[bearing.shaft]
-    radial = on_shaft.radial[case.bearings_of(bearing.shaft).index(number)]
+    place = case.bearings_of(bearing.shaft).index(number)
+    radial = on_shaft.radial[place]
+    if on_shaft.shares is not None:
+        return radial, on_shaft.shares[place]
     return radial, on_shaft.axial if bearing.locating and abs(on_shaft.axial) > _NO_FORCE else 0.0
 
 

@@ -44,6 +44,7 @@ from .impedance import oil_relaxation_time as oil_relaxation_time
 from .impedance import rough_capacitance as rough_capacitance
 from .impedance import shaft_capacitance as shaft_capacitance
 from .impedance import shaft_path as shaft_path
+from .inclined_row import InclinedRow as InclinedRow
 from .loads.totals import around_in_rows as around_in_rows
 from .many_points import TOGETHER as TOGETHER
 from .many_points import Columns as Columns

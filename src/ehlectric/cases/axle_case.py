@@ -14,6 +14,7 @@ from pydantic import model_validator
 
 from ehlectric.cases.axle_inputs import (
     HOUSING,
+    Adjustment,
     AxleMesh,
     AxleOperation,
     Link,
@@ -21,6 +22,7 @@ from ehlectric.cases.axle_inputs import (
     Shaft,
 )
 from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.bearing_inputs import Bearing
 from ehlectric.cases.bearing_kinds import KINDS_OF_BEARINGS
 from ehlectric.cases.case_oil import Lubricant
 from ehlectric.cases.discharge_inputs import Discharge
@@ -41,7 +43,7 @@ _ROUNDING = 1e-9
 # Keys of the circuit and the source that the static answer does not contain.
 _NOT_OF_AXLES = ("common_mode_inductance", "ground_inductance", "grounding_ring_table")
 
-# Kinds of bearings whose axial load follows from the whole shaft, which is not computed.
+# Kinds of bearings of which two on a shaft are adjusted against each other.
 _ADJUSTED = ("angular-contact ball", "tapered roller")
 
 # Most shafts of an axle.
@@ -239,21 +241,16 @@ class AxleCase(CaseFile, book="axle_file"):
         self._check_loads()
         for number in range(len(self.mesh)):
             self.gear_case(number, turning)
-        for number, bearing in enumerate(self.bearing):
-            needs_axial = "axial_load" in bearing.keys
-            case = self.bearing_case(number, self.drive.speed, _CHECK_LOAD, 0.0)
-            if case.bearing.kind in _ADJUSTED and case.bearing.pair is None and not needs_axial:
+        for number in range(len(self.bearing)):
+            kind = self._table_of(number).kind
+            if not KINDS_OF_BEARINGS[kind].radial:
                 raise InputError(
-                    "bearing.base",
-                    got=f"a single {case.bearing.kind} bearing",
-                    takes="another kind, or a pair: the axial loads of adjusted bearings are not computed",
+                    "bearing.base", got=f"a {kind} bearing", takes="one that carries radial loads"
                 )
-            if not KINDS_OF_BEARINGS[case.bearing.kind].radial:
-                raise InputError(
-                    "bearing.base",
-                    got=f"a {case.bearing.kind} bearing",
-                    takes="one that carries radial loads",
-                )
+        helical = {name for mesh in self.mesh if mesh.pair.gear.helix_angle for name in mesh.gears}
+        for shaft in self.shaft:
+            if self._check_adjusted(shaft) is None:
+                self._check_locating(shaft, helical=shaft.name in helical)
         return self
 
     def _check_names(self) -> None:
@@ -279,8 +276,7 @@ class AxleCase(CaseFile, book="axle_file"):
                 raise InputError(key, got=repr(name), takes=f"one of {takes}")
 
     def _check_bearings(self) -> None:
-        """Check that each shaft has two bearings, of which one carries its axial force."""
-        helical = {name for mesh in self.mesh if mesh.pair.gear.helix_angle for name in mesh.gears}
+        """Check that each shaft has two bearings."""
         for shaft in self.shaft:
             bearings = [self.bearing[number] for number in self.bearings_of(shaft.name)]
             if not bearings:
@@ -293,13 +289,65 @@ class AxleCase(CaseFile, book="axle_file"):
                     got=f"{len(bearings)} on shaft {shaft.name!r}",
                     takes="two: the loads of more bearings do not follow from statics",
                 )
-            locating = sum(bearing.locating for bearing in bearings)
-            if locating > 1 or (shaft.name in helical and locating != 1):
-                raise InputError(
-                    "bearing.locating",
-                    got=f"{locating} of the bearings of shaft {shaft.name!r}",
-                    takes="one, which carries the axial force of the helical gears",
-                )
+
+    def _check_locating(self, shaft: Shaft, *, helical: bool) -> None:
+        """Check that one bearing carries the axial force of a shaft."""
+        locating = sum(self.bearing[number].locating for number in self.bearings_of(shaft.name))
+        if locating > 1 or (helical and locating != 1):
+            raise InputError(
+                "bearing.locating",
+                got=f"{locating} of the bearings of shaft {shaft.name!r}",
+                takes="one, which carries the axial force of the helical gears",
+            )
+
+    def _table_of(self, number: int) -> Bearing:
+        """Table ``bearing`` of a bearing, with any load."""
+        return self.bearing_case(number, self.drive.speed, _CHECK_LOAD, 0.0).bearing
+
+    def _inclined(self, shaft: str) -> list[int]:
+        """Numbers of the single bearings with inclined rows on a shaft whose axial loads are not given."""
+        tables = {number: self._table_of(number) for number in self.bearings_of(shaft)}
+        return [
+            number
+            for number, bearing in tables.items()
+            if bearing.kind in _ADJUSTED
+            and bearing.pair is None
+            and "axial_load" not in self.bearing[number].keys
+        ]
+
+    def adjustment_of(self, shaft: Shaft) -> Adjustment | None:
+        """Return the adjustment of both bearings of a shaft against each other; None if they are not
+        adjusted.
+        """
+        return (shaft.adjustment or Adjustment(axial_play=0.0)) if self._inclined(shaft.name) else None
+
+    def _check_adjusted(self, shaft: Shaft) -> Adjustment | None:
+        """Adjustment of both bearings of a shaft; refuse single inclined rows that are not adjusted."""
+        inclined, numbers = self._inclined(shaft.name), self.bearings_of(shaft.name)
+        kinds = [self._table_of(number).kind for number in numbers]
+        names = f"{' and '.join(kinds)} bearings on shaft {shaft.name!r}"
+        if not inclined:
+            if shaft.adjustment is not None:
+                takes = "two tapered roller or two angular-contact ball bearings, without pair and loads"
+                raise InputError("shaft.adjustment", got=f"it with {names}", takes=takes)
+            return None
+        if len(inclined) == 1 or len({*kinds}) > 1:
+            raise InputError(
+                "bearing.base",
+                got=names,
+                takes="two of one kind, which are adjusted against each other, or a pair at one place: the "
+                "axial load of a single inclined row depends on a second one",
+            )
+        if not any(shaft.name in mesh.gears for mesh in self.mesh):
+            raise InputError.worded(
+                "bearing.axial_load", f"missing; shaft {shaft.name!r} has no gears that load its bearings"
+            )
+        if any(self.bearing[number].locating for number in numbers):
+            raise InputError.worded(
+                "bearing.locating",
+                f"is not used by {names}: both carry axial forces; see shaft.adjustment",
+            )
+        return self.adjustment_of(shaft)
 
     def _check_loads(self) -> None:
         """Check that bearings of shafts with gears have no load, and all others have one."""

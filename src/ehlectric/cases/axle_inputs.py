@@ -20,6 +20,10 @@ LinkKind = Literal["ring", "brush", "seal", "spline", "coupling", "insulated"]
 TURNING: tuple[LinkKind, ...] = ("spline", "coupling", "insulated")
 CONDUCTING: tuple[LinkKind, ...] = ("spline", "coupling")
 
+# Back to back, or face to face, which is assumed without a value.
+Arrangement = Literal["O", "X"]
+ASSUMED_ARRANGEMENT: Arrangement = "X"
+
 # Keys of a bearing that the axle determines.
 _OF_AXLE = ("inner_speed", "temperature")
 
@@ -57,12 +61,26 @@ class AxleOperation(Table, book="axle.drive"):
         return self
 
 
+class Adjustment(Table, book="axle.adjustment"):
+    """Adjustment of two inclined rows against each other: arrangement, and preload or play."""
+
+    arrangement: Arrangement | None = None
+    preload: float | None = None
+    axial_play: float | None = None
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        self.check_alternatives(("preload", "axial_play"), "either preload or axial_play", needed=True)
+        return self
+
+
 class Shaft(Table, book="axle.shaft"):
     """Shaft of an axle; all shafts are parallel to z."""
 
     name: Title
     rotor: bool = False
     housing_capacitance: float | None = None
+    adjustment: Adjustment | None = None
 
 
 class MountedBearing(Table, book="axle.bearing"):
