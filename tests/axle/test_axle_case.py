@@ -8,7 +8,7 @@ from ehlectric import AxleCase, DriveCase, InputError
 from ehlectric.axle.solution import shaft_loads
 from tests.axle.axles import ALONE, two_stages
 from tests.helpers.each import each
-from tests.helpers.places import EXAMPLES
+from tests.helpers.places import DATA, EXAMPLES
 
 
 @pytest.mark.parametrize(
@@ -109,6 +109,37 @@ def test_remedies_change_bearings_of_a_shaft_and_gear_files():
     assert not ring.remedies
 
 
+def test_a_whole_file_of_an_axle_with_tapered_bearings():
+    """Keys of all bearings, a ring by its kind, and all gear files; the tables of a simulation are kept."""
+    case = AxleCase.from_toml(DATA / "axles" / "e_axle.toml")
+    tables = [case.bearing_case(number, 100.0, 1000.0, 500.0).bearing for number in range(6)]
+    assert [table.composite_rq for table in tables] == [6e-8] * 6
+    assert [table.contact_resistance for table in tables] == [1.0] * 6
+    assert (case.drive.duration, case.drive.seed, case.breakdown.arc_resistance) == (0.05, 1, 10.0)
+    assert AxleCase.from_dict(case.to_dict()) == case
+    hybrid, moved, smooth = case.variants()
+    assert hybrid.link == ()
+    assert [link.between for link in moved.link] == [("intermediate", "housing")]
+    assert [mesh.pair.gear.flank_ra for mesh in smooth.mesh] == [(5e-8, 5e-8)] * 2
+
+
+def test_keys_of_a_bearing_replace_keys_of_all_bearings():
+    """Also their alternatives; heights with a normal distribution have the Rq sqrt(pi/2) Ra."""
+    case = two_stages().replace({"bearings.composite_ra": 4e-8, "bearing.rotor.composite_rq": 1e-8})
+    of_ra = 4e-8 * math.sqrt(0.5 * math.pi)
+    rq = [case.bearing_case(n, 100.0, 1000.0, 0.0).bearing.composite_rq for n in range(6)]
+    assert rq == pytest.approx([1e-8, 1e-8, of_ra, 5e-8, 2e-8, 2e-8], rel=1e-12)
+
+
+def test_changes_of_links_and_shafts():
+    ring = {"between": ["rotor", "housing"], "kind": "ring", "resistance": 1.0}
+    case = two_stages(link=[ring, {**ring, "kind": "seal"}, ring])
+    changed = case.replace({"link.ring.resistance": 2.0, "link.2.resistance": 3.0})
+    assert [link.resistance for link in changed.link] == [2.0, 3.0, 2.0]
+    assert [link.kind for link in case.replace({"link.ring.resistance": "none"}).link] == ["seal"]
+    assert case.replace({"shaft.output.housing_capacitance": 1e-10}).shaft[2].housing_capacitance == 1e-10
+
+
 @each(
     "key, value, words",
     [
@@ -118,6 +149,11 @@ def test_remedies_change_bearings_of_a_shaft_and_gear_files():
         ("mesh.x", "1 um", "mesh.NUMBER.KEY"),
         ("mesh.1.gear.flank_rb", "1 um", "flank_ra"),
         ("drive.spede", 1.0, "drive.speed"),
+        ("shaft.wheel.housing_capacitance", 1e-9, "'wheel'"),
+        ("link.ring.resistance", 1.0, "no link"),
+        ("bearings.radial_load", 1.0, "[[bearing]]"),
+        ("bearings.composite_rz", 1.0, "composite_rq"),
+        ("bearings", 1.0, "a table"),
     ],
 )
 def test_wrong_changes_are_refused(key, value, words):

@@ -6,11 +6,12 @@ import math
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from copy import deepcopy
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from ehlectric.cases.axle_inputs import (
     HOUSING,
@@ -20,6 +21,7 @@ from ehlectric.cases.axle_inputs import (
     Link,
     MountedBearing,
     Shaft,
+    SharedKeys,
 )
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.bearing_inputs import Bearing
@@ -27,7 +29,7 @@ from ehlectric.cases.bearing_kinds import KINDS_OF_BEARINGS
 from ehlectric.cases.case_oil import Lubricant
 from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.cases.drive_case import Remedy
-from ehlectric.cases.drive_inputs import Circuit, Source
+from ehlectric.cases.drive_inputs import Breakdown, Circuit, Source
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.key_names import refuse_deep
 from ehlectric.cases.table import CaseFile, Title
@@ -45,6 +47,13 @@ _NOT_OF_AXLES = ("common_mode_inductance", "ground_inductance", "grounding_ring_
 
 # Kinds of bearings of which two on a shaft are adjusted against each other.
 _ADJUSTED = ("angular-contact ball", "tapered roller")
+
+# Tables whose keys displace their alternatives, also keys of all bearings.
+_DISPLACED = ("source", "circuit", "discharge", "breakdown")
+_SHARED_ALTERNATIVES = {"bearings": ALTERNATIVES["bearing"]}
+
+# Resistance that removes a link.
+NO_LINK = "none"
 
 # Most shafts of an axle.
 _MOST_SHAFTS = 20
@@ -74,8 +83,12 @@ class AxleCase(CaseFile, book="axle_file"):
         Speed and torque of the rotor, and temperature of the oil.
     shaft, bearing, mesh, link : sequence of mapping
         Shafts; bearings on them; gear meshes between them; rings, couplings and other links.
+    bearings : mapping, optional
+        Keys of all bearings, which the keys of a bearing replace.
     source, circuit : mapping
         Common-mode voltage; capacitances of the machine.
+    breakdown : mapping, optional
+        Arc and threshold of the films, for discharges over time.
     lubricant : Lubricant or mapping
         Oil of all bearings and meshes.
     discharge : mapping, optional
@@ -94,10 +107,12 @@ class AxleCase(CaseFile, book="axle_file"):
     drive: AxleOperation
     shaft: tuple[Shaft, ...]
     bearing: tuple[MountedBearing, ...]
+    bearings: SharedKeys = Field(default_factory=dict)
     mesh: tuple[AxleMesh, ...] = ()
     link: tuple[Link, ...] = ()
     source: Source
     circuit: Circuit
+    breakdown: Breakdown | None = None
     lubricant: Lubricant
     discharge: Discharge = Discharge()
     remedies: tuple[Remedy, ...] = ()
@@ -141,10 +156,14 @@ class AxleCase(CaseFile, book="axle_file"):
         """Case of a bearing at a speed [rad/s] and loads [N]."""
         loads = {"radial_load": radial, "axial_load": axial}
         operation = {"inner_speed": abs(speed), "temperature": self.drive.temperature}
-        keys = loads | self.bearing[number].keys | operation
+        keys = loads | self._keys_of(number) | operation
         table = {"contacts": "atlas", "bearing": keys, "lubricant": self.lubricant.model_copy()}
         with self.naming(number):
             return BearingCase.from_dict(table | {"discharge": self._discharge()})
+
+    def _keys_of(self, number: int) -> dict[str, Any]:
+        """Keys of a bearing, which replace keys of all bearings and their alternatives."""
+        return _set_in("bearing", deepcopy(self.bearings), self.bearing[number].keys)
 
     @contextmanager
     def naming(self, number: int) -> Iterator[None]:
@@ -389,8 +408,11 @@ class AxleCase(CaseFile, book="axle_file"):
         ----------
         changes : mapping, optional
             New values by dotted key, as in ``{"drive.torque": "-30 N m"}``. ``bearing.SHAFT.KEY`` is a key
-            of all bearings of a shaft, and ``mesh.NUMBER.KEY`` a key of the gear file of a mesh, from 1. The
-            tables of a list are also given as a whole, as in ``{"link": []}``.
+            of all bearings of a shaft, and ``shaft.SHAFT.KEY`` a key of the shaft. ``mesh.NUMBER.KEY`` is a
+            key of the gear file of a mesh, from 1, and ``mesh.gear.KEY`` a key of all gear files.
+            ``link.KIND.KEY`` is a key of all links of a kind, and ``link.NUMBER.KEY`` a key of a link;
+            ``"none"`` as their resistance removes links. The tables of a list are also given as a whole, as
+            in ``{"link": []}``.
         **tables
             New values by table, as in ``drive={"speed": "6000 rpm"}``.
         """
@@ -399,15 +421,18 @@ class AxleCase(CaseFile, book="axle_file"):
         table = self.to_dict()
         if "lubricant.base" in flat or "lubricant" in flat:
             table["lubricant"] = {}
-        displace(table, flat, {name: ALTERNATIVES[name] for name in ("source", "circuit", "discharge")})
-        inner = {key: value for key, value in flat.items() if key.startswith(("bearing.", "mesh."))}
+        displace(table, flat, {name: ALTERNATIVES[name] for name in _DISPLACED} | _SHARED_ALTERNATIVES)
+        lists = {
+            "bearing": self._change_bearings,
+            "shaft": self._change_shaft,
+            "mesh": self._change_mesh,
+            "link": self._change_links,
+        }
+        inner = {key: value for key, value in flat.items() if "." in key and key.split(".")[0] in lists}
         set_keys(table, {key: value for key, value in flat.items() if key not in inner})
         for key, value in inner.items():
             name, place, rest = (*key.split(".", 2), "", "")[:3]
-            if name == "bearing":
-                self._change_bearings(table, key, place, {rest: value})
-            else:
-                self._change_mesh(table, key, place, {rest: value})
+            lists[name](table, key, place, {rest: value})
         return self.from_dict(table)
 
     def variants(self) -> tuple[Self, ...]:
@@ -427,19 +452,58 @@ class AxleCase(CaseFile, book="axle_file"):
             names = ", ".join(each.name for each in self.shaft)
             raise InputError(key, got=shown(shaft), takes=f"bearing.SHAFT.KEY with a shaft of {names}")
         for number in numbers:
-            set_keys(table["bearing"][number], change)
+            _set_in("bearing", table["bearing"][number], change)
+
+    def _change_shaft(self, table: dict[str, Any], key: str, shaft: str, change: Mapping[str, Any]) -> None:
+        """Change a key of a shaft in the tables of a case."""
+        names = [each.name for each in self.shaft]
+        if shaft not in names or "" in change:
+            raise InputError(
+                key, got=shown(shaft), takes=f"shaft.SHAFT.KEY with a shaft of {', '.join(names)}"
+            )
+        _set_in("shaft", table["shaft"][names.index(shaft)], change)
 
     def _change_mesh(self, table: dict[str, Any], key: str, place: str, change: Mapping[str, Any]) -> None:
-        """Change a key of the gear file of a mesh in the tables of a case."""
+        """Change a key in the gear file of a mesh, or in all gear files, in the tables of a case."""
         numbers = [str(number) for number in range(1, len(self.mesh) + 1)]
-        if place not in numbers or "" in change:
+        of_all = place == "gear" and bool(numbers)
+        if (place not in numbers and not of_all) or "" in change:
             takes = (
-                f"mesh.NUMBER.KEY with one of {', '.join(numbers)} as the number" if numbers else "no mesh"
+                f"mesh.NUMBER.KEY with one of {', '.join(numbers)} as the number, or mesh.gear.KEY"
+                if numbers
+                else "no mesh"
             )
             raise InputError(key, got=shown(place), takes=takes)
-        number = int(place) - 1
-        with within(f"mesh.{place}"):
-            table["mesh"][number]["pair"] = self.mesh[number].pair.replace(change)
+        changes = {f"gear.{name}": value for name, value in change.items()} if of_all else change
+        for name in numbers if of_all else [place]:
+            mesh = table["mesh"][int(name) - 1]
+            with within("mesh" if of_all else f"mesh.{place}"):
+                mesh["pair"] = GearCase.from_dict(mesh["pair"]).replace(changes).to_dict()
+
+    def _change_links(self, table: dict[str, Any], key: str, place: str, change: Mapping[str, Any]) -> None:
+        """Change a key of a link, or of links of equal kind, in the tables of a case; or remove the links."""
+        links = table.get("link", [])
+        chosen = [link for number, link in enumerate(links, 1) if place in (str(number), link["kind"])]
+        if not chosen or "" in change:
+            kinds = ", ".join(dict.fromkeys(link["kind"] for link in links))
+            takes = f"link.NUMBER.KEY, or link.KIND.KEY with a kind of {kinds}" if links else "no link"
+            raise InputError(key, got=shown(place), takes=takes)
+        if change.get("resistance") == NO_LINK:
+            table["link"] = [link for link in links if not any(link is each for each in chosen)]
+            return
+        if "between" in change and len(chosen) > 1:
+            raise InputError(key, got=f"{len(chosen)} links", takes="link.NUMBER.between, of one link")
+        for link in chosen:
+            link.update(change)
+
+
+def _set_in(name: str, table: dict[str, Any], change: Mapping[str, Any]) -> dict[str, Any]:
+    """Set dotted keys of a table with a name, and remove their alternatives from it."""
+    displace(
+        {name: table}, {f"{name}.{key}": value for key, value in change.items()}, {name: ALTERNATIVES[name]}
+    )
+    set_keys(table, change)
+    return table
 
 
 def _ratio(mesh: AxleMesh) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import BeforeValidator, ConfigDict, model_validator
@@ -27,6 +28,9 @@ ASSUMED_ARRANGEMENT: Arrangement = "X"
 # Keys of a bearing that the axle determines.
 _OF_AXLE = ("inner_speed", "temperature")
 
+# Loads of a bearing.
+LOADS = ("radial_load", "axial_load")
+
 
 def _two_names(entry: object) -> tuple[str, ...]:
     """Names of two nodes."""
@@ -46,12 +50,38 @@ def _two_names(entry: object) -> tuple[str, ...]:
 _Names = Annotated[tuple[str, ...], BeforeValidator(_two_names)]
 
 
+def _bearing_keys(keys: object) -> dict[str, Any]:
+    """Keys of the table ``bearing`` of a bearing file that the axle does not determine."""
+    if not isinstance(keys, Mapping):
+        raise InputError(got=shown(keys), takes="a table with keys of bearings")
+    for key in keys:
+        if key in _OF_AXLE:
+            raise InputError.worded(key, "is a value of the axle; give it in [drive]")
+        if key not in Bearing.known_keys():
+            raise InputError.unknown(key, any_of(similar_keys(key, [*Bearing.known_keys()])))
+    return dict(keys)
+
+
+def _shared_keys(keys: object) -> dict[str, Any]:
+    """Keys of all bearings, without loads."""
+    shared = _bearing_keys(keys)
+    for key in LOADS:
+        if key in shared:
+            raise InputError.worded(key, "is the load of one bearing; give it in its table [[bearing]]")
+    return shared
+
+
+SharedKeys = Annotated[dict[str, Any], BeforeValidator(_shared_keys)]
+
+
 class AxleOperation(Table, book="axle.drive"):
-    """Operating point of an axle: speed and torque of its rotor, and temperature of its oil."""
+    """Operating point of an axle, and how long it is simulated."""
 
     speed: float
     torque: float
     temperature: float
+    duration: float | None = None
+    seed: int = 0
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -100,15 +130,11 @@ class MountedBearing(Table, book="axle.bearing"):
     @property
     def loaded(self) -> bool:
         """Whether the table contains a load."""
-        return any(key in self.keys for key in ("radial_load", "axial_load"))
+        return any(key in self.keys for key in LOADS)
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        for key in self.keys:
-            if key in _OF_AXLE:
-                raise InputError.worded(key, "is a value of the axle; give it in [drive]")
-            if key not in Bearing.known_keys():
-                raise InputError.unknown(key, any_of(similar_keys(key, [*Bearing.known_keys()])))
+        _bearing_keys(self.keys)
         return self
 
 
