@@ -481,7 +481,7 @@ class AxleCase(CaseFile, book="axle_file"):
                 mesh["pair"] = GearCase.from_dict(mesh["pair"]).replace(changes).to_dict()
 
     def _change_links(self, table: dict[str, Any], key: str, place: str, change: Mapping[str, Any]) -> None:
-        """Change a key of a link or of a kind of links in the tables of a case; or remove the links."""
+        """Change a key in a link, or in all links of a kind, in the tables of a case; or remove links."""
         links = table.get("link", [])
         chosen = [link for number, link in enumerate(links, 1) if place in (str(number), link["kind"])]
         if not chosen or "" in change:
