@@ -5,7 +5,8 @@ A file of ``tests/data/refusals`` has one right input or several, and what each 
 ``base``
     The right input; a list where each refusal is that of several inputs.
 ``refused``
-    Groups of refusals, each of which sets and drops dotted keys of the base. The message begins with ``key``,
+    Groups of refusals, each of which sets and drops dotted keys of the base. A table in a list is named by
+    its number, from 1; the number after the last one adds a table. The message begins with ``key``,
     by default the first that is set or else dropped, and has all of ``names``: what was found, and what is
     allowed.
 """
@@ -32,16 +33,21 @@ def changed(base, entry):
     table = deepcopy(base)
     for key in entry.get("drop", ()):
         *tables, last = key.split(".")
-        del inner(table, tables)[last]
+        target = inner(table, tables)
+        del target[int(last) - 1 if isinstance(target, list) else last]
     for key, value in entry.get("set", {}).items():
         *tables, last = key.split(".")
-        inner(table, tables)[last] = value
+        target = inner(table, tables)
+        if isinstance(target, list):
+            target[int(last) - 1 :] = [value, *target[int(last) :]]
+        else:
+            target[last] = value
     return table
 
 
 def inner(table, names):
     for name in names:
-        table = table.setdefault(name, {})
+        table = table[int(name) - 1] if isinstance(table, list) else table.setdefault(name, {})
     return table
 
 

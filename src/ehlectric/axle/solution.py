@@ -155,7 +155,7 @@ def shaft_loads(case: AxleCase) -> dict[str, BearingLoads]:
     forces: dict[str, list[ForceAt]] = {}
     for number, mesh in enumerate(case.mesh):
         gear = mesh.pair.gear
-        with within("mesh.pair.gear"):
+        with within("mesh.pair"):
             pair = gear_pair(drawing_of(gear))
         torque = case.torque_of_gear(number, turning)
         both = forces_of_mesh(pair, torque, gear.hand or "right", mesh.direction, (mesh.at[0], mesh.at[1]))

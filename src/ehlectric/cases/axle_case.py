@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from copy import deepcopy
 from dataclasses import dataclass
+from itertools import combinations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
@@ -24,13 +25,14 @@ from ehlectric.cases.axle_inputs import (
     SharedKeys,
 )
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.bearing_inputs import Bearing
+from ehlectric.cases.bearing_inputs import Bearing, base_of, typed_base
 from ehlectric.cases.bearing_kinds import KINDS_OF_BEARINGS
 from ehlectric.cases.case_oil import Lubricant
 from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.cases.drive_case import Remedy
 from ehlectric.cases.drive_inputs import Breakdown, Circuit, Source
 from ehlectric.cases.gear_case import GearCase
+from ehlectric.cases.gear_inputs import Gear
 from ehlectric.cases.key_names import refuse_deep
 from ehlectric.cases.table import CaseFile, Title
 from ehlectric.cases.table_edits import displace, flattened, set_keys
@@ -57,6 +59,12 @@ NO_LINK = "none"
 
 # Most shafts of an axle.
 _MOST_SHAFTS = 20
+
+# Length by which faces of gears may overlap, as rounding [m].
+_LEAST_OVERLAP = 1e-6
+
+# Properties in which two gears differ, and their units.
+_UNITS_OF_GEARS = {"normal_module": "m", "teeth": "", "normal_pressure_angle": "rad", "helix_angle": "rad"}
 
 # Load with which the keys of a bearing are checked before its loads are known [N].
 _CHECK_LOAD = 100.0
@@ -257,12 +265,13 @@ class AxleCase(CaseFile, book="axle_file"):
         if self.source.dc_link is None:
             raise InputError.missing("source.dc_link", "a voltage; an axle takes no measured waveform")
         turning = self.turning()
+        self._check_gears()
         self._check_loads()
         for number in range(len(self.mesh)):
             self.gear_case(number, turning)
         for number in range(len(self.bearing)):
-            kind = self._table_of(number).kind
-            if not KINDS_OF_BEARINGS[kind].radial:
+            kind = self._kind_of(number)
+            if kind in KINDS_OF_BEARINGS and not KINDS_OF_BEARINGS[kind].radial:
                 raise InputError(
                     "bearing.base", got=f"a {kind} bearing", takes="one that carries radial loads"
                 )
@@ -319,6 +328,14 @@ class AxleCase(CaseFile, book="axle_file"):
                 takes="one, which carries the axial force of the helical gears",
             )
 
+    def _kind_of(self, number: int) -> str:
+        """Kind of a bearing before its other keys are checked, given or from its ``base``."""
+        keys = self._keys_of(number)
+        if "kind" in keys or typed_base(keys) is None:
+            return str(keys.get("kind"))
+        with within("bearing"), self.naming(number):
+            return str(base_of(keys)[1]["kind"])
+
     def _table_of(self, number: int) -> Bearing:
         """Table ``bearing`` of a bearing, with any load."""
         return self.bearing_case(number, self.drive.speed, _CHECK_LOAD, 0.0).bearing
@@ -344,7 +361,7 @@ class AxleCase(CaseFile, book="axle_file"):
         """Adjustment of both bearings of a shaft; refuse single inclined rows that are not adjusted."""
         inclined, numbers = self._inclined(shaft.name), self.bearings_of(shaft.name)
         kinds = [self._table_of(number).kind for number in numbers]
-        names = f"{' and '.join(kinds)} bearings on shaft {shaft.name!r}"
+        names = f"{' and '.join(dict.fromkeys(kinds))} bearings on shaft {shaft.name!r}"
         if not inclined:
             if shaft.adjustment is not None:
                 takes = "two tapered roller or two angular-contact ball bearings, without pair and loads"
@@ -367,6 +384,27 @@ class AxleCase(CaseFile, book="axle_file"):
                 f"is not used by {names}: both carry axial forces; see shaft.adjustment",
             )
         return self.adjustment_of(shaft)
+
+    def _check_gears(self) -> None:
+        """Check that gears at one place of a shaft are one gear, which has two meshes."""
+        placed = [
+            (name, at, mesh.pair.gear.face_width, _gear_of(mesh.pair.gear, number))
+            for mesh in self.mesh
+            for number, (name, at) in enumerate(zip(mesh.gears, mesh.at, strict=True))
+        ]
+        for (shaft, at, width, gear), (other, there, breadth, second) in combinations(placed, 2):
+            if (
+                shaft == other
+                and gear != second
+                and abs(at - there) < 0.5 * (width + breadth) - _LEAST_OVERLAP
+            ):
+                key = next(key for key in gear if gear[key] != second[key])
+                values = " and ".join(amount(each[key], _UNITS_OF_GEARS[key]) for each in (gear, second))
+                raise InputError(
+                    "mesh.at",
+                    got=f"two gears at one place of shaft {shaft!r}, with {key} of {values}",
+                    takes="places at least half of both face widths apart, or one gear with two meshes",
+                )
 
     def _check_loads(self) -> None:
         """Check that bearings of shafts with gears have no load, and all others have one."""
@@ -504,6 +542,18 @@ def _set_in(name: str, table: dict[str, Any], change: Mapping[str, Any]) -> dict
     )
     set_keys(table, change)
     return table
+
+
+def _gear_of(gear: Gear, number: int) -> dict[str, float]:
+    """Properties that gear 1 (number 0) or gear 2 of a pair has in all of its meshes; SI units."""
+    mirrored = number == 1 and gear.teeth[1] > 0
+    helix = gear.helix_angle * (1.0 if gear.hand == "right" else -1.0)
+    return {
+        "normal_module": gear.normal_module,
+        "teeth": float(gear.teeth[number]),
+        "normal_pressure_angle": gear.normal_pressure_angle,
+        "helix_angle": -helix if mirrored else helix,
+    }
 
 
 def _ratio(mesh: AxleMesh) -> float:
