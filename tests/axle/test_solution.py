@@ -164,3 +164,27 @@ def test_conduction_of_the_gear_file_is_kept():
     assert result.solution.potentials()["rotor"] == result.solution.potentials()["intermediate"]
     assert result.verdict.margin > 0.0
     assert "conducts" in result.verdict.text
+
+
+def test_contacts_of_an_axle():
+    """``drive.contacts`` is the method of all bearings and meshes; films of formulas are within 30 %."""
+    atlas, formula = (solve_elements(two_stages(**{"drive.contacts": way})) for way in ("atlas", "formula"))
+    assert solve_elements(two_stages()).elements == atlas.elements
+    assert "formula-contacts" in [warning.code for warning in formula.warnings]
+    for first, second in zip(atlas.elements, formula.elements, strict=True):
+        assert first.capacitance != second.capacitance
+        assert second.lambda_ratio == pytest.approx(first.lambda_ratio, rel=0.3)
+
+
+@pytest.mark.slow
+def test_solved_contacts_of_a_mesh_and_a_bearing():
+    """Solved films are within the error of the atlas, some percent."""
+    case = two_stages(**{"drive.contacts": "solved"})
+    turning = case.turning()
+    assert case.gear_case(0, turning).contacts == "solved"
+    solved, quick = (
+        solve_bearing(each.bearing_case(0, turning["rotor"].speed, 989.1, 630.0), workers=1)
+        for each in (case, two_stages())
+    )
+    assert solved.case.contacts == "solved"
+    assert solved.solution.least_film == pytest.approx(quick.solution.least_film, rel=0.03)

@@ -165,7 +165,11 @@ class AxleCase(CaseFile, book="axle_file"):
         loads = {"radial_load": radial, "axial_load": axial}
         operation = {"inner_speed": abs(speed), "temperature": self.drive.temperature}
         keys = loads | self._keys_of(number) | operation
-        table = {"contacts": "atlas", "bearing": keys, "lubricant": self.lubricant.model_copy()}
+        table = {
+            "contacts": self.drive.contacts or "atlas",
+            "bearing": keys,
+            "lubricant": self.lubricant.model_copy(),
+        }
         with self.naming(number):
             return BearingCase.from_dict(table | {"discharge": self._discharge()})
 
@@ -195,6 +199,8 @@ class AxleCase(CaseFile, book="axle_file"):
             bulk += self.drive.temperature - of_file.oil_temperature
         table = mesh.pair.to_dict()
         table.pop("ranges", None)
+        if self.drive.contacts is not None:
+            table["contacts"] = self.drive.contacts
         table["gear"]["operation"] |= {
             "pinion_torque": math.copysign(torque, torque * speed),
             "pinion_speed": abs(speed),

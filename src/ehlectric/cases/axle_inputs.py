@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import BeforeValidator, ConfigDict, model_validator
 
 from ehlectric.cases.bearing_inputs import Bearing
+from ehlectric.cases.defaults import Contacts
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.table import Table, Title, any_of, similar_keys
 from ehlectric.errors import InputError, shown
@@ -80,6 +81,7 @@ class AxleOperation(Table, book="axle.drive"):
     speed: float
     torque: float
     temperature: float
+    contacts: Contacts | None = None
     duration: float | None = None
     seed: int = 0
 

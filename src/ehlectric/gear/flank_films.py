@@ -127,7 +127,8 @@ def flank_films(
     central, minimum, error = radius * scale * shape.central, radius * scale * shape.minimum, shape.error
     if by_formula:
         star = flanks.oil.alpha_star
-        formula = pan_hamrock(replace(contact, pressure_viscosity_coefficient=star))
+        loaded = replace(contact, load_per_length=carried, pressure_viscosity_coefficient=star)
+        formula = pan_hamrock(loaded)
         central, minimum = np.asarray(formula.central_thickness), np.asarray(formula.minimum_thickness)
         error = np.full_like(radius, FORMULA_ERROR)
     heat = np.ones_like(speed)

@@ -1,4 +1,4 @@
-"""Preview of an axle: its whole answer, as films of the atlas take no time."""
+"""Preview of an axle: its whole answer, with films of the atlas instead of solved films."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from ehlectric.tables.axle_tables import axle_rows
 
 def preview(case: AxleCase) -> Preview:
     """Preview of an axle, whose films are not solved."""
-    result = solve_axle(case, remedies=False)
+    solved = case.drive.contacts == "solved"
+    result = solve_axle(case.replace({"drive.contacts": "atlas"}) if solved else case, remedies=False)
     summary = result.summary()
     return Preview(case.title, tuple(axle_rows(summary)), summary, result.warnings, result.verdict)

@@ -262,11 +262,10 @@ def run_gear(
 def run_axle(
     case: AxleCase, folder: str | Path, progress: Progress = silent, *, contacts: str = ""
 ) -> RunOutcome[AxleResult]:
-    """Solve an axle, and write its results. ``contacts`` other than "atlas" is refused."""
+    """Solve an axle, and write its results; ``contacts`` replaces the key of all bearings and meshes."""
     from ehlectric.axle import solve_to_folder
 
-    if contacts not in ("", "atlas"):
-        raise InputError("--contacts", got=f"{shown(contacts)} for an axle", takes="'atlas'")
+    case = case.replace({"drive.contacts": contacts}) if contacts else case
     with alone_in(folder, locks=[RESULT_LOCK]) as folder:
         protect(folder)
         return solve_to_folder(case, folder, progress, others=files_of_results(folder))
