@@ -41,6 +41,7 @@ _RUNS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
         ("map_uncertainty.breakdown_probability.png",),
     ),
     "gear_map": (("sweep", "gear_map.toml"), ("map_mesh.contact_time_share.png",)),
+    "e_axle_map": (("sweep", "e_axle_map.toml"), ("map_first.element.png",)),
     "traction_curve": (("sweep", "traction_curve.toml"), ("lines_film.traction_coefficient.png",)),
 }
 
@@ -54,6 +55,7 @@ _THEN = {
         *("--x", "gear.operation.pinion_speed", "--y", "gear.operation.pinion_torque"),
         *("--value", "mesh.contact_time_share"),
     ),
+    "e_axle_map": ("--x", "drive.speed", "--y", "drive.torque", "--value", "first.element"),
     "traction_curve": (
         *("--x", "contact.slide_to_roll_ratio", "--y", "film.thermal"),
         *("--value", "film.traction_coefficient"),

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 from ehlectric.quantities.quantity import Keys
 from ehlectric.quantities.results import (
+    AXLE_KEYS,
     BEARING_KEYS,
     CONTACT_KEYS,
     DRIVE_KEYS,
@@ -36,6 +37,7 @@ def summary_pages() -> dict[str, str]:
         "summary_bearing": _table(BEARING_KEYS),
         "summary_drive": _table(_without(_without(DRIVE_KEYS, _OTHER_END), _REMEDIES)),
         "summary_gear": _table(_gear()),
+        "summary_axle": _table(AXLE_KEYS),
         "summary_motion": _table(*motions),
     }
 

@@ -6,9 +6,7 @@ import shutil
 
 import pytest
 
-from ehlectric import InputError, export, figure, figure_names, run_sweep, save, solve
-from ehlectric.sweep import Sweep
-from tests.axle.axles import two_stages
+from ehlectric import InputError, export, figure, figure_names, save, solve
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
 
@@ -93,15 +91,12 @@ def test_results_in_notebooks_and_files(result, tmp_path):
     assert {path.name for path in save(result, tmp_path)} == {"summary.json", "elements.csv", "shafts.csv"}
 
 
-@each("what", ["export", "plot", "sweep", "laws"])
+@each("what", ["export", "plot", "laws"])
 def test_what_axles_do_not_have_is_refused(what, result, tmp_path):
     save(result, tmp_path / "out")
     ways = {
         "export": lambda: export(result, tmp_path / "axle.mat"),
         "plot": lambda: export(tmp_path / "out", tmp_path / "axle.mat"),
-        "sweep": lambda: run_sweep(
-            Sweep.from_dict({"case": two_stages().to_dict(), "vary": {"drive.speed": [100.0]}}), tmp_path
-        ),
         "laws": lambda: solve(EXAMPLE, solvers="paper"),
     }
     with pytest.raises(InputError, match="axle"):

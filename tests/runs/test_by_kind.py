@@ -208,6 +208,7 @@ def test_kinds_of_the_examples():
         "drive": "drive",
         "drive_map": "sweep",
         "e_axle": "axle",
+        "e_axle_map": "sweep",
         "e_axle_stage_1": "gear",
         "grounding_brush": "drive",
         "grounding_brush_speeds": "sweep",

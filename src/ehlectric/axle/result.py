@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 
 from ehlectric.axle.axle_verdict import axle_verdict
 from ehlectric.axle.solution import AxleSolution, solve_elements
-from ehlectric.axle.summary import axle_summary
+from ehlectric.axle.summary import axle_summary, tables_of_point
 from ehlectric.cases.axle_case import AxleCase
 from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
 from ehlectric.quantities.verdict import Verdict
@@ -61,11 +61,7 @@ class AxleResult(Shown):
         """Return the results nested as in summary.json, SI units."""
         return {
             "schema": SCHEMA,
-            "version": self.version,
-            "title": self.case.title,
-            **texts_and_codes(self.warnings),
-            **self.verdict.as_data(),
-            "inputs": self.case.to_dict(),
+            **self._heads(),
             **axle_summary(self.solution),
             "remedies": [
                 {"title": remedy.title, **axle_summary(solution)}
@@ -73,6 +69,21 @@ class AxleResult(Shown):
             ],
             "seconds": self.seconds,
         }
+
+    def _heads(self) -> dict[str, Any]:
+        """Title, warnings, verdict and inputs of a summary."""
+        return {
+            "version": self.version,
+            "title": self.case.title,
+            **texts_and_codes(self.warnings),
+            **self.verdict.as_data(),
+            "inputs": self.case.to_dict(),
+        }
+
+    def point_summary(self) -> dict[str, Any]:
+        """Return the results of a point of a sweep, SI units: elements and shafts by their keys."""
+        tables = tables_of_point(self.solution)
+        return {"schema": SCHEMA, **self._heads(), **tables, "seconds": self.seconds}
 
     def key_numbers(self) -> tuple[str, ...]:
         """Return the number of elements and the first of them as texts."""

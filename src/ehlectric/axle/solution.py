@@ -8,6 +8,7 @@ largest ratio of its voltage to its breakdown voltage breaks down first.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -204,32 +205,27 @@ def solve_elements(case: AxleCase, progress: Progress = silent) -> AxleSolution:
     turning, loads = case.turning(), shaft_loads(case)
     names = case.names_of_bearings()
     elements: list[Element] = []
-    warnings = [*_adjustment_warnings(case, loads)]
+    warnings = [*adjustment_warnings(case, loads)]
     count = len(case.bearing) + len(case.mesh)
     for number, bearing in enumerate(case.bearing):
-        radial, axial = _loads_of(case, number, loads)
+        radial, axial = load_of(case, number, loads)
         of_bearing = case.bearing_case(number, turning[bearing.shaft].speed, radial, abs(axial))
         with case.naming(number):
             result = solve_bearing(of_bearing, workers=1)
         warnings.append((names[number], result.warnings))
-        given = of_bearing.bearing
-        elements.append(
-            _bearing(
-                names[number], bearing.shaft, result.solution, given.radial_load, axial or given.axial_load
-            )
-        )
+        elements += bearing_elements(result.solution, [(names[number], bearing.shaft, axial)])
         progress(len(elements), count, names[number])
     for number, mesh in enumerate(case.mesh):
         with within("mesh.pair"):
             gears = solve_gear_pair(case.gear_case(number, turning))
-        name = f"mesh of {' and '.join(mesh.gears)}"
-        elements.append(_mesh(name, mesh.gears, gears))
+        name = case.names_of_meshes()[number]
+        elements.append(mesh_element(name, mesh.gears, gears))
         warnings.append((name, tuple(gear_warnings(gears))))
         progress(len(elements), count, name)
-    return AxleSolution(case, turning, tuple(elements), tuple(_named(warnings)))
+    return AxleSolution(case, turning, tuple(elements), tuple(named_warnings(warnings)))
 
 
-def _adjustment_warnings(
+def adjustment_warnings(
     case: AxleCase, loads: Mapping[str, BearingLoads]
 ) -> Iterator[tuple[str, tuple[ResultWarning, ...]]]:
     """Warnings about bearings that are adjusted against each other, with the names of shafts and bearings."""
@@ -246,7 +242,7 @@ def _adjustment_warnings(
                 yield names[number], (ResultWarning.of("row-unloaded"),)
 
 
-def _named(warnings: Iterable[tuple[str, Iterable[ResultWarning]]]) -> Iterator[ResultWarning]:
+def named_warnings(warnings: Iterable[tuple[str, Iterable[ResultWarning]]]) -> Iterator[ResultWarning]:
     """Warnings with the names of their elements: each code once, with the text of the first element."""
     first: dict[str, ResultWarning] = {}
     names: dict[str, list[str]] = {}
@@ -261,7 +257,7 @@ def _named(warnings: Iterable[tuple[str, Iterable[ResultWarning]]]) -> Iterator[
         yield ResultWarning(warning.code, f"{name}: {warning}{further}")
 
 
-def _loads_of(case: AxleCase, number: int, loads: Mapping[str, BearingLoads]) -> tuple[float, float]:
+def load_of(case: AxleCase, number: int, loads: Mapping[str, BearingLoads]) -> tuple[float, float]:
     """Radial load and axial force of a bearing from the meshes [N]; 0 on a shaft without gears."""
     bearing = case.bearing[number]
     if bearing.shaft not in loads:
@@ -274,28 +270,45 @@ def _loads_of(case: AxleCase, number: int, loads: Mapping[str, BearingLoads]) ->
     return radial, on_shaft.axial if bearing.locating and abs(on_shaft.axial) > _NO_FORCE else 0.0
 
 
-def _bearing(name: str, shaft: str, solution: BearingSolution, radial: float, axial: float) -> Element:
-    """Element of a solved bearing."""
-    breakdown = breakdown_of(solution)
-    bearing = solution.case.bearing
-    return Element(
-        name=name,
-        kind="bearing",
-        touching=breakdown is None and not solution.conditions.ceramic,
-        first=shaft,
-        second=HOUSING,
-        capacitance=float(shaft_capacitance(solution)),
-        breakdown_voltage=None
-        if breakdown is None
-        else float(breakdown.shaft_ring_to_ring_breakdown) or None,
-        contact_time_share=float(duty_of(solution).contact_time_share),
-        lambda_ratio=float(solution.least_film / bearing.composite_rq),
-        radial_load=radial,
-        axial_load=axial,
+def bearing_elements(solution: BearingSolution, mounted: Sequence[tuple[str, str, float]]) -> list[Element]:
+    """Elements of solved bearings, one or n of shape (n,).
+
+    ``mounted``, name, shaft and axial force along z [N] of each bearing; the force is 0 if the file contains
+    the load.
+    """
+    breakdown, bearing = breakdown_of(solution), solution.case.bearing
+    insulating = solution.conditions.ceramic
+    limit = math.nan if breakdown is None else breakdown.shaft_ring_to_ring_breakdown
+    columns = (
+        shaft_capacitance(solution),
+        limit,
+        duty_of(solution).contact_time_share,
+        solution.least_film / bearing.composite_rq,
+        bearing.radial_load,
+        bearing.axial_load,
     )
+    rows = zip(*(np.broadcast_to(column, len(mounted)).tolist() for column in columns), strict=True)
+    return [
+        Element(
+            name=name,
+            kind="bearing",
+            touching=math.isnan(voltage) and not insulating,
+            first=shaft,
+            second=HOUSING,
+            capacitance=capacitance,
+            breakdown_voltage=None if math.isnan(voltage) else voltage or None,
+            contact_time_share=share,
+            lambda_ratio=ratio,
+            radial_load=radial,
+            axial_load=axial or given,
+        )
+        for (name, shaft, axial), (capacitance, voltage, share, ratio, radial, given) in zip(
+            mounted, rows, strict=True
+        )
+    ]
 
 
-def _mesh(name: str, gears: tuple[str, ...], solution: GearSolution) -> Element:
+def mesh_element(name: str, gears: tuple[str, ...], solution: GearSolution) -> Element:
     """Element of a solved mesh."""
     loads, breakdown = solution.loads, solution.breakdown_voltage
     return Element(

@@ -44,16 +44,50 @@ SHAFT_COLUMNS: Mapping[str, str] = MappingProxyType(
 
 
 def axle_summary(solution: AxleSolution) -> dict[str, Any]:
-    """Tables ``edge``, ``elements``, ``shafts`` and ``rank`` of summary.json, SI units; None for what is not
-    known. ``voltage_ratio`` is the voltage over the breakdown voltage.
+    """Tables ``edge``, ``first``, ``elements``, ``shafts`` and ``rank`` of summary.json, SI units; None for a
+    value that is not known. ``voltage_ratio`` is the voltage divided by the breakdown voltage.
     """
     case = solution.case
     return {
         "edge": {"voltage": case.edge, "rise_time": case.source.rise_time},
+        "first": _first(solution),
         "elements": _elements(solution),
         "shafts": _shafts(solution),
         "rank": {conduction: _ranked(solution, conduction) for conduction in CONDUCTIONS},
         "changed_ranks": list(solution.changed_ranks),
+    }
+
+
+def tables_of_point(solution: AxleSolution) -> dict[str, Any]:
+    """Tables of a point of a sweep: ``edge`` and ``first`` as in summary.json, and the rows of ``elements``
+    and ``shafts`` by their keys, without their names.
+    """
+    case, tables = solution.case, axle_summary(solution)
+    elements = [{key: row[key] for key in ELEMENT_COLUMNS if key != "element"} for row in tables["elements"]]
+    shafts = {
+        row["shaft"]: {key: row[key] for key in SHAFT_COLUMNS if key != "shaft"} for row in tables["shafts"]
+    }
+    return {
+        "edge": tables["edge"],
+        "first": tables["first"],
+        "elements": dict(zip(case.keys_of_elements(), elements, strict=True)),
+        "shafts": {key: shafts[name] for key, name in case.keys_of_shafts().items()},
+    }
+
+
+def _first(solution: AxleSolution) -> dict[str, Any]:
+    """Table ``first``: the element that breaks down first, and its voltages; None without one."""
+    ranking = [row for row in solution.ranking() if row[1] > 0.0]
+    if not ranking:
+        return dict.fromkeys(("element", "voltage", "breakdown_voltage", "voltage_ratio", "margin"))
+    name, ratio = ranking[0]
+    limit = solution.breakdown_voltages[name]
+    return {
+        "element": name,
+        "voltage": ratio * limit,
+        "breakdown_voltage": limit,
+        "voltage_ratio": ratio,
+        "margin": 1.0 / ratio,
     }
 
 

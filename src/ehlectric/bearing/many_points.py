@@ -20,7 +20,7 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.table_edits import flattened
 from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.quantities.inputs import SPEED
-from ehlectric.quantities.results import TEXTS_OF_POINTS
+from ehlectric.quantities.results import is_text_of_points
 from ehlectric.runtime.display import is_number
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.threads import one_blas_thread
@@ -70,7 +70,7 @@ class Columns:
         """Take the numbers and codes of solved points, of shape (m,), or one value for all points."""
         for key, value in flattened(tables).items():
             array = isinstance(value, np.ndarray) and value.dtype.kind in "fiub"
-            if key in TEXTS_OF_POINTS or is_number(value) or array:
+            if is_text_of_points(key) or is_number(value) or array:
                 self._column(key)[points] = value
         for code, where in codes:
             if np.any(where):
@@ -86,7 +86,7 @@ class Columns:
 
     def _column(self, key: str) -> Array:
         """Column of a key, which is empty at first."""
-        return self.values.setdefault(key, np.full(self.size, *_EMPTY[key in TEXTS_OF_POINTS]))
+        return self.values.setdefault(key, np.full(self.size, *_EMPTY[is_text_of_points(key)]))
 
     def _mask(self, code: str) -> Mask:
         """Points that have a warning, which are none at first."""

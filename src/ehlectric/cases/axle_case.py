@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+import re
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from copy import deepcopy
 from dataclasses import dataclass
@@ -128,10 +129,7 @@ class AxleCase(CaseFile, book="axle_file"):
     @classmethod
     def of_file(cls, table: dict[str, Any], path: Path) -> Self:
         """Make a case from the tables of the file at a path, with the gear files that its meshes name."""
-        tables = dict(table)
-        if isinstance(tables.get("mesh"), list):
-            tables["mesh"] = [_with_pair(mesh, path.parent) for mesh in tables["mesh"]]
-        return cls.from_written(tables)
+        return cls.from_written(with_gear_files(table, path.parent))
 
     @classmethod
     def missing_table_hint(cls, key: str, given: Mapping[str, Any]) -> str:  # noqa: ARG003
@@ -160,6 +158,33 @@ class AxleCase(CaseFile, book="axle_file"):
             for number, bearing in enumerate(self.bearing)
         ]
 
+    def names_of_meshes(self) -> list[str]:
+        """Return names of all meshes by their shafts."""
+        return [f"mesh of {' and '.join(mesh.gears)}" for mesh in self.mesh]
+
+    def keys_of_elements(self) -> dict[str, str]:
+        """Return the names of bearings and meshes by their keys in the tables of a sweep.
+
+        A bearing has the key "SHAFT_NUMBER", and a mesh the key "mesh_NUMBER".
+        """
+        names = [*self.names_of_bearings(), *self.names_of_meshes()]
+        keys = [
+            f"{_plain(bearing.shaft)}_{self.bearings_of(bearing.shaft).index(number) + 1}"
+            for number, bearing in enumerate(self.bearing)
+        ]
+        meshes = [f"mesh_{number}" for number, _ in enumerate(self.mesh, 1)]
+        if len({*keys, *meshes}) < len(names):
+            keys = [f"bearing_{number}" for number, _ in enumerate(self.bearing, 1)]
+        return dict(zip([*keys, *meshes], names, strict=True))
+
+    def keys_of_shafts(self) -> dict[str, str]:
+        """Return the names of shafts by their keys in the tables of a sweep."""
+        names = [shaft.name for shaft in self.shaft]
+        keys = [*map(_plain, names)]
+        if len(set(keys)) < len(keys):
+            keys = [f"shaft_{number}" for number, _ in enumerate(names, 1)]
+        return dict(zip(keys, names, strict=True))
+
     def bearing_case(self, number: int, speed: float, radial: float, axial: float) -> BearingCase:
         """Case of a bearing at a speed [rad/s] and loads [N]."""
         loads = {"radial_load": radial, "axial_load": axial}
@@ -176,6 +201,17 @@ class AxleCase(CaseFile, book="axle_file"):
     def _keys_of(self, number: int) -> dict[str, Any]:
         """Keys of a bearing, which replace keys of all bearings and their alternatives."""
         return _set_in("bearing", deepcopy(self.bearings), self.bearing[number].keys)
+
+    def parts(self) -> dict[str, BearingCase | GearCase]:
+        """Return the cases of all bearings, with a load of 100 N, and of all meshes by their names."""
+        turning, bearings, meshes = self.turning(), self.names_of_bearings(), self.names_of_meshes()
+        return {
+            **{
+                name: self.bearing_case(number, self.drive.speed, _CHECK_LOAD, 0.0)
+                for number, name in enumerate(bearings)
+            },
+            **{name: self.gear_case(number, turning) for number, name in enumerate(meshes)},
+        }
 
     @contextmanager
     def naming(self, number: int) -> Iterator[None]:
@@ -475,8 +511,8 @@ class AxleCase(CaseFile, book="axle_file"):
         inner = {key: value for key, value in flat.items() if "." in key and key.split(".")[0] in lists}
         set_keys(table, {key: value for key, value in flat.items() if key not in inner})
         for key, value in inner.items():
-            name, place, rest = (*key.split(".", 2), "", "")[:3]
-            lists[name](table, key, place, {rest: value})
+            name, _, rest = (*key.split(".", 2), "", "")[:3]
+            lists[name](table, key, {rest: value})
         return self.from_dict(table)
 
     def variants(self) -> tuple[Self, ...]:
@@ -487,51 +523,56 @@ class AxleCase(CaseFile, book="axle_file"):
         with within(f"remedies.{number}.changes"):
             return self.replace({**remedy.changes, "remedies": []})
 
-    def _change_bearings(
-        self, table: dict[str, Any], key: str, shaft: str, change: Mapping[str, Any]
-    ) -> None:
+    def places_of(self, key: str) -> list[int]:
+        """Return the places of the bearings, shafts, meshes or links that a dotted key changes, from 0.
+
+        Raises InputError if the axle does not have one.
+        """
+        name, place, rest = (*key.split(".", 2), "", "")[:3]
+        shafts = [each.name for each in self.shaft]
+        places: Iterable[int] = ()
+        if name == "bearing":
+            places, takes = self.bearings_of(place), f"bearing.SHAFT.KEY with a shaft of {', '.join(shafts)}"
+        elif name == "shaft":
+            places = [number for number, each in enumerate(shafts) if each == place]
+            takes = f"shaft.SHAFT.KEY with a shaft of {', '.join(shafts)}"
+        elif name == "mesh":
+            numbers = [str(number) for number in range(1, len(self.mesh) + 1)]
+            places = [number - 1 for number in map(int, numbers) if place in (str(number), "gear")]
+            takes = f"mesh.NUMBER.KEY with one of {', '.join(numbers)} as the number, or mesh.gear.KEY"
+            takes = takes if numbers else "no mesh"
+        else:
+            links = [*enumerate(self.link)]
+            places = [number for number, link in links if place in (str(number + 1), link.kind)]
+            kinds = ", ".join(dict.fromkeys(link.kind for link in self.link))
+            takes = f"link.NUMBER.KEY, or link.KIND.KEY with a kind of {kinds}" if links else "no link"
+        if not places or not rest:
+            raise InputError(key, got=shown(place), takes=takes)
+        return [*places]
+
+    def _change_bearings(self, table: dict[str, Any], key: str, change: Mapping[str, Any]) -> None:
         """Change a key of all bearings of a shaft in the tables of a case."""
-        numbers = self.bearings_of(shaft)
-        if not numbers or "" in change:
-            names = ", ".join(each.name for each in self.shaft)
-            raise InputError(key, got=shown(shaft), takes=f"bearing.SHAFT.KEY with a shaft of {names}")
-        for number in numbers:
+        for number in self.places_of(key):
             _set_in("bearing", table["bearing"][number], change)
 
-    def _change_shaft(self, table: dict[str, Any], key: str, shaft: str, change: Mapping[str, Any]) -> None:
+    def _change_shaft(self, table: dict[str, Any], key: str, change: Mapping[str, Any]) -> None:
         """Change a key of a shaft in the tables of a case."""
-        names = [each.name for each in self.shaft]
-        if shaft not in names or "" in change:
-            raise InputError(
-                key, got=shown(shaft), takes=f"shaft.SHAFT.KEY with a shaft of {', '.join(names)}"
-            )
-        _set_in("shaft", table["shaft"][names.index(shaft)], change)
+        (number,) = self.places_of(key)
+        _set_in("shaft", table["shaft"][number], change)
 
-    def _change_mesh(self, table: dict[str, Any], key: str, place: str, change: Mapping[str, Any]) -> None:
+    def _change_mesh(self, table: dict[str, Any], key: str, change: Mapping[str, Any]) -> None:
         """Change a key in the gear file of a mesh, or in all gear files, in the tables of a case."""
-        numbers = [str(number) for number in range(1, len(self.mesh) + 1)]
-        of_all = place == "gear" and bool(numbers)
-        if (place not in numbers and not of_all) or "" in change:
-            takes = (
-                f"mesh.NUMBER.KEY with one of {', '.join(numbers)} as the number, or mesh.gear.KEY"
-                if numbers
-                else "no mesh"
-            )
-            raise InputError(key, got=shown(place), takes=takes)
+        of_all = key.startswith("mesh.gear.")
         changes = {f"gear.{name}": value for name, value in change.items()} if of_all else change
-        for name in numbers if of_all else [place]:
-            mesh = table["mesh"][int(name) - 1]
-            with within("mesh" if of_all else f"mesh.{place}"):
+        for number in self.places_of(key):
+            mesh = table["mesh"][number]
+            with within("mesh" if of_all else f"mesh.{number + 1}"):
                 mesh["pair"] = GearCase.from_dict(mesh["pair"]).replace(changes).to_dict()
 
-    def _change_links(self, table: dict[str, Any], key: str, place: str, change: Mapping[str, Any]) -> None:
+    def _change_links(self, table: dict[str, Any], key: str, change: Mapping[str, Any]) -> None:
         """Change a key in a link, or in all links of a kind, in the tables of a case; or remove links."""
         links = table.get("link", [])
-        chosen = [link for number, link in enumerate(links, 1) if place in (str(number), link["kind"])]
-        if not chosen or "" in change:
-            kinds = ", ".join(dict.fromkeys(link["kind"] for link in links))
-            takes = f"link.NUMBER.KEY, or link.KIND.KEY with a kind of {kinds}" if links else "no link"
-            raise InputError(key, got=shown(place), takes=takes)
+        chosen = [links[number] for number in self.places_of(key)]
         if change.get("resistance") == NO_LINK:
             table["link"] = [link for link in links if not any(link is each for each in chosen)]
             return
@@ -560,6 +601,17 @@ def _gear_of(gear: Gear, number: int) -> dict[str, float]:
         "normal_pressure_angle": gear.normal_pressure_angle,
         "helix_angle": -helix if mirrored else helix,
     }
+
+
+def _plain(name: str) -> str:
+    """Name with letters, digits and underscores only.
+
+    Examples
+    --------
+    >>> _plain("shaft 2, left")
+    'shaft_2_left'
+    """
+    return re.sub(r"\W+", "_", name)
 
 
 def _ratio(mesh: AxleMesh) -> float:
@@ -591,6 +643,14 @@ def _second_path(key: str, name: str, speed: float, known: float) -> InputError:
             takes="ratios that agree",
         )
     return InputError.worded(key, f"shaft {name!r} turns by two paths; a torque that divides is not computed")
+
+
+def with_gear_files(table: Mapping[str, Any], folder: Path) -> dict[str, Any]:
+    """Tables of an axle with the tables of the gear files that its meshes name, relative to a folder."""
+    meshes = table.get("mesh")
+    if not isinstance(meshes, list):
+        return dict(table)
+    return {**table, "mesh": [_with_pair(mesh, folder) for mesh in meshes]}
 
 
 def _with_pair(mesh: Any, folder: Path) -> Any:

@@ -33,6 +33,7 @@ from ehlectric.quantities.inputs import (
     inputs,
     plain_text,
     table_and_key,
+    with_end,
 )
 from ehlectric.quantities.quantity import Quantity
 from ehlectric.quantities.units import printed
@@ -42,6 +43,9 @@ _OF_BEARINGS = ("bearing", "motor", "contacts")
 
 # Tables that only a drive file has, in addition to the tables of its bearings.
 _OF_DRIVES = ("drive", "source", "circuit", "breakdown")
+
+# Keys of axle files in a table that drive files also have.
+_OF_AXLES = (("drive", "torque"),)
 
 
 def _tables_in(model: type[Table]) -> Iterator[type[Table]]:
@@ -160,8 +164,10 @@ def input_field(key: str) -> FieldInfo:
     False
     """
     end, leaf = end_and_key(key)
-    names, before = leaf.split("."), f"{end}." if end else ""
-    model = BearingCase if end else _model_of(names[0])
+    names = leaf.split(".")
+    model = BearingCase if end in (*ENDS, BOTH) else _model_of(*names[:2])
+    if names[0] == "axle":
+        names = names[1:]
     within: list[str] = []
     if names[0] == "roughness":
         if len(names) < 3 or not names[1].isdecimal():
@@ -181,7 +187,7 @@ def input_field(key: str) -> FieldInfo:
         if field is None:
             if advice := advice_for(leaf, model):
                 raise InputError.worded(key, f"unknown key; {advice}")
-            similar = [before + _with_number(name, within) for name in meant(".".join(names), model)]
+            similar = [with_end(end, _with_number(name, within)) for name in meant(".".join(names), model)]
             raise InputError.unknown(key, any_of(similar))
         inner = table_of(field.annotation)
     if field is None or inner is not None:
@@ -203,8 +209,8 @@ def key_of_names(key: str, values: Any) -> str:
     if not listed or not all(isinstance(value, str) for value in values):
         return key
     end, inner = end_and_key(key)
-    name = name_key(inner, BearingCase if end else _model_of(inner.partition(".")[0]))
-    return f"{end}.{name}" if end else name
+    name = name_key(inner, BearingCase if end in (*ENDS, BOTH) else _model_of(inner.partition(".")[0]))
+    return with_end(end, name)
 
 
 def _with_number(key: str, within: list[str]) -> str:
@@ -213,16 +219,20 @@ def _with_number(key: str, within: list[str]) -> str:
     return ".".join([first, *within, rest]) if first == "roughness" and dot else key
 
 
-def _model_of(name: str) -> type[Table]:
-    """Case that has a table or key of this name."""
+def _model_of(name: str, inner: str = "") -> type[Table]:
+    """Case that has a table or key of this name, with this key in the table."""
     if name in _OF_BEARINGS:
         return BearingCase
     if name == "gear":
         from ehlectric.cases.gear_case import GearCase
 
         return GearCase
-    if name not in (*_OF_DRIVES, *ENDS):
+    if name not in (*_OF_DRIVES, *ENDS, "axle"):
         return Case
+    if name == "axle" or (name, inner) in _OF_AXLES:
+        from ehlectric.cases.axle_case import AxleCase
+
+        return AxleCase
     from ehlectric.cases.drive_case import DriveCase
 
     return DriveCase
@@ -241,6 +251,22 @@ def is_of_drive(key: str) -> bool:
     return key.partition(".")[0] in (*_OF_DRIVES, *ENDS, BOTH)
 
 
+def is_of_axle(key: str) -> bool:
+    """Whether a dotted key is a number or a word of an axle that stands in no list.
+
+    Examples
+    --------
+    >>> is_of_axle("drive.torque"), is_of_axle("lubricant.base"), is_of_axle("link"), is_of_axle("motor")
+    (True, True, False, False)
+    """
+    from ehlectric.cases.axle_case import AxleCase
+
+    name, _, inner = key.partition(".")
+    field = AxleCase.known_keys().get(name)
+    table = None if field is None else table_of(field.annotation)
+    return inner.partition(".")[0] in (() if table is None else table.known_keys())
+
+
 def of_both_ends(key: str) -> tuple[str, ...]:
     """Dotted keys of a case that a key stands for: two for a key of both bearings of a drive, else itself.
 
@@ -257,9 +283,9 @@ def _in_a_table(key: str) -> bool:
     """Whether a key begins with the name of a table; the search for the nearest key takes milliseconds."""
     end, inner = end_and_key(key)
     name = inner.partition(".")[0]
-    if end:
+    if end in (*ENDS, BOTH):
         return name in BearingCase.known_keys()
-    return any(name in file.known_keys() for file in _files())
+    return name == "axle" or any(name in file.known_keys() for file in _files())
 
 
 def unit_of(key: str) -> str:

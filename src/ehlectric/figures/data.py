@@ -153,6 +153,8 @@ class MapPanel:
     levels: tuple[float, ...] = ()  # values between which areas have colours of their own
     # Names of the areas below the first level, between levels, and above the last one.
     areas: tuple[str, ...] = ()
+    # Names of values that are texts; ``values`` are their numbers from 0, and each point has an area.
+    categories: tuple[str, ...] = ()
 
 
 def with_unit(name: str, unit: str) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -14,7 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from ehlectric.arrays import Array
-from ehlectric.errors import InputError, shown
+from ehlectric.errors import InputError, printable, shown
 from ehlectric.figures.bearing_figure_files import save_speed_figures
 from ehlectric.figures.figure_names import SENSITIVITY_FIGURE, broken, in_formats, map_files
 from ehlectric.figures.style import (
@@ -50,6 +51,7 @@ from ehlectric.sweep import (
     Slice,
     SweepResults,
     breakdown_of,
+    categories_of,
     known_values,
     label_of,
     main_value,
@@ -63,6 +65,9 @@ from ehlectric.sweep import (
 
 def of_slice(results: SweepResults, selection: Slice) -> str:
     """Sentence: range of the drawn value; of a discharge, where breakdown is expected."""
+    if selection.categories:
+        name = "" if selection.value == _NAME else f"{label_of(selection.value, results.case).name}: "
+        return capital(printable(name) + _of_names(selection))
     margin = selection.margin[np.isfinite(selection.margin)]
     if not (selection.of_discharge and margin.size):
         label, scale = labelled(results, selection.value, selection.values)
@@ -73,6 +78,19 @@ def of_slice(results: SweepResults, selection: Slice) -> str:
         ends = low if low == high else f"{low} to {high}"
         return f"{capital(label.name)}: {ends} {scale.unit}".rstrip()
     return _of_margins(results, selection, margin) + _intermittent(selection)
+
+
+# Most names of a finding.
+_MOST_NAMES = 3
+
+
+def _of_names(selection: Slice) -> str:
+    """Clause: the most frequent names of a text and their numbers of points."""
+    known = selection.values[np.isfinite(selection.values)].astype(int)
+    counts = Counter(selection.categories[number] for number in known.tolist()).most_common()
+    texts = [f"{printable(name)} at {count}" for name, count in counts[:_MOST_NAMES]]
+    others = ", others at the rest" if len(counts) > _MOST_NAMES else ""
+    return f"{', '.join(texts)} of {len(selection.points)} points{others}"
 
 
 def _of_time(subject: str, shares: Array) -> str:
@@ -325,9 +343,16 @@ def save_maps(
     formats: Sequence[str] = ("png",),
 ) -> list[Path]:
     """Draw a value of a sweep as a map and as lines, as files. Raises InputError as ``select_slice`` does."""
-    numeric = select_slice(results, x, y, value, at).numeric
+    selection = select_slice(results, x, y, value, at)
+    numeric = selection.numeric
+    if selection.categories and not numeric:
+        raise InputError.worded("y", f"missing; {value} is a name, which a map over two keys shows")
     names = dict(zip(map_files(value, at), map_files(value), strict=True))
-    drawable = [file for file in names if (y is not None and numeric) or file.startswith("lines_")]
+    drawable = [
+        file
+        for file in names
+        if (not selection.categories if file.startswith("lines_") else y is not None and numeric)
+    ]
     return save_each(lambda file: figure(results, names[file], x=x, y=y, at=at), drawable, folder, formats)
 
 
@@ -354,6 +379,9 @@ def save_speeds(
     return save_speed_figures(points, folder, title, formats=formats, at=at) if points else []
 
 
+# Name that a map of axles shows first.
+_NAME = "first.element"
+
 # Value of a sweep without breakdown voltages, by the kind of its case.
 _MAIN_VALUES = ("film.minimum_thickness", "bearing.capacitance")
 
@@ -364,10 +392,11 @@ def default_figure(results: SweepResults, options: Mapping[str, Any]) -> tuple[s
     """
     if results.design == "sobol":
         return SENSITIVITY_FIGURE, {}
-    value = options.get("value") or _value_of(results)
     over = default_axes(results, options)
     if not over:
         raise InputError("x", "no varied key has numbers;", takes="a figure by its name")
+    named = "y" in over and results.design == "grid" and categories_of(results, _NAME)
+    value = options.get("value") or (_NAME if named else _value_of(results))
     files = map_files(value)
     return files[0 if "y" in over and results.design == "grid" else 1], over | {"value": value}
 

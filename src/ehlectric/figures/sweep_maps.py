@@ -14,6 +14,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from ehlectric.arrays import Array
+from ehlectric.figures.category_maps import draw_categories
 from ehlectric.figures.data import MapPanel, with_unit
 from ehlectric.figures.style import (
     COLOURS,
@@ -65,7 +66,8 @@ def value_map(
     values if an axis is logarithmic, is linear in the axes as they are drawn. Maps of ``discharge`` values
     and of a bearing's breakdown voltages have a line on which the breakdown voltage equals the applied
     voltage; the side that breaks down is hatched. Maps of the share of time in which a bearing conducts have
-    the colours of its regimes and lines at 1, 10, 50 and 99 %. Raises InputError if
+    the colours of its regimes and lines at 1, 10, 50 and 99 %. A value that is a text has the colours of its
+    names, which the legend lists with their numbers of points. Raises InputError if
     ``ehlectric.sweep.slices.select_slice`` refuses the keys or values, or values of ``y`` are not numbers.
     """
     ax = axes_or_new(ax)
@@ -79,7 +81,7 @@ def draw_map(panel: MapPanel, ax: Axes) -> None:
         scale_axis(axis, along.title, values=places, log=along.log)
     rings = [curve for curve in panel.marks if curve.marker == "wide circle"]
     others = [curve for curve in panel.marks if curve.marker != "wide circle"]
-    fill = draw_regimes if panel.levels else _fill
+    fill = draw_categories if panel.categories else draw_regimes if panel.levels else _fill
     handles = [*mark_handles(others), *fill(panel, ax), *mark_handles(rings)]
     for curve in panel.marks:
         # The white edge keeps the dots visible on dark colours and on hatches.

@@ -227,7 +227,7 @@ def map_panel(results: SweepResults, selection: Slice, *, limited: bool = False)
     (x, scale_x), (y, scale_y) = _axis(results, selection.x, along), _axis(results, str(selection.y), across)
     label, scale = labelled(results, selection.value, selection.values)
     places, values = np.array([scale_x.of(along), scale_y.of(across)]), scale.of(selection.values)
-    surface = surface_of(selection, log_x=x.log, log_y=y.log)
+    surface = None if selection.categories else surface_of(selection, log_x=x.log, log_y=y.log)
     between, parts = None, dict[str, Any](alone=np.isfinite(values))
     if surface is not None:
         between = _Between(results, selection, surface, x.log or y.log, (scale_x, scale_y))
@@ -240,17 +240,22 @@ def map_panel(results: SweepResults, selection: Slice, *, limited: bool = False)
             "alone": surface.alone(values),
         }
     share = TIME_SHARES.get(selection.value)
+    marks = _marks(selection, places[0], places[1], [(np.arange(values.size), "", 1.0)])
+    if selection.categories:
+        # A name has an area, and the verdict counts the warnings of its points.
+        marks = [mark for mark in marks if mark.marker not in ("dots", "wide circle")]
     return MapPanel(
         axes=(x, y),
         title=label.with_symbol,
         unit=scale.unit,
         places=places,
         values=values,
-        marks=_marks(selection, places[0], places[1], [(np.arange(values.size), "", 1.0)]),
-        log=_is_log(selection),
+        marks=marks,
+        log=not selection.categories and _is_log(selection),
         limit=_limit(selection, between) if selection.of_discharge or limited else None,
         levels=SHARE_LEVELS if share is not None else (),
         areas=() if share is None else share.areas,
+        categories=selection.categories,
         **parts,
     )
 

@@ -162,13 +162,58 @@ def form(name: str) -> Mapping[str, tuple[str, ...]]:
 def end_and_key(key: str) -> tuple[str, str]:
     """Name of the bearing of a drive before a dotted key, and the key in a bearing file.
 
+    Keys of an axle have the name of a shaft, a number or a kind before them: "bearing.SHAFT", "shaft.SHAFT",
+    "mesh.NUMBER" and "link.KIND", and "bearing.*" and "mesh.*" for all bearings and all gear files.
+
     Examples
     --------
     >>> end_and_key("drive_end.bearing.temperature"), end_and_key("source.dc_link")
     (('drive_end', 'bearing.temperature'), ('', 'source.dc_link'))
+    >>> end_and_key("bearing.rotor.composite_rq"), end_and_key("mesh.1.gear.flank_ra")
+    (('bearing.rotor', 'bearing.composite_rq'), ('mesh.1', 'gear.flank_ra'))
+    >>> end_and_key("bearings.composite_rq"), end_and_key("link.ring.resistance")
+    (('bearing.*', 'bearing.composite_rq'), ('link.ring', 'axle.link.resistance'))
     """
     first, _, rest = key.partition(".")
-    return (first, rest) if first in (*ENDS, BOTH) and rest else ("", key)
+    name, _, inner = rest.partition(".")
+    bearing = inputs()["bearing"]
+    if first in (*ENDS, BOTH) and rest:
+        of_axle = first == BOTH and (name in bearing or f"bearing.{name}" in inputs())
+        return (_ALL_BEARINGS, f"bearing.{rest}") if of_axle else (first, rest)
+    if not inner:
+        return "", key
+    if first == "mesh" and name == "gear":
+        return _ALL_MESHES, rest
+    if first == "mesh" and name.isdecimal():
+        return f"mesh.{name}", inner
+    if first in ("shaft", "link") and f"axle.{first}" in inputs():
+        return f"{first}.{name}", f"axle.{first}.{inner}"
+    if first == "bearing" and name not in bearing and f"bearing.{name}" not in inputs():
+        return f"bearing.{name}", f"bearing.{inner}"
+    return "", key
+
+
+# Names before the keys of all bearings and of all gear files of an axle.
+_ALL_BEARINGS, _ALL_MESHES = "bearing.*", "mesh.*"
+
+
+def with_end(end: str, inner: str) -> str:
+    """Dotted key of a name and a key of ``end_and_key``.
+
+    Examples
+    --------
+    >>> with_end("drive_end", "bearing.base"), with_end("bearing.rotor", "bearing.base")
+    ('drive_end.bearing.base', 'bearing.rotor.base')
+    >>> with_end(*end_and_key("bearings.base")), with_end(*end_and_key("link.1.resistance"))
+    ('bearings.base', 'link.1.resistance')
+    """
+    kind = end.partition(".")[0]
+    if end == _ALL_MESHES:
+        return f"mesh.{inner}"
+    if kind in ("bearing", "shaft", "link"):
+        name = inner.removeprefix("axle.").removeprefix(f"{kind}.")
+        return f"{BOTH if end == _ALL_BEARINGS else end}.{name}"
+    return f"{end}.{inner}" if end else inner
 
 
 def key_of_drive(key: str) -> str:
@@ -232,7 +277,7 @@ def input_at(key: str) -> Input | None:
     if whole != key and (listed := input_at(whole)) is not None:
         return replace(listed, label=f"{attributes('each')[whole]} {key[-1]}")
     table, name, number = table_and_key(key)
-    places = (table,) if table else _FILES
+    places = (table, f"axle.{table}") if table else _FILES
     entry = next((inputs()[book][name] for book in places if name in inputs().get(book, {})), None)
     if entry is None or not number:
         return entry

@@ -107,6 +107,17 @@ class ResultWarning:
         """
         return cls(code, filled_in(_texts()[code][situation or "text"], values))
 
+    @classmethod
+    def in_general(cls, code: str) -> Self:
+        """Return the warning whose text is the meaning of its code, without values of a point.
+
+        Examples
+        --------
+        >>> ResultWarning.in_general("load-factors-1").text
+        'All load factors of the gear pair are 1.'
+        """
+        return cls(code, CODES[code].meaning)
+
     def __str__(self) -> str:
         return self.text
 

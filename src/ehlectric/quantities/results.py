@@ -32,7 +32,20 @@ TEXTS_OF_POINTS = (
     "bearing.first_break_at",
     "mesh.state",
     "mesh.minimum_at",
+    "first.element",
 )
+
+
+def is_text_of_points(key: str) -> bool:
+    """Whether a result of a dotted key is a text that may differ between the points of a sweep.
+
+    Examples
+    --------
+    >>> is_text_of_points("mesh.state"), is_text_of_points("elements.mesh_1.state")
+    (True, True)
+    """
+    return key in TEXTS_OF_POINTS or (key.startswith("elements.") and key.endswith(".state"))
+
 
 # Statistics of the discharges of a bearing, by the ends of their keys.
 STATISTICS = {"mean": "mean", "median": "median", "high": "95th percentile", "largest": "maximum"}
@@ -200,5 +213,15 @@ PHASE_COLUMNS = {
     "phase_weight": "",
 }
 GEAR_BOOK: Keys = {**GEAR_KEYS, **_read("gear", stored=False)}
+
+# Axles, and the rows of their elements and shafts, which are also the columns of elements.csv and shafts.csv.
+_AXLE = _read("axle")
+AXLE_ELEMENT_KEYS: Keys = _within("element", _AXLE)
+AXLE_SHAFT_KEYS: Keys = _within("shaft", _AXLE)
+AXLE_KEYS: Keys = {
+    **{key: quantity for key, quantity in _AXLE.items() if not key.startswith(("element.", "shaft."))},
+    **under("elements", AXLE_ELEMENT_KEYS),
+    **under("shafts", AXLE_SHAFT_KEYS),
+}
 EVENT_KEYS: Keys = _within("event", _DRIVE)
 EVENT_COLUMNS = {name: quantity.unit for name, quantity in EVENT_KEYS.items()}

@@ -15,6 +15,7 @@ from typing import Any
 
 from ehlectric.cases import library
 from ehlectric.cases.amounts import INFINITE, Amount
+from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.drive_case import DriveCase
@@ -99,6 +100,8 @@ def _tables(case: SolvedCase, *, apart: bool) -> dict[str, Any]:
 
 def parts_of(case: SolvedCase, *, apart: bool = False) -> dict[str, Case | BearingCase | GearCase]:
     """Cases of contacts, bearings or gear pairs in a case, by what stands before their keys."""
+    if isinstance(case, AxleCase):
+        return {**case.parts()}
     if not isinstance(case, DriveCase):
         return {"": case}
     if case.drive_end == case.non_drive_end and not apart:

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TypeVar
 
+from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.drive_case import DriveCase
@@ -89,7 +90,9 @@ def conditions_of(case: SolvedCase) -> dict[str, bool]:
     """Conditions of the file by name, and whether each of them holds for a case."""
     if isinstance(case, DriveCase):
         return _of_drive(case)
-    if isinstance(case, GearCase):
+    if isinstance(case, AxleCase):
+        conditions = {"axle": True}
+    elif isinstance(case, GearCase):
         conditions = _of_gear(case)
     else:
         conditions = _of_bearing(case) if isinstance(case, BearingCase) else _of_contact(case)

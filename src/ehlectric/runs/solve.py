@@ -519,11 +519,11 @@ def solve_many(
     progress: Progress | None = None,
     laws: Laws | None = None,
 ) -> Iterator[Solved[Any]]:
-    """Solve many contacts, bearings, gear pairs and drives in parallel, and yield each as it finishes.
+    """Solve many contacts, bearings, gear pairs, drives and axles in parallel, and yield each as it finishes.
 
     Parameters
     ----------
-    cases : iterable of Case, BearingCase, GearCase, DriveCase, mapping, str or Path
+    cases : iterable of Case, BearingCase, GearCase, DriveCase, AxleCase, mapping, str or Path
         Whatever ``solve`` takes. The iterable is read as the processes get free, so it may be endless.
     workers : int, optional
         Number of processes of this machine; by default the number of cores. With 1, the cases are solved in

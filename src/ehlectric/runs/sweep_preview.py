@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.defaults import HOW, QUICK
 from ehlectric.cases.drive_case import DriveCase
@@ -86,7 +87,7 @@ def _sweep_rows(sweep: Sweep, described: Mapping[str, Any], seconds: float) -> I
 
 
 # Commands that solve base cases other than contacts.
-_COMMANDS = {BearingCase: "bearing", DriveCase: "drive", GearCase: "gear"}
+_COMMANDS = {BearingCase: "bearing", DriveCase: "drive", AxleCase: "drive", GearCase: "gear"}
 
 
 def _shown(key: str, value: Mapping[str, Any], sweep: Sweep) -> tuple[str, str, str]:

@@ -29,6 +29,7 @@ from .sensitivity_indices import sensitivity as sensitivity
 from .slices import Slice as Slice
 from .slices import Surface as Surface
 from .slices import applied_at as applied_at
+from .slices import categories_of as categories_of
 from .slices import curve_of as curve_of
 from .slices import known_values as known_values
 from .slices import numbers_of as numbers_of

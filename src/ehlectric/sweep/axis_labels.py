@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ehlectric.arrays import Array
+from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.gear_case import GearCase
@@ -17,6 +18,9 @@ from ehlectric.quantities.former_keys import successors
 from ehlectric.quantities.inputs import end_and_key
 from ehlectric.quantities.quantity import Bound, Keys, key_of
 from ehlectric.quantities.results import (
+    AXLE_ELEMENT_KEYS,
+    AXLE_KEYS,
+    AXLE_SHAFT_KEYS,
     BEARING_KEYS,
     CONTACT_KEYS,
     DRIVE_KEYS,
@@ -70,17 +74,34 @@ class Label:
 def label_of(key: str, case: SolvedCase) -> Label:
     """Name, symbol and unit of a varied key or of a value of the summary."""
     inner = _counted_from_1(key.removeprefix("inputs.")) if key.startswith("inputs.") else key
+    if isinstance(case, AxleCase) and inner.startswith("drive."):
+        inner = f"axle.{inner}"
     result, entry = key_of(result_keys(case), key), input_of(inner) or input_of(_list_of(inner))
     # A number of the case that is in the summary, too, is the input.
     if result is not None and (entry is None or (result.label and kind_of(inner) is None)):
         bound = result.bound if _bounds(case) else ""
         replaced_by = successors(result_keys(case)).get(key, "") if result.successor else ""
         return Label(result.label or key, result.symbol, result.unit, bound, result.shown, replaced_by)
-    end = NAMES_OF_ENDS.get(end_and_key(inner)[0], "")
+    end = _place(end_and_key(inner)[0])
     if entry is None:
         return Label(key, "", "" if inner == key else unit_of(inner))
     name = f"{entry.label}, {end}" if end else entry.label
     return Label(name, entry.symbol, entry.unit, shown="°C" if entry.absolute else entry.shown)
+
+
+def _place(end: str) -> str:
+    """Words for the bearing of a drive, or for a part of an axle, before a key.
+
+    Examples
+    --------
+    >>> _place("drive_end"), _place("bearing.rotor"), _place("mesh.1"), _place("mesh.*"), _place("")
+    ('drive end', 'bearings of rotor', 'mesh 1', 'all meshes', '')
+    """
+    kind, _, name = end.partition(".")
+    if name == "*":
+        return {"bearing": "all bearings", "mesh": "all meshes"}[kind]
+    words = {"bearing": f"bearings of {name}"}
+    return words.get(kind, f"{kind} {name}") if name else NAMES_OF_ENDS.get(end, "")
 
 
 def _list_of(key: str) -> str:
@@ -96,7 +117,7 @@ def _bounds(case: SolvedCase) -> bool:
             return case.bearing.bounding
         case DriveCase():
             return any(at.bearing.bounding for at in case.bearings)
-        case GearCase():
+        case GearCase() | AxleCase():
             return False
         case _:
             return True
@@ -111,7 +132,7 @@ def _counted_from_1(key: str) -> str:
 
 def result_keys(case: SolvedCase) -> Keys:
     """Documented keys of the summary of a case. Returns keys of a line or point contact, stationary or
-    transient, of a bearing, of a drive or of a gear pair.
+    transient, of a bearing, of a drive, of an axle or of a gear pair.
     """
     if isinstance(case, BearingCase):
         return BEARING_KEYS
@@ -119,4 +140,20 @@ def result_keys(case: SolvedCase) -> Keys:
         return DRIVE_KEYS
     if isinstance(case, GearCase):
         return GEAR_KEYS
+    if isinstance(case, AxleCase):
+        return _axle_keys(case)
     return (CONTACT_KEYS if case.motion is None else MOTION_KEYS)[case.contact.geometry]
+
+
+def _axle_keys(case: AxleCase) -> Keys:
+    """Documented keys of the points of an axle: the rows of its elements and shafts have their keys."""
+    named = {
+        **{f"elements.{key}": (AXLE_ELEMENT_KEYS, name) for key, name in case.keys_of_elements().items()},
+        **{f"shafts.{key}": (AXLE_SHAFT_KEYS, name) for key, name in case.keys_of_shafts().items()},
+    }
+    rows = {
+        f"{table}.{key}": replace(quantity, label=f"{quantity.label}, {name}")
+        for table, (keys, name) in named.items()
+        for key, quantity in keys.items()
+    }
+    return {**AXLE_KEYS, **rows}

@@ -1,4 +1,4 @@
-"""Batches of the points of a sweep: bearings and gear pairs with estimated films, solved together."""
+"""Batches of the points of a sweep: bearings, gear pairs and axles with estimated films, solved together."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array
+from ehlectric.axle import AxleResult, solve_axles
 from ehlectric.bearing import (
     SEED,
     SUMMARY_SCHEMA,
@@ -25,6 +26,7 @@ from ehlectric.bearing import (
     tables_of_spread,
     warnings_of_spread,
 )
+from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.solved_case import SolvedCase
@@ -74,14 +76,14 @@ def batches_of(
 ) -> tuple[list[Batch], list[tuple[str, Inputs]]]:
     """Batches of points, given with the keys of their cases and their inputs, and the points in no batch.
 
-    Only bearings and gear pairs with estimated films are solved in batches. Each batch has points from the
-    whole range of its group, in random order: the same interpolation tables of the gaps around the films then
-    serve all batches.
+    Only bearings, gear pairs and axles with estimated films are solved in batches. Each batch has points from
+    the whole range of its group, in random order: the same interpolation tables of the gaps around the films
+    then serve all batches.
     """
     batches, others = [], list[tuple[str, Inputs]]()
     samples = sweep.uncertainty_samples
     together = TOGETHER if samples is None else max(1, _SAMPLES_TOGETHER // samples)
-    if not isinstance(sweep.case, BearingCase | GearCase):
+    if not isinstance(sweep.case, BearingCase | GearCase | AxleCase):
         return [], list(points)
     for group in groups_of(sweep, (inputs for _, inputs in points)):
         case = sweep.case.replace(group.inputs[0])
@@ -99,7 +101,9 @@ def batches_of(
 
 
 def _is_quick(case: SolvedCase) -> bool:
-    """Whether the films of a bearing or a gear pair are not solved."""
+    """Whether the films of a bearing, a gear pair or an axle are not solved."""
+    if isinstance(case, AxleCase):
+        return True
     if isinstance(case, GearCase):
         return case.contacts != "solved"
     return isinstance(case, BearingCase) and is_quick(case)
@@ -146,8 +150,10 @@ def solve_batch(batch: Batch) -> list[Outcome] | None:
 
     Points without a result are solved one by one here, for the reason.
     """
+    if "shaft" in batch.table:
+        return _outcomes(batch, _axle_summaries)
     if "gear" in batch.table:
-        return _gear_outcomes(batch)
+        return _outcomes(batch, _gear_summaries)
     started = time.perf_counter()
     try:
         case = BearingCase.from_dict(batch.table).with_arrays(batch.values)
@@ -174,15 +180,32 @@ def solve_batch(batch: Batch) -> list[Outcome] | None:
     ]
 
 
-def _gear_outcomes(batch: Batch) -> list[Outcome] | None:
-    """Outcomes of the gear pairs of a batch; None where they have to be solved one by one."""
+# Summary of a point, or the error of a point without a result.
+_Summary = dict[str, Any] | Exception
+
+
+def _gear_summaries(tables: Iterable[Mapping[str, Any]]) -> Iterator[_Summary]:
+    """Summaries of gear pairs with these tables."""
+    for solution in solve_gear_pairs([GearCase.from_dict(table) for table in tables]):
+        if isinstance(solution, Exception):
+            yield solution
+        else:
+            yield GearResult(solution, probable=False).summary()
+
+
+def _axle_summaries(tables: Iterable[Mapping[str, Any]]) -> Iterator[_Summary]:
+    """Summaries of axles with these tables."""
+    for solution in solve_axles([AxleCase.from_dict(table) for table in tables]):
+        yield solution if isinstance(solution, Exception) else AxleResult(solution).point_summary()
+
+
+def _outcomes(
+    batch: Batch, summaries: Callable[[Iterable[Mapping[str, Any]]], Iterator[_Summary]]
+) -> list[Outcome] | None:
+    """Outcomes of the gear pairs or axles of a batch; None where they have to be solved one by one."""
     started = time.perf_counter()
     try:
-        cases = [GearCase.from_dict(batch.table_of(place)) for place in range(len(batch.keys))]
-        results = [
-            solution if isinstance(solution, Exception) else GearResult(solution, probable=False).summary()
-            for solution in solve_gear_pairs(cases)
-        ]
+        results = list(summaries(batch.table_of(place) for place in range(len(batch.keys))))
     except Exception:
         # Alone, each point has its own reason.
         return None

@@ -23,6 +23,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from ehlectric.axle import solve_axle
 from ehlectric.bearing import (
     SEED,
     solve_bearing,
@@ -31,6 +32,7 @@ from ehlectric.bearing import (
     tables_of_spread,
     warnings_of_spread,
 )
+from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.drive_case import DriveCase
@@ -277,6 +279,10 @@ def _solve_gear_pair(case: GearCase, _: int | None) -> tuple[bool, dict[str, Any
     return True, solve_gear(case, probable=False).summary(), ""
 
 
+def _solve_axle(case: AxleCase, _: int | None) -> tuple[bool, dict[str, Any], str]:
+    return True, solve_axle(case, remedies=False).point_summary(), ""
+
+
 # Solution of a case of each kind, and of bearings with samples for the probability of breakdown: whether it
 # converged, its summary, and the reason if it did not.
 _SOLVERS: Mapping[type, Callable[[Any, int | None], tuple[bool, dict[str, Any], str]]] = MappingProxyType(
@@ -285,6 +291,7 @@ _SOLVERS: Mapping[type, Callable[[Any, int | None], tuple[bool, dict[str, Any], 
         BearingCase: _solve_bearing,
         DriveCase: _solve_drive,
         GearCase: _solve_gear_pair,
+        AxleCase: _solve_axle,
     }
 )
 

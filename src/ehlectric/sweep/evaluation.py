@@ -1,4 +1,4 @@
-"""Numbers of bearings and gear pairs at many points of operation, computed together."""
+"""Numbers of bearings, gear pairs and axles at many points of operation, computed together."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 
 from ehlectric.arrays import IntArray
 from ehlectric.bearing import Columns, columns_of, many_of, required_quick_case
+from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.gear_case import GearCase
@@ -16,9 +17,9 @@ from ehlectric.cases.input_keys import is_quantity, key_of_names
 from ehlectric.contact import case_with_laws
 from ehlectric.errors import InputError, shown
 from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED, end_and_replaced
-from ehlectric.quantities.results import TEXTS_OF_POINTS
+from ehlectric.quantities.results import is_text_of_points
 from ehlectric.sweep.axis_labels import label_of
-from ehlectric.sweep.gear_points import gear_columns
+from ehlectric.sweep.points_of_cases import axle_columns, gear_columns
 from ehlectric.version import __version__
 
 if TYPE_CHECKING:
@@ -26,20 +27,20 @@ if TYPE_CHECKING:
 
 
 def evaluate(
-    case: BearingCase | DriveCase | GearCase, inputs: Mapping[str, Any], *, laws: object = None
+    case: BearingCase | DriveCase | AxleCase | GearCase, inputs: Mapping[str, Any], *, laws: object = None
 ) -> xr.Dataset:
-    """Evaluate a bearing, both bearings of a drive, or a gear pair at many points of operation: a thousand
-    bearings a second on one core.
+    """Evaluate a bearing, both bearings of a drive, a gear pair or an axle at many points of operation: a
+    thousand bearings a second on one core.
 
     Contacts are from the atlas of films, or from formulas if the case requests them; contacts of a case with
-    solved contacts are from the atlas here. Every point has the numbers that ``solve_bearing`` or
-    ``solve_gear`` gives for it when called by itself, to 1e-8.
+    solved contacts are from the atlas here. Every point has the numbers that ``solve_bearing``,
+    ``solve_gear`` or ``solve_axle`` gives for it when called by itself, to 1e-8.
 
     Parameters
     ----------
-    case : BearingCase, DriveCase or GearCase
-        Bearing file, drive file, of which both bearings are evaluated, or gear file; its inputs hold at every
-        point unless they are given anew.
+    case : BearingCase, DriveCase, AxleCase or GearCase
+        Bearing file, drive file, of which both bearings are evaluated, axle or gear file; its inputs hold at
+        every point unless they are given anew.
     inputs : mapping
         Arrays or lists of equal length n by dotted key of the case: numbers in SI units, texts with units, or
         names. Points that share their names and whole numbers are computed together. Keys of a drive are
@@ -53,7 +54,8 @@ def evaluate(
         Dataset over ``point`` in SI units. Its coordinates are the inputs; its variables are the numbers of
         the tables ``bearing``, ``lubricant``, ``mechanics`` and ``life``, or ``gear``, ``mesh`` and
         ``points``, of summary.json by dotted key, NaN where a point has none, but not results with the key of
-        an input. ``converged`` is whether a point
+        an input. An axle has the tables ``edge``, ``first``, ``elements`` and ``shafts``, with keys such as
+        ``elements.rotor_1.voltage_ratio`` and ``elements.mesh_1.state``. ``converged`` is whether a point
         has a result, ``reason`` why it has none, and ``warning_codes`` has the codes of its warnings, joined
         by "; ". Variables of a drive begin with the end of their bearing, as in
         ``drive_end.bearing.capacitance``.
@@ -98,6 +100,8 @@ def evaluate(
         return _of_drive(case, given, number)
     if isinstance(case, GearCase):
         return _dataset(case, *gear_columns(case, given, number))
+    if isinstance(case, AxleCase):
+        return _dataset(case, *axle_columns(case, given, number))
     columns, inputs_of_points = _columns(_quick(case), given, number)
     return _dataset(case, columns, inputs_of_points)
 
@@ -140,7 +144,9 @@ def _values(key: str, values: Any) -> Any:
 def _quick(case: BearingCase) -> BearingCase:
     """Case whose contacts are not solved; an InputError where the bearing needs solved ones."""
     if not isinstance(case, BearingCase):
-        raise InputError("case", got=type(case).__name__, takes="a BearingCase, a DriveCase or a GearCase")
+        raise InputError(
+            "case", got=type(case).__name__, takes="a BearingCase, a DriveCase, an AxleCase or a GearCase"
+        )
     quick, refused = required_quick_case(case)
     if refused is not None:
         raise refused
@@ -177,10 +183,12 @@ def _groups(given: Mapping[str, Any], number: int) -> Iterator[tuple[IntArray, d
 
 
 # Names of cases without a title.
-_NAMES = {BearingCase: "Bearing", GearCase: "Gear pair"}
+_NAMES = {BearingCase: "Bearing", GearCase: "Gear pair", AxleCase: "Axle"}
 
 
-def _dataset(case: BearingCase | GearCase, columns: Columns, inputs: Mapping[str, Any]) -> xr.Dataset:
+def _dataset(
+    case: BearingCase | GearCase | AxleCase, columns: Columns, inputs: Mapping[str, Any]
+) -> xr.Dataset:
     """Dataset of results over the points, with the inputs as coordinates."""
     import xarray as xr
 
@@ -189,7 +197,7 @@ def _dataset(case: BearingCase | GearCase, columns: Columns, inputs: Mapping[str
         return (
             "point",
             values,
-            label.attributes(number=key not in TEXTS_OF_POINTS and values.dtype.kind == "f"),
+            label.attributes(number=not is_text_of_points(key) and values.dtype.kind == "f"),
         )
 
     solved = columns.solved

@@ -87,7 +87,7 @@ class SweepPoints(Values):
 
     Attributes
     ----------
-    case : Case, BearingCase, DriveCase or GearCase
+    case : Case, BearingCase, DriveCase, AxleCase or GearCase
         Base case of the sweep.
     design : str
         "grid", "paired" or "sobol".

@@ -20,7 +20,7 @@ from ehlectric.cases.table import nearest
 from ehlectric.errors import InputError
 from ehlectric.quantities.former_keys import current_key
 from ehlectric.quantities.quantity import key_of
-from ehlectric.quantities.results import TEXTS_OF_POINTS
+from ehlectric.quantities.results import TEXTS_OF_POINTS, is_text_of_points
 from ehlectric.quantities.sheets import SWEEP_COLUMNS
 from ehlectric.quantities.units import ROTATION
 from ehlectric.quantities.verdict import Verdict
@@ -63,8 +63,9 @@ def columns_of(results: SweepPoints) -> dict[str, list[Any]]:
 
 
 def texts_of(results: SweepPoints) -> dict[str, list[str | None]]:
-    """Texts of the summaries of bearings and gears by dotted key, each a list over the points."""
-    return {key: results.columns[key] for key in TEXTS_OF_POINTS if key in results.columns}
+    """Texts of the summaries of bearings, gears and axles by dotted key, each a list over the points."""
+    known = [key for key in results.columns if is_text_of_points(key)]
+    return {key: results.columns[key] for key in [*TEXTS_OF_POINTS, *known] if key in results.columns}
 
 
 def numbers_of(results: SweepPoints) -> dict[str, list[float | None]]:
@@ -113,7 +114,7 @@ def dataset_of(results: SweepPoints) -> xr.Dataset:
     summaries = {
         key: (
             dimensions,
-            (array_of(values) if key in TEXTS_OF_POINTS else np.array(values, dtype=float)).reshape(shape),
+            (array_of(values) if is_text_of_points(key) else np.array(values, dtype=float)).reshape(shape),
             _attributes(key, results),
         )
         for key, values in columns.items()
@@ -160,7 +161,7 @@ def _attributes(key: str, results: SweepPoints) -> dict[str, str]:
 
 def _has_texts(key: str, results: SweepPoints) -> bool:
     """Whether an input or result is a text."""
-    return key in TEXTS_OF_POINTS or (key in results.varied and kind_of(key) is None)
+    return is_text_of_points(key) or (key in results.varied and kind_of(key) is None)
 
 
 def unit_of_column(results: SweepPoints, key: str) -> str | None:
@@ -181,7 +182,7 @@ class SweepResults(Shown, SweepPoints):
 
     Attributes
     ----------
-    case : Case, BearingCase, DriveCase or GearCase
+    case : Case, BearingCase, DriveCase, AxleCase or GearCase
         Base case of the sweep.
     design : str
         "grid", "paired" or "sobol".

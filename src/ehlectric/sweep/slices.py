@@ -16,6 +16,7 @@ import scipy
 
 from ehlectric.arrays import Array, IntArray, Mask
 from ehlectric.cases.amounts import Amount, Count
+from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.drive_case import DriveCase
@@ -24,7 +25,8 @@ from ehlectric.cases.input_keys import kind_of, unit_of
 from ehlectric.cases.table import nearest
 from ehlectric.errors import InputError, short, shown
 from ehlectric.quantities.former_keys import current_key
-from ehlectric.quantities.lubrication_states import conducts, is_shorted
+from ehlectric.quantities.lubrication_states import AT_TIMES, CONDUCTS, INSULATES, conducts, is_shorted
+from ehlectric.quantities.results import is_text_of_points
 from ehlectric.runtime.display import is_number
 from ehlectric.sweep.axis_labels import result_keys
 from ehlectric.sweep.points import Point, Status, as_number
@@ -264,6 +266,8 @@ class Slice:
     values: Array  # drawn values, in SI units; NaN where a point is not solved, or doubtful, shape (points,)
     voltage: Array  # applied voltage [V]; NaN where a point is not solved, or doubtful, shape (points,)
     margin: Array  # breakdown voltage divided by applied voltage; NaN where a point has none, shape (points,)
+    # Names of a value that is a text: ``values`` are their numbers from 0. Empty if the value is a number.
+    categories: tuple[str, ...] = ()
 
     def of(self, status: Status) -> Mask:
         """Mask of the points that have a status, shape (points,)."""
@@ -352,7 +356,7 @@ def select_slice(
     if not all(is_number(point.inputs.get(x)) for point in results.points):
         raise InputError("x", got=f"{shown(x)}, whose values are strings or lists", takes="a key of numbers")
     value = current_key(value, result_keys(results.case))
-    numbers_of(results, value)
+    _check_known(results, value)
     fixed = {key: _fixed(results, key, text) for key, text in (at or {}).items()}
     for key in fixed:
         if key in (x, y):
@@ -386,6 +390,12 @@ def select_slice(
     return taken
 
 
+def _check_known(results: SweepResults, value: str) -> None:
+    """Raise an InputError if no point has a number or a name at a key."""
+    if not categories_of(results, value):
+        numbers_of(results, value)
+
+
 def whole(results: SweepResults, value: str) -> Slice:
     """Slice of all points over the first two varied keys, also where no point has the value."""
     x, *others = results.varied
@@ -405,7 +415,12 @@ def _slice(
     points = tuple(results.points[k] for k in rows)
     # Values of points with a severe warning are not drawn in figures.
     usable = np.where([point.doubtful for point in points], np.nan, 1.0)
-    numbers = results.numbers.get(value, [None] * len(results.points))
+    names = categories_of(results, value)
+    numbers = (
+        [names.index(name) if name else None for name in results.columns[value]]
+        if names
+        else results.numbers.get(value, [None] * len(results.points))
+    )
     breakdown = breakdown_of(results.case, value)
     return Slice(
         x=x,
@@ -420,7 +435,23 @@ def _slice(
         values=usable * np.array(numbers, dtype=float)[rows],
         voltage=usable * breakdown.voltages(results)[rows],
         margin=usable * breakdown.margins(results)[rows],
+        categories=names,
     )
+
+
+def categories_of(results: SweepResults, value: str) -> tuple[str, ...]:
+    """Names that a text of the summaries has at the points of a sweep; empty for a number.
+
+    Elements of an axle are in the order of the file, states from conducting to insulating, and other names in
+    the order of the points.
+    """
+    if not is_text_of_points(value):
+        return ()
+    case = results.case
+    elements = case.keys_of_elements().values() if isinstance(case, AxleCase) else ()
+    present = dict.fromkeys(name for name in results.columns.get(value, ()) if name)
+    known = dict.fromkeys((*elements, CONDUCTS, AT_TIMES, INSULATES))
+    return tuple(name for name in (known | present) if name in present)
 
 
 def _finite(results: SweepResults, chosen: Sequence[int], x: str, y: str | None) -> list[int]:

@@ -18,12 +18,13 @@ from pydantic.fields import FieldInfo
 from ehlectric.arrays import Array
 from ehlectric.bearing import LEAST_SAMPLES, MOST_SAMPLES
 from ehlectric.cases.amounts import INFINITE, WRITTEN, Amount, Count
+from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case, check_changes
-from ehlectric.cases.drive_case import DriveCase, with_absolute_files
+from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.gear_case import GearCase
-from ehlectric.cases.input_keys import input_field, is_of_drive, key_of_names, kind_of
-from ehlectric.cases.solved_case import SolvedCase, solved_case_of_dict, solved_case_of_file
+from ehlectric.cases.input_keys import input_field, is_of_axle, is_of_drive, key_of_names, kind_of
+from ehlectric.cases.solved_case import SolvedCase, solved_case_of_dict, solved_case_of_file, with_files_of
 from ehlectric.cases.table import (
     Table,
     Title,
@@ -54,6 +55,9 @@ def check_varied(key: str, case: SolvedCase, varied: Collection[str] = ()) -> No
     """
     if isinstance(case, DriveCase):
         _check_drive(key, case, varied)
+        return
+    if isinstance(case, AxleCase):
+        _check_axle(key, case)
         return
     model: type[Table] = type(case)
     if is_of_drive(key):
@@ -87,6 +91,39 @@ def _check_drive(key: str, case: DriveCase, varied: Collection[str]) -> None:
         raise InputError.worded(
             key, f"varies together with {both}; vary one of them, or both ends", takes=both
         )
+
+
+# Keys of a gear file that an axle replaces, with the keys of the axle.
+_REPLACED_OF_MESHES = {
+    "gear.operation.pinion_speed": "drive.speed",
+    "gear.operation.pinion_torque": "drive.torque",
+    "gear.operation.oil_temperature": "drive.temperature",
+}
+
+
+def _check_axle(key: str, case: AxleCase) -> None:
+    place, inner = end_and_key(key)
+    kind, _, name = place.partition(".")
+    if kind in ("bearing", "shaft", "mesh", "link") and name != "*":
+        case.places_of(key)
+    elif not name and key in AxleCase.known_keys():
+        raise InputError.worded(key, "cannot vary", takes="a key of the operating point, a bearing or a mesh")
+    elif not name and not is_of_axle(key):
+        raise InputError.unknown(key, nearest_key(key, AxleCase, case.__dict__))
+    above = {"bearing": REPLACED, "mesh": _REPLACED_OF_MESHES}.get(kind, {}).get(inner)
+    if above is None and kind == "mesh" and inner.partition(".")[0] != "gear":
+        above = inner
+    if above is not None:
+        raise InputError.worded(key, f"has no effect, as {above} is given for the axle", takes=above)
+    input_field(key_in_file(key, case))
+
+
+def key_in_file(key: str, case: SolvedCase) -> str:
+    """Dotted key with the name of the file before a key of an axle that drives also have, with other bounds.
+
+    The speed of an axle has a sign.
+    """
+    return f"axle.{key}" if isinstance(case, AxleCase) and key.startswith("drive.") else key
 
 
 def _nearest(key: str) -> str:
@@ -131,8 +168,8 @@ class Breakdown:
         return np.where(np.isfinite(margin), margin, ratio)
 
 
-CONTACT, FIRST_BREAK, THROUGH, MESH = (
-    Breakdown(**BREAKDOWNS[name]) for name in ("contact", "first", "through", "mesh")
+CONTACT, FIRST_BREAK, THROUGH, MESH, FIRST_ELEMENT = (
+    Breakdown(**BREAKDOWNS[name]) for name in ("contact", "first", "through", "mesh", "element")
 )
 
 # With a coating on a ring, the breakdown voltages next to the shaft voltage are voltages of the shaft.
@@ -146,9 +183,11 @@ _NONE = Breakdown("", "", "")
 
 def main_value(case: SolvedCase) -> str:
     """Key of the summary that figures of a sweep show first. Returns breakdown voltage of a contact or a gear
-    pair, first breakdown of a bearing, discharges per second of a drive, or lambda ratio of a gear pair whose
-    oil has no strength.
+    pair, first breakdown of a bearing, discharges per second of a drive, margin of an axle, or lambda ratio
+    of a gear pair whose oil has no strength.
     """
+    if isinstance(case, AxleCase):
+        return FIRST_ELEMENT.margin
     if isinstance(case, GearCase) and not case.discharge.has_strength:
         return "mesh.lambda_ratio"
     return breakdown_of(case).value or "drive.events_per_second"
@@ -169,6 +208,8 @@ def breakdown_of(case: SolvedCase, value: str | None = None) -> Breakdown:
         return _NONE
     if isinstance(case, GearCase):
         return MESH
+    if isinstance(case, AxleCase):
+        return FIRST_ELEMENT
     if not isinstance(case, BearingCase):
         return CONTACT
     if case.bearing.coating is not None:
@@ -315,6 +356,8 @@ class Sweep(Tabled, Table):
     @classmethod
     def _alone(cls, case: SolvedCase) -> SolvedCase:
         """Case without remedies and duty cycle, which a sweep does not solve: what they change may vary."""
+        if isinstance(case, AxleCase) and case.remedies:
+            return case.model_copy(update={"remedies": ()})
         if isinstance(case, DriveCase) and (case.remedies or case.duty is not None):
             return case.model_copy(update={"remedies": (), "duty": None})
         return case
@@ -332,7 +375,8 @@ class Sweep(Tabled, Table):
         written = bool(info.context and info.context.get(WRITTEN))
         for key in flat:
             check_varied(key, case, flat)
-        return {key: _axis(key, value, design, written=written) for key, value in flat.items()}
+        fields = {key: input_field(key_in_file(key, case)) for key in flat}
+        return {key: _axis(key, fields[key], value, design, written=written) for key, value in flat.items()}
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -405,7 +449,7 @@ class Sweep(Tabled, Table):
             case str(name):
                 table["case"] = str(folder / name)
             case dict(inner):
-                table["case"] = with_absolute_files(inner, folder)
+                table["case"] = with_files_of(inner, folder)
         if isinstance(table.get("vary"), dict):
             _locate(table["vary"], folder)
         return cls.from_written(table)
@@ -417,8 +461,8 @@ class Sweep(Tabled, Table):
         Parameters
         ----------
         table : mapping
-            Tables of the sweep. Its ``case`` is a Case, BearingCase, DriveCase or GearCase, the tables of
-            one, or the path of its file.
+            Tables of the sweep. Its ``case`` is a Case, BearingCase, DriveCase, AxleCase or GearCase, the
+            tables of one, or the path of its file.
 
         Returns
         -------
@@ -479,7 +523,8 @@ class Sweep(Tabled, Table):
     def points(self) -> Iterator[dict[str, Any]]:
         """Return the inputs of every point by dotted key, in SI units, in the order of the design."""
         if self.design == "sobol":
-            whole = [key for key in self.vary if isinstance(number_of(input_field(key)), Count)]
+            fields = {key: input_field(key_in_file(key, self.case)) for key in self.vary}
+            whole = [key for key, field in fields.items() if isinstance(number_of(field), Count)]
             return sobol(self.ranges, self.samples or 0, self.seed, whole)
         return {"grid": grid, "paired": paired}[self.design](self.axes)
 
@@ -555,11 +600,10 @@ def _keys_of_range(key: str, name: str) -> list[str]:
     return [f"{key}.{name.removeprefix('vary.')}" for name in similar]
 
 
-def _axis(key: str, value: Any, design: str, *, written: bool) -> tuple[Any, ...] | Range:
+def _axis(key: str, field: FieldInfo, value: Any, design: str, *, written: bool) -> tuple[Any, ...] | Range:
     """Values of a varied key, in SI units, or its range in a sobol design."""
     if key.partition(".")[0] == "motion":
         raise InputError.worded(key, "cannot vary: the films of a sweep are stationary")
-    field = input_field(key)
     if isinstance(value, np.ndarray):
         value = value.tolist()
     if isinstance(value, Range):

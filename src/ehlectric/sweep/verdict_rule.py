@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterator
 from itertools import pairwise
 from typing import Any
@@ -11,6 +12,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.bearing import equal_bearings, formula_factor
+from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.defaults import ISOTHERMAL, QUICK
 from ehlectric.cases.drive_case import DriveCase
@@ -52,7 +54,7 @@ def sweep_verdict(results: SweepPoints) -> Verdict | None:
     """
     if isinstance(results.case, DriveCase):
         return None  # it is a number of discharges whose harm depends on the bearing, not on a margin
-    usable, states = _margins(results), tuple(_mesh_states(results))
+    usable, states = _margins(results), (*_first_elements(results), *_mesh_states(results))
     known = usable[np.isfinite(usable)]
     if not known.size:
         return _without_voltages(results, states)
@@ -126,19 +128,35 @@ def _without_voltages(results: SweepPoints, of_mesh: tuple[Statement, ...]) -> V
     return Verdict("red" if everywhere else "yellow", TOUCHING, answer, reasons=of_mesh)
 
 
+def _first_elements(results: SweepPoints) -> Iterator[Statement]:
+    """Statement on the elements of an axle that break down first, the most frequent one first."""
+    names = [value_at(point.usable, "first.element") for point in results.points]
+    counts = Counter(name for name in names if name is not None)
+    if counts:
+        texts = tuple(f"{name} at {count}" for name, count in counts.most_common())
+        yield Statement.of("points-first", elements=texts, known=len(names))
+
+
 def _mesh_states(results: SweepPoints) -> Iterator[Statement]:
-    """Statement on the states of the mesh at the points of a sweep of gears."""
-    states = [value_at(point.usable, "mesh.state") for point in results.points]
-    counts = {name: states.count(name) for name in (CONDUCTS, AT_TIMES, INSULATES)}
-    known = sum(counts.values())
-    if known:
-        yield Statement.of(
-            "points-mesh-states",
-            conducts=counts[CONDUCTS],
-            at_times=counts[AT_TIMES],
-            insulates=counts[INSULATES],
-            known=known,
-        )
+    """Statements on the states of each mesh at the points of a sweep."""
+    case = results.case
+    meshes = {"mesh": ""}
+    if isinstance(case, AxleCase):
+        keys = case.keys_of_elements().items()
+        meshes = {f"elements.{key}": name for key, name in keys if name in case.names_of_meshes()}
+    for table, name in meshes.items():
+        states = [value_at(point.usable, f"{table}.state") for point in results.points]
+        counts = {state: states.count(state) for state in (CONDUCTS, AT_TIMES, INSULATES)}
+        known = sum(counts.values())
+        if known:
+            yield Statement.of(
+                "points-states-of-mesh" if name else "points-mesh-states",
+                conducts=counts[CONDUCTS],
+                at_times=counts[AT_TIMES],
+                insulates=counts[INSULATES],
+                known=known,
+                **({"element": name} if name else {}),
+            )
 
 
 def _doubts(results: SweepPoints, margins: Array) -> Iterator[Statement]:
@@ -204,6 +222,13 @@ def _strength_varies(results: SweepPoints) -> bool:
     return any(key.startswith("discharge.") for key in results.varied)
 
 
+def _strength_of(results: SweepPoints, case: SolvedCase) -> Statement:
+    """Statement on the dielectric strength of the points."""
+    if _strength_varies(results) or isinstance(case, DriveCase) or case.discharge is None:
+        return Statement.of("strength-varied")
+    return strength_clause(case.discharge)
+
+
 def _assumptions(results: SweepPoints) -> tuple[Bound, tuple[Statement, ...]]:
     """Bound and clauses on the assumptions behind the margins, which drives have not."""
     case = results.case
@@ -223,6 +248,8 @@ def _assumptions(results: SweepPoints) -> tuple[Bound, tuple[Statement, ...]]:
         ]
         ideal = smooth or any(factor in ISOTHERMAL for factor, _ in taken)
         bound = "upper" if ideal else "best"
+    elif isinstance(case, AxleCase):
+        return "best", (Statement.of("axle-model"), _strength_of(results, case))
     elif isinstance(case, GearCase):
         bound, kinds = "best", ["fully flooded", "rough"]
     else:
@@ -231,8 +258,7 @@ def _assumptions(results: SweepPoints) -> tuple[Bound, tuple[Statement, ...]]:
         neglected = {"isothermal": not heated, "fully flooded": not supplied}
         kinds = [kind for kind, holds in neglected.items() if holds]
     films = (Statement.of("films", words=tuple(kinds)),) if kinds else ()
-    varies = _strength_varies(results)
-    strength = Statement.of("strength-varied") if varies else strength_clause(case.discharge)
+    strength = _strength_of(results, case)
     equal: tuple[Statement, ...] = ()
     if isinstance(case, BearingCase) and "motor.second_bearing_capacitance" not in results.varied:
         equal = equal_bearings(case)
@@ -240,7 +266,7 @@ def _assumptions(results: SweepPoints) -> tuple[Bound, tuple[Statement, ...]]:
 
 
 # Tables of summaries with a margin, for cases that are no contact.
-_TABLES = {BearingCase: "bearing", GearCase: "mesh"}
+_TABLES = {BearingCase: "bearing", GearCase: "mesh", AxleCase: "first"}
 
 
 def _margins(results: SweepPoints) -> Array:
