@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from ehlectric.arrays import Array
 from ehlectric.axle.shaft_loads import BearingLoads
 from ehlectric.axle.solution import (
     AxleSolution,
@@ -20,13 +19,13 @@ from ehlectric.axle.solution import (
     named_warnings,
     shaft_loads,
 )
-from ehlectric.bearing import codes_of, is_quick, solve_bearing, solved_parts
+from ehlectric.bearing import codes_of, is_quick, many_of, solve_bearing, solved_parts
 from ehlectric.cases.axle_case import AxleCase, Turning
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.gear_case import GearCase
+from ehlectric.cases.gear_case import GearCase, changed_pair
 from ehlectric.cases.input_keys import is_quantity
 from ehlectric.cases.table_edits import flattened
-from ehlectric.errors import ConvergenceError, InputError
+from ehlectric.errors import ConvergenceError, InputError, within
 from ehlectric.gear import gear_warnings, solve_gear_pairs
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.runtime.display import is_number
@@ -51,12 +50,30 @@ class _Axle:
 class _Mounted:
     """Bearing of one of many axles."""
 
-    axle: int  # place of the axle among all
+    place: int  # place of the axle among all
     number: int  # number of the bearing on its axle
-    name: str
-    shaft: str
+    axle: _Axle
+    radial: float  # radial load [N]
     axial: float  # axial force along z [N]
-    case: BearingCase
+    # Values of the bearing file by dotted key: numbers of quantities in SI units, and everything else.
+    values: dict[str, float]
+    names: str
+
+    @property
+    def name(self) -> str:
+        """Name of the bearing."""
+        return self.axle.case.names_of_bearings()[self.number]
+
+    @property
+    def mounting(self) -> tuple[str, str, float]:
+        """Name of the bearing, its shaft, and its axial force along z [N]."""
+        return self.name, self.axle.case.bearing[self.number].shaft, self.axial
+
+    @property
+    def case(self) -> BearingCase:
+        """Case of the bearing."""
+        speed = self.axle.turning[self.axle.case.bearing[self.number].shaft].speed
+        return self.axle.case.bearing_case(self.number, speed, self.radial, abs(self.axial))
 
 
 def solve_axles(cases: Iterable[AxleCase]) -> list[Outcome]:
@@ -67,10 +84,11 @@ def solve_axles(cases: Iterable[AxleCase]) -> list[Outcome]:
     outcomes: dict[int, Outcome] = {}
     axles: dict[int, _Axle] = {}
     mounted: list[_Mounted] = []
+    of_oil = _OfOil()
     for place, case in enumerate(cases):
         try:
             axle = _Axle(case, case.turning(), shaft_loads(case))
-            mounted += _mounted(place, axle)
+            mounted += _mounted(place, axle, of_oil)
             axles[place] = axle
         except InputError as error:
             outcomes[place] = error
@@ -99,51 +117,78 @@ def _together(axle: _Axle, solved: Sequence[_Solved]) -> Outcome:
     return AxleSolution(axle.case, axle.turning, tuple(element for element, _ in known), tuple(warnings))
 
 
-def _mounted(place: int, axle: _Axle) -> Iterator[_Mounted]:
-    """Bearings of an axle with their cases."""
+def _mounted(place: int, axle: _Axle, of_oil: _OfOil) -> Iterator[_Mounted]:
+    """Bearings of an axle with the values of their files."""
     case = axle.case
-    for number, (bearing, name) in enumerate(zip(case.bearing, case.names_of_bearings(), strict=True)):
+    shared, text = of_oil.parts(case)
+    for number, bearing in enumerate(case.bearing):
         radial, axial = load_of(case, number, axle.loads)
-        of_bearing = case.bearing_case(number, axle.turning[bearing.shaft].speed, radial, abs(axial))
-        yield _Mounted(place, number, name, bearing.shaft, axial, of_bearing)
+        keys = {"radial_load": radial, "axial_load": abs(axial)} | case.keys_of_bearing(number)
+        keys |= {
+            "inner_speed": abs(axle.turning[bearing.shaft].speed),
+            "temperature": case.drive.temperature,
+        }
+        values, names = _split({"bearing": keys})
+        texts = f"{names!r}, {[*values]}, {text}"
+        yield _Mounted(place, number, axle, radial, axial, values | shared, texts)
 
 
-def _solved_bearings(mounted: Sequence[_Mounted]) -> dict[tuple[int, int], _Solved]:
+class _OfOil:
+    """Values of the oil and its strength in bearing files, once for each object of a case."""
+
+    def __init__(self) -> None:
+        self._known: dict[tuple[int, int], tuple[dict[str, float], str, AxleCase]] = {}
+
+    def parts(self, case: AxleCase) -> tuple[dict[str, float], str]:
+        """Numbers of quantities by dotted key, and a text with everything else."""
+        # The case stays in the table, so that no other object gets its number.
+        objects = id(case.lubricant), id(case.discharge)
+        if objects not in self._known:
+            tables = {
+                name: getattr(case, name).model_dump(mode="json", exclude_none=True)
+                for name in ("lubricant", "discharge")
+            }
+            values, names = _split(tables)
+            self._known[objects] = values, f"{names!r}, {[*values]}", case
+        values, text, _ = self._known[objects]
+        return values, f"{text}, {case.drive.contacts}"
+
+
+def _split(tables: Mapping[str, Any]) -> tuple[dict[str, float], dict[str, Any]]:
+    """Numbers of quantities in nested tables by dotted key, and everything else."""
+    values: dict[str, float] = {}
+    names: dict[str, Any] = {}
+    for key, value in flattened(tables).items():
+        (values if is_number(value) and is_quantity(key) else names)[key] = value
+    return values, names
+
+
+def _solved_bearings(mounted: Iterable[_Mounted]) -> dict[tuple[int, int], _Solved]:
     """Elements of all bearings by the place of the axle and the number of the bearing."""
+    groups: dict[str, list[_Mounted]] = {}
+    for each in mounted:
+        groups.setdefault(each.names, []).append(each)
     solved: dict[tuple[int, int], _Solved] = {}
-    for group, values in _groups(mounted):
-        for each, element in zip(group, _of_group(group, values), strict=True):
-            solved[each.axle, each.number] = element
+    for group in groups.values():
+        for each, element in zip(group, _of_group(group), strict=True):
+            solved[each.place, each.number] = element
     return solved
 
 
-def _groups(mounted: Sequence[_Mounted]) -> Iterator[tuple[list[_Mounted], dict[str, Array]]]:
-    """Bearings that differ in quantities only, with the quantities in which they differ, shape (n,)."""
-    groups: dict[str, tuple[list[_Mounted], list[dict[str, float]]]] = {}
-    for each in mounted:
-        values: dict[str, float] = {}
-        names: dict[str, Any] = {}
-        for key, value in flattened(each.case.to_dict()).items():
-            (values if is_number(value) and is_quantity(key) else names)[key] = value
-        members, rows = groups.setdefault(repr((names, list(values))), ([], []))
-        members.append(each)
-        rows.append(values)
-    for members, rows in groups.values():
-        columns = {key: np.array([row[key] for row in rows], dtype=float) for key in rows[0]}
-        yield members, {key: column for key, column in columns.items() if np.ptp(column) != 0.0}
-
-
-def _of_group(group: Sequence[_Mounted], values: dict[str, Array]) -> list[_Solved]:
+def _of_group(group: Sequence[_Mounted]) -> list[_Solved]:
     """Elements of bearings that differ in quantities only."""
-    first = group[0].case
-    if len(group) == 1 or not values or not is_quick(first):
+    if len(group) == 1:
         return [_alone(each) for each in group]
+    columns = {key: np.array([each.values[key] for each in group]) for key in group[0].values}
+    arrays = {key: column for key, column in columns.items() if np.ptp(column) != 0.0}
     solved: dict[int, _Solved] = {}
-    reasons: dict[int, str] = {}
     try:
-        for part in solved_parts(first.with_arrays(values), reasons=reasons):
-            members = [group[place] for place in part.points.tolist()]
-            solved |= zip(part.points.tolist(), _elements(members, part.solution), strict=True)
+        first = group[0].case
+        if not is_quick(first):
+            return [_alone(each) for each in group]
+        for part in solved_parts(many_of(first, arrays, len(group))):
+            places = part.points.tolist()
+            solved |= zip(places, _elements([group[place] for place in places], part.solution), strict=True)
     except InputError:
         # Alone, each bearing has its own reason.
         return [_alone(each) for each in group]
@@ -154,7 +199,7 @@ def _elements(group: Sequence[_Mounted], solution: Any) -> list[_Solved]:
     """Elements of bearings that were solved together, with their warnings."""
     count = len(group)
     masks = [(code, np.broadcast_to(where, count)) for code, where in codes_of(solution)]
-    elements = bearing_elements(solution, [(each.name, each.shaft, each.axial) for each in group])
+    elements = bearing_elements(solution, [each.mounting for each in group])
     return [
         (
             element,
@@ -172,19 +217,21 @@ def _alone(mounted: _Mounted) -> _Solved:
         if isinstance(error, InputError):
             return error.with_text(error.key or "bearing", f"{error.text} ({mounted.name})")
         return error
-    (element,) = bearing_elements(result.solution, [(mounted.name, mounted.shaft, mounted.axial)])
+    (element,) = bearing_elements(result.solution, [mounted.mounting])
     return element, result.warnings
 
 
-def _solved_meshes(axles: dict[int, _Axle]) -> dict[tuple[int, int], _Solved]:
+def _solved_meshes(axles: Mapping[int, _Axle]) -> dict[tuple[int, int], _Solved]:
     """Elements of all meshes by the place of the axle and the number of the mesh."""
     solved: dict[tuple[int, int], _Solved] = {}
     places: list[tuple[int, int]] = []
     pairs: list[GearCase] = []
+    # Pairs with the oil of the axle, by the objects that they are made of.
+    known: dict[tuple[Any, ...], GearCase] = {}
     for place, axle in axles.items():
         for number in range(len(axle.case.mesh)):
             try:
-                pairs.append(axle.case.gear_case(number, axle.turning))
+                pairs.append(_pair(axle, number, known))
                 places.append((place, number))
             except InputError as error:
                 solved[place, number] = error
@@ -198,3 +245,17 @@ def _solved_meshes(axles: dict[int, _Axle]) -> dict[tuple[int, int], _Solved]:
             element = mesh_element(case.names_of_meshes()[number], case.mesh[number].gears, outcome)
             solved[place, number] = element, tuple(gear_warnings(outcome))
     return solved
+
+
+def _pair(axle: _Axle, number: int, known: dict[tuple[Any, ...], GearCase]) -> GearCase:
+    """Gear pair of a mesh at the operating point of its axle."""
+    case = axle.case
+    objects = (id(case.mesh[number].pair), id(case.lubricant), id(case.discharge), case.drive.contacts)
+    if objects not in known:
+        known[objects] = case.gear_case(number, axle.turning)
+    numbers = case.gear_operation(number, axle.turning).items()
+    with within("mesh.pair"):
+        return changed_pair(
+            known[objects],
+            {f"gear.operation.{key}": value for key, value in numbers if is_number(value)},
+        )

@@ -26,9 +26,9 @@ from ehlectric.bearing import (
     tables_of_spread,
     warnings_of_spread,
 )
-from ehlectric.cases.axle_case import AxleCase
+from ehlectric.cases.axle_case import AxleCase, changed_axle
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.gear_case import GearCase
+from ehlectric.cases.gear_case import GearCase, changed_pair
 from ehlectric.cases.solved_case import SolvedCase
 from ehlectric.cases.table import by_table
 from ehlectric.gear import GearResult, solve_gear_pairs
@@ -51,9 +51,18 @@ class Batch:
     values: Mapping[str, Array]  # numbers of the quantities, by dotted key, in SI units, shape (n,)
     uncertainty_samples: int | None = None  # samples of the probability of breakdown of each point, if any
 
+    def changes(self) -> Iterator[dict[str, float]]:
+        """Numbers of the quantities of each point, by dotted key."""
+        for place in range(len(self.keys)):
+            yield {key: float(column[place]) for key, column in self.values.items()}
+
     def table_of(self, place: int) -> dict[str, Any]:
         """Tables of the case of a point."""
-        return _with_values(self.table, {key: float(column[place]) for key, column in self.values.items()})
+        values = {key: float(column[place]) for key, column in self.values.items()}
+        if "shaft" in self.table:
+            # Keys of an axle name shafts and numbers of meshes.
+            return AxleCase.from_dict(self.table).replace(values).to_dict()
+        return _with_values(self.table, values)
 
     def tasks(self) -> Iterator[Task]:
         """Points one by one, each with its key and the tables of its case."""
@@ -103,7 +112,7 @@ def batches_of(
 def _is_quick(case: SolvedCase) -> bool:
     """Whether the films of a bearing, a gear pair or an axle are not solved."""
     if isinstance(case, AxleCase):
-        return True
+        return not case.solves_films
     if isinstance(case, GearCase):
         return case.contacts != "solved"
     return isinstance(case, BearingCase) and is_quick(case)
@@ -184,28 +193,28 @@ def solve_batch(batch: Batch) -> list[Outcome] | None:
 _Summary = dict[str, Any] | Exception
 
 
-def _gear_summaries(tables: Iterable[Mapping[str, Any]]) -> Iterator[_Summary]:
-    """Summaries of gear pairs with these tables."""
-    for solution in solve_gear_pairs([GearCase.from_dict(table) for table in tables]):
+def _gear_summaries(batch: Batch) -> Iterator[_Summary]:
+    """Summaries of the gear pairs of a batch."""
+    first = GearCase.from_dict(batch.table)
+    for solution in solve_gear_pairs([changed_pair(first, values) for values in batch.changes()]):
         if isinstance(solution, Exception):
             yield solution
         else:
             yield GearResult(solution, probable=False).summary()
 
 
-def _axle_summaries(tables: Iterable[Mapping[str, Any]]) -> Iterator[_Summary]:
-    """Summaries of axles with these tables."""
-    for solution in solve_axles([AxleCase.from_dict(table) for table in tables]):
+def _axle_summaries(batch: Batch) -> Iterator[_Summary]:
+    """Summaries of the axles of a batch."""
+    first = AxleCase.from_dict(batch.table)
+    for solution in solve_axles([changed_axle(first, values) for values in batch.changes()]):
         yield solution if isinstance(solution, Exception) else AxleResult(solution).point_summary()
 
 
-def _outcomes(
-    batch: Batch, summaries: Callable[[Iterable[Mapping[str, Any]]], Iterator[_Summary]]
-) -> list[Outcome] | None:
+def _outcomes(batch: Batch, summaries: Callable[[Batch], Iterator[_Summary]]) -> list[Outcome] | None:
     """Outcomes of the gear pairs or axles of a batch; None where they have to be solved one by one."""
     started = time.perf_counter()
     try:
-        results = list(summaries(batch.table_of(place) for place in range(len(batch.keys))))
+        results = list(summaries(batch))
     except Exception:
         # Alone, each point has its own reason.
         return None

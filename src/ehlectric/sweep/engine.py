@@ -32,11 +32,11 @@ from ehlectric.bearing import (
     tables_of_spread,
     warnings_of_spread,
 )
-from ehlectric.cases.axle_case import AxleCase
+from ehlectric.cases.axle_case import AxleCase, changed_axle
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.drive_case import DriveCase
-from ehlectric.cases.gear_case import GearCase
+from ehlectric.cases.gear_case import GearCase, changed_pair
 from ehlectric.cases.solved_case import SolvedCase, solved_case_of_dict
 from ehlectric.contact import portable, solve
 from ehlectric.drive import quick_drive
@@ -157,11 +157,18 @@ def plan(sweep: Sweep) -> Iterator[Planned]:
 def planned_point(sweep: Sweep, number: int, inputs: Mapping[str, Any]) -> Planned:
     """Point of a sweep with the key of its case, or with the reason why it is no valid case."""
     try:
-        case = sweep.case.replace(inputs)
+        case = _changed(sweep.case, inputs)
         table = task_of(case) if number < _TABLES_KEPT else None
         return Planned(number, inputs, case_key(case, sweep.uncertainty_samples), table=table)
     except InputError as error:
         return Planned(number, inputs, None, str(error))
+
+
+def _changed(case: SolvedCase, inputs: Mapping[str, Any]) -> SolvedCase:
+    """Changed copy of a case, quick if only an operating point changes."""
+    if isinstance(case, GearCase):
+        return changed_pair(case, inputs)
+    return changed_axle(case, inputs) if isinstance(case, AxleCase) else case.replace(inputs)
 
 
 @dataclass(frozen=True)

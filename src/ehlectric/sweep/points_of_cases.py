@@ -12,7 +12,7 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.axle import solve_axles, tables_of_point
 from ehlectric.bearing import Columns
-from ehlectric.cases.axle_case import AxleCase
+from ehlectric.cases.axle_case import AxleCase, changed_axle
 from ehlectric.cases.bearing_case import at_index
 from ehlectric.cases.gear_case import GearCase, changed_pair
 from ehlectric.cases.input_keys import input_field
@@ -47,7 +47,8 @@ def gear_columns(case: GearCase, given: Mapping[str, Any], number: int) -> tuple
 
 def axle_columns(case: AxleCase, given: Mapping[str, Any], number: int) -> tuple[Columns, dict[str, Array]]:
     """Results of an axle at a number of points, and the inputs of the points, as for ``gear_columns``."""
-    alone = case.replace({"remedies": []})
+    quick = {"drive.contacts": "atlas"} if case.solves_films else {}
+    alone = case.replace({"remedies": [], **quick})
 
     def solved(cases: Iterable[AxleCase]) -> Iterator[_Solved]:
         for solution in solve_axles(cases):
@@ -56,7 +57,7 @@ def axle_columns(case: AxleCase, given: Mapping[str, Any], number: int) -> tuple
             else:
                 yield tables_of_point(solution), solution.warnings
 
-    return _evaluated(case, given, number, alone.replace, solved)
+    return _evaluated(case, given, number, partial(changed_axle, alone), solved)
 
 
 # Tables and warnings of a point, or why it has no result.
