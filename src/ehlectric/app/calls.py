@@ -8,6 +8,7 @@ from importlib import import_module
 from typing import Any, Generic, TypeVar, cast
 
 from ehlectric.app.view_models import (
+    AxleAnswer,
     BearingAnswer,
     ContactAnswer,
     DriveAnswer,
@@ -73,6 +74,10 @@ DRIVE_SIMULATED: Call[DriveAnswer] = Call("drive_answers.simulate")
 GEAR_QUICK: Call[GearAnswer] = Call("gear_answers.quick_answer")
 GEAR_WHOLE: Call[GearAnswer] = Call("gear_answers.whole_answer")
 GEAR_SOLVED: Call[GearAnswer] = Call("gear_answers.solve_pair")
+
+# An axle.
+AXLE_QUICK: Call[AxleAnswer] = Call("axle_answers.quick_answer")
+AXLE_WHOLE: Call[AxleAnswer] = Call("axle_answers.whole_answer")
 
 # A contact.
 CONTACT_QUICK: Call[ContactAnswer] = Call("contact_answers.quick_answer")

@@ -87,7 +87,7 @@ class Uploaded:
     """Uploaded case or sweep."""
 
     name: str
-    kind: str  # "contact", "motion", "bearing", "drive", "gear" or "sweep"
+    kind: str  # "contact", "motion", "bearing", "drive", "gear", "axle" or "sweep"
     table: Mapping[str, Any]  # its tables; names of files are relative to the folder of the session
     # Names of files that the case names and that are still to be uploaded. The tables are checked once none
     # is missing.
@@ -705,3 +705,15 @@ class GearAnswer(PageAnswer):
     geometry: Table  # contact ratios and other numbers that follow from the drawing
     points: Table  # radii, speeds, loads and films at the points A to E of the path of contact
     follows: Mapping[str, str]  # values with units that follow from other inputs, by key of the input
+
+
+@dataclass(frozen=True, kw_only=True)
+class AxleAnswer(PageAnswer):
+    """Answer about an axle."""
+
+    elements: Table  # loads, films and voltages of all bearings and meshes
+    shafts: Table  # speeds, torques and voltages of all shafts
+    # U/V_b of all elements and voltages of all shafts, as they are and with each remedy; None before the
+    # remedies are solved, and without remedies.
+    remedies: Table | None
+    effects: tuple[str, ...]  # sentence about each remedy

@@ -57,11 +57,11 @@ def elements_table(summary: Summary) -> Table:
     return columns_table((printable(summary["title"]), *heads[1:]), rows, wrapped=(0,))
 
 
-def shafts_table(summary: Summary) -> Table:
-    """Table of all shafts of an axle, for the terminal."""
-    heads = ("shaft", "speed [rpm]", "torque [N m]", "U [V]", "all meshes conduct", "none conducts")
-    rows = [
-        (
+def shaft_cells(summary: Summary) -> Iterator[tuple[str, ...]]:
+    """Yield the heads of the table of shafts, then a row for each."""
+    yield "shaft", "speed [rpm]", "torque [N m]", "U [V]", "all meshes conduct", "none conducts"
+    for row in summary["shafts"]:
+        yield (
             printable(row["shaft"]),
             _cell(row["speed"], _RPM),
             _cell(row["torque"]),
@@ -69,27 +69,32 @@ def shafts_table(summary: Summary) -> Table:
             _cell(row["voltage_always"]),
             _cell(row["voltage_never"]),
         )
-        for row in summary["shafts"]
-    ]
+
+
+def shafts_table(summary: Summary) -> Table:
+    """Table of all shafts of an axle, for the terminal."""
+    heads, *rows = shaft_cells(summary)
     return columns_table(heads, rows)
 
 
-def remedies_table(summary: Summary) -> Table:
-    """Table of U/V_b of all bearings and meshes with each remedy, for the terminal; a dash for an element
-    that conducts or has no breakdown voltage.
+def remedy_cells(summary: Summary) -> Iterator[tuple[str, ...]]:
+    """Yield the heads of the table of remedies, then U/V_b of each bearing and mesh, then the voltages. A
+    dash is an element that conducts or has no breakdown voltage.
     """
     cases = [("as it is", summary), *((each["title"], each) for each in summary["remedies"])]
-    heads = ["U/V_b", *("\n".join(textwrap.wrap(printable(title), _HEAD)) for title, _ in cases)]
+    yield "U/V_b", *(printable(title) for title, _ in cases)
     ratios = [{row["element"]: row["voltage_ratio"] for row in table["elements"]} for _, table in cases]
-    rows: list[tuple[str, ...]] = [
-        (printable(row["element"]), *(_cell(table.get(row["element"])) for table in ratios))
-        for row in _in_order(summary)
-    ]
-    rotor = [table["shafts"] for _, table in cases]
+    for row in _in_order(summary):
+        yield printable(row["element"]), *(_cell(table.get(row["element"])) for table in ratios)
     for number, shaft in enumerate(summary["shafts"]):
-        voltages = [_cell(shafts[number]["voltage"]) for shafts in rotor]
-        rows.append((f"U of {printable(shaft['shaft'])} [V]", *voltages))
-    return columns_table(heads, rows, wrapped=(0,))
+        voltages = (_cell(table["shafts"][number]["voltage"]) for _, table in cases)
+        yield f"U of {printable(shaft['shaft'])} [V]", *voltages
+
+
+def remedies_table(summary: Summary) -> Table:
+    """Table of U/V_b of all bearings and meshes with each remedy, for the terminal."""
+    heads, *rows = remedy_cells(summary)
+    return columns_table(["\n".join(textwrap.wrap(head, _HEAD)) for head in heads], rows, wrapped=(0,))
 
 
 def axle_rows(summary: Summary) -> Iterator[Row]:

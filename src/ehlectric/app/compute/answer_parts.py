@@ -14,6 +14,7 @@ from typing import Any
 
 from ehlectric.app.session import session_file
 from ehlectric.app.view_models import SEVERITIES, Line, Number, PageWarning
+from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.drive_case import AnyCase, DriveCase, case_of_dict
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.solved_case import SolvedCase
@@ -121,9 +122,7 @@ def case_of(table: Mapping[str, Any], folder: Path | None = None) -> AnyCase:
     if kind_of(table) == "drive":
         raise InputError("file", "is a drive file", takes="the case of a contact or a bearing")
     if kind_of(table) == "axle":
-        raise InputError(
-            "shaft", "is a table of an axle", takes="another file; the command drive solves axles"
-        )
+        raise InputError("shaft", "is a table of an axle", takes="the case of a contact or a bearing")
     return case_of_dict(with_session_files(table, folder), written=True)
 
 
@@ -141,9 +140,18 @@ def gear_of(table: Mapping[str, Any], folder: Path | None = None) -> GearCase:
     return GearCase.from_written(with_session_files(table, folder))
 
 
+def axle_of(table: Mapping[str, Any], folder: Path | None = None) -> AxleCase:
+    """Axle from the tables of a page, whose meshes have the tables of their gear files; see ``case_of``.
+    Raises InputError if the tables are no valid axle, or name a file.
+    """
+    return AxleCase.from_written(with_session_files(table, folder))
+
+
 def run_case_of(table: Mapping[str, Any], folder: Path | None = None) -> SolvedCase:
     """Case of any kind except a sweep from the tables of a page; see ``case_of``."""
     kind = kind_of(table)
+    if kind == "axle":
+        return axle_of(table, folder)
     if kind == "drive":
         return drive_of(table, folder)
     return gear_of(table, folder) if kind == "gear" else case_of(table, folder)
@@ -157,7 +165,7 @@ def sweep_of(table: Mapping[str, Any], folder: Path | None = None) -> Sweep:
 
 
 def kind_of(table: Mapping[str, Any]) -> FileKind:
-    """Kind of the tables of a page: "contact", "motion", "bearing", "drive" or "sweep"."""
+    """Kind of the tables of a page: such as "contact", "bearing" or "axle"."""
     return kind_of_tables(table) or "contact"
 
 

@@ -22,6 +22,7 @@ from ehlectric.app.form_fields.field_rules import changed
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.session import MOST_TOGETHER, SURFACES
 from ehlectric.app.view_models import MOST_CASE, MOST_FILES, MOST_SURFACE, Download, Uploaded, Written
+from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.drive_case import DriveCase
@@ -74,7 +75,8 @@ def uploaded(contents: Mapping[str, bytes], folder: Path) -> Uploaded:
             missing.append(inner)
     kind = kind_of(table)
     table = _with_opened_names(table)
-    missing += [*_with_bearings(table, contents), *_missing(table, contents, folder)]
+    missing += [*_with_bearings(table, contents), *_with_gear_files(table, contents)]
+    missing += _missing(table, contents, folder)
     if missing:
         return Uploaded(name, kind, table, tuple(dict.fromkeys(missing)))
     kept = [_keep(_plain(key, path), contents, folder) for key, path in names_in(table)]
@@ -96,7 +98,12 @@ def _with_opened_names(table: Mapping[str, Any]) -> dict[str, Any]:
     """Tables in which a name of the library that stands for a table is a key of this table."""
     if isinstance(table.get("case"), Mapping):
         return {**table, "case": _with_opened_names(table["case"])}
-    kinds: dict[str, type[Table]] = {"drive": DriveCase, "bearing": BearingCase, "gear": GearCase}
+    kinds: dict[str, type[Table]] = {
+        "drive": DriveCase,
+        "bearing": BearingCase,
+        "gear": GearCase,
+        "axle": AxleCase,
+    }
     return opened_names(table, kinds.get(kind_of(table), Case))
 
 
@@ -116,6 +123,23 @@ def _with_bearings(table: dict[str, Any], contents: Mapping[str, bytes]) -> list
     return missing
 
 
+def _with_gear_files(table: dict[str, Any], contents: Mapping[str, bytes]) -> list[str]:
+    """Put the tables of the gear files that an axle names into its meshes, and return the missing files."""
+    missing = []
+    meshes = table.get("mesh") if kind_of(table) == "axle" else None
+    for mesh in meshes if isinstance(meshes, list) else []:
+        file = mesh.get("file") if isinstance(mesh, dict) else None
+        if not isinstance(file, str):
+            continue
+        name = _plain("mesh.file", file)
+        if name not in contents:
+            missing.append(name)
+            continue
+        mesh["pair"] = _tables(name, contents[name])
+        del mesh["file"]
+    return missing
+
+
 def _refuse_too_much(contents: Mapping[str, bytes], folder: Path) -> None:
     """Raise InputError for too many files at once, and for more than the folder of a session may hold."""
     if len(contents) > MOST_FILES:
@@ -127,12 +151,12 @@ def _refuse_too_much(contents: Mapping[str, bytes], folder: Path) -> None:
 
 
 def _main(contents: Mapping[str, bytes]) -> tuple[str, dict[str, Any]]:
-    """Name and tables of the case among uploaded files: of a sweep or a drive, not of what it names."""
+    """Name and tables of the case among uploaded files, which may name the other files."""
     cases = [(name, _tables(name, contents[name])) for name in contents if name.lower().endswith(".toml")]
     if not cases:
         raise InputError("files", got=shown(", ".join(contents)), takes="a case in a .toml file")
-    # A sweep names its case, and a drive its bearings.
-    order = ("sweep", "drive")
+    # A sweep names its case, a drive its bearings, and an axle its gear pairs.
+    order = ("sweep", "drive", "axle")
     return min(
         cases, key=lambda case: order.index(kind) if (kind := kind_of(case[1])) in order else len(order)
     )

@@ -191,7 +191,8 @@ class Field:
     low: float = 0.0
     high: float = 1.0
     log: bool = False  # whether the slider is spaced by logarithms
-    kind: Literal["number", "count", "choice", "text", "alternatives"] = "number"
+    # A "flag" is true or not given.
+    kind: Literal["number", "count", "choice", "text", "alternatives", "flag"] = "number"
     choices: tuple[str, ...] = ()  # values of a choice; empty where they are in the library
     note: str = ""  # what a user must know next to the field
     help: str = ""  # meaning of the input, usual values, and effects of a larger value
@@ -237,6 +238,8 @@ class Field:
         A bare number gets the unit of the field. What is no number stays as it is, and the checks refuse it.
         """
         text = text.strip()
+        if self.kind == "flag":
+            return True if text == "yes" else None
         if text in self.choices and text.isdecimal():
             return int(text)
         amount = split(text) if self.kind in ("number", "count") else None
@@ -249,6 +252,8 @@ class Field:
 
     def text(self, value: Any) -> str:
         """Text of a value of the inputs; a bare number of a quantity is one in SI units."""
+        if self.kind == "flag" and value in (None, True, False):
+            return "yes" if value else "no"
         if value is None:
             return ""
         if isinstance(value, int | float) and not isinstance(value, bool) and self.unit:

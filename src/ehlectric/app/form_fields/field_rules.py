@@ -11,9 +11,10 @@ from copy import deepcopy
 from typing import Any
 
 from ehlectric.app.catalogue import bearing, coating, contradicts, designated
+from ehlectric.app.form_fields.axle_fields import fitted_axle, without_first_values
 from ehlectric.app.form_fields.drive_fields import DRIVE_ALTERNATIVES, fitted_to_source, with_fitted_remedies
 from ehlectric.app.form_fields.field import Field, Group, first_of_kind, fitted_to_kind, form_data, kind_of
-from ehlectric.app.form_fields.field_defaults import at_end, bearing_at, end_and_key
+from ehlectric.app.form_fields.field_defaults import at_end, bearing_at, end_and_key, with_bearing_at
 from ehlectric.app.form_fields.gear_fields import with_lists
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.defaults import DEFAULT_FILM, FILM_FACTORS
@@ -148,19 +149,19 @@ def changed(inputs: Inputs, changes: Mapping[str, Any], given: frozenset[str] = 
     >>> changed(inputs, {"bearing.base": "6206"}, set_by_user).value("bearing.radial_clearance")
     '10 um'
     """
-    by_end: dict[str, dict[str, Any]] = {end: {} for end in ("", *ENDS)}
-    for key, value in with_lists(inputs, changes).items():
+    by_end: dict[str, dict[str, Any]] = {"": {}}
+    for key, value in changes.items():
         end, inner = end_and_key(key)
-        by_end[end][inner] = value
-    result = _changed(inputs, by_end[""], given)
-    for end in ENDS:
-        if by_end[end]:
-            given_at_end = frozenset(
-                key.removeprefix(f"{end}.") for key in given if key.startswith(f"{end}.")
-            )
-            after = _changed(bearing_at(result, end), by_end[end], given_at_end)
-            result = result.changed({end: dict(after.table) or None})
-    return with_fitted_remedies(inputs, result)
+        by_end.setdefault(end, {})[inner] = value
+    result = _changed(inputs, with_lists(inputs, by_end.pop("")), given)
+    for end, changes_at_end in by_end.items():
+        given_at_end = frozenset(inner for key in given for at, inner in [end_and_key(key)] if at == end)
+        before = bearing_at(result, end)
+        after = _changed(before, with_lists(before, changes_at_end), given_at_end)
+        if end not in ENDS:
+            after = without_first_values(inputs, before, after, changes_at_end)
+        result = with_bearing_at(result, end, after)
+    return fitted_axle(inputs, with_fitted_remedies(inputs, result))
 
 
 def _changed(inputs: Inputs, changes: Mapping[str, Any], set_by_user: frozenset[str]) -> Inputs:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Coroutine
 from typing import Any
 
 from ehlectric.app.pages import (
+    axle_page,
     bearing_page,
     compare_page,
     contact_page,
@@ -20,6 +21,7 @@ PAGES: tuple[Callable[[Work], None], ...] = (
     bearing_page.BearingPage.add,
     drive_page.DrivePage.add,
     gear_page.GearPage.add,
+    axle_page.AxlePage.add,
     contact_page.ContactPage.add,
     sweep_page.add,
     compare_page.add,

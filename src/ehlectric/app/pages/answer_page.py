@@ -36,7 +36,7 @@ class AnswerPage(Generic[A]):
     path: ClassVar[str]
     title: ClassVar[str]
     start: ClassVar[Inputs]  # inputs with which the page begins
-    kind: ClassVar[Literal["bearing", "drive", "gear", "contact"]]
+    kind: ClassVar[Literal["bearing", "drive", "gear", "axle", "contact"]]
     groups: ClassVar[Sequence[Group]]
     # Keys of the numbers of the short answer, with the words before each; its name where there are none.
     short: ClassVar[Mapping[str, str]]
@@ -44,10 +44,11 @@ class AnswerPage(Generic[A]):
     wait: ClassVar[float] = 0.0
     elsewhere: ClassVar[Sequence[str]] = ()  # keys that other parts of the page than its form show
     first: ClassVar[int] = 2  # groups of the form that are opened on a narrow screen
-    # Functions that compute the immediate answer, fuller immediate answers in their order, and the solution.
+    # Functions that compute the immediate answer, fuller immediate answers in their order, and the solution;
+    # None for a page without one.
     quick: ClassVar[Call[Any]]
     later: ClassVar[Sequence[Call[Any]]] = ()
-    solved: ClassVar[Call[Any]]
+    solved: ClassVar[Call[Any] | None] = None
 
     view: AnswerView[A]
 

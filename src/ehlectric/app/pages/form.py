@@ -14,14 +14,13 @@ from ehlectric.app.form_fields import BEARING_GROUPS, GEAR_GROUPS
 from ehlectric.app.form_fields.contact_fields import geometry_of, groups_of
 from ehlectric.app.form_fields.drive_fields import DRIVE_GROUPS
 from ehlectric.app.form_fields.field import Field, Group, in_field_unit, shown_text, written_text
-from ehlectric.app.form_fields.field_defaults import default_of, end_and_key
+from ehlectric.app.form_fields.field_defaults import default_of, end_and_key, list_of
 from ehlectric.app.form_fields.field_rules import Memory, changed, is_custom
 from ehlectric.app.latest_answer import OnlyLast
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.frame import session_here
 from ehlectric.app.pages.page_parts import Control, GroupBox, brief, kind_of_list, removable, say
 from ehlectric.errors import InputError
-from ehlectric.quantities.inputs import key_of_list
 from ehlectric.quantities.units import printed
 
 Change = Callable[[str, Any], Awaitable[None]]
@@ -35,6 +34,7 @@ class Form:
 
     ``change`` is called with a key and its new value, which is a whole table where a new input replaces
     others, and None where the key is removed. Other parts of the page show the keys ``elsewhere``.
+    ``listed`` returns all inputs by dotted key; the page lists inputs without a field.
     On a narrow screen only the ``first`` groups are opened.
 
     While a slider is dragged, a new value waits until the one before is answered, and only the last waiting
@@ -50,11 +50,12 @@ class Form:
         label: str = "Inputs",
         elsewhere: Sequence[str] = (),
         first: int = 2,
+        listed: Callable[[Inputs], Mapping[str, Any]] = Inputs.flat,
     ) -> None:
         self._change = change
         self._first = groups[:first]
         self._inputs = inputs
-        self._groups, self._elsewhere = groups, elsewhere
+        self._groups, self._elsewhere, self._flat = groups, elsewhere, listed
         self._memory = Memory(groups)
         self._follows: Mapping[str, str] = {}  # values of empty fields that follow from other inputs
         self.wrong: Field | None = None  # field with an error
@@ -79,7 +80,7 @@ class Form:
         """Show an error next to its field, and remove the one before."""
         key = error.key if isinstance(error, InputError) else None
         field = None if key is None else self._field_of(key)
-        exact = field is not None and key in (field.key, key_of_list(field.key))
+        exact = field is not None and key in (field.key, list_of(field.key))
         field_text = (
             in_field_unit(field, error.text) if field is not None and isinstance(error, InputError) else ""
         )
@@ -186,6 +187,8 @@ class Form:
                 for place, alternative in enumerate(field.alternatives)
                 if alternative.listed or place == field.alternative(self._inputs)
             ]
+        if field.kind == "flag":
+            return [{"value": word, "label": word, "group": ""} for word in ("no", "yes")]
         if field.kind != "choice":
             return []
         entries = [{"value": name, "label": name, "group": ""} for name in field.choices]
@@ -239,11 +242,11 @@ class Form:
         """Sentence on the further inputs that changed."""
         fields = {field.key: field for field, _ in self._controls}
         labels = {key: field.label for key, field in fields.items()}
-        old, new = before.flat(), after.flat()
+        old, new = self._flat(before), self._flat(after)
 
         def other(key: str) -> bool:
             return not any(
-                key in (changed_key, key_of_list(changed_key)) or key.startswith(f"{changed_key}.")
+                key in (changed_key, list_of(changed_key)) or key.startswith(f"{changed_key}.")
                 for changed_key in changes
             )
 
@@ -287,6 +290,8 @@ class Form:
             control.show(text=str(field.alternative(self._inputs)), options=self._options(field))
         elif field.custom_label and is_custom(self._inputs, field.key):
             control.show(text=_CUSTOM)
+        elif field.kind == "flag":
+            control.show(text=field.text(value))
         elif field.kind == "choice":
             control.show(text=str(value if value is not None else default or ""))
         else:
@@ -302,8 +307,10 @@ class Form:
 
     def _show_others(self) -> None:
         """Show the inputs that no field has, such as inputs of a file, so that nothing is hidden."""
-        shown = {*self._elsewhere, *(key_of_list(field.key) for field, _ in self._controls)}
-        rest = {key: value for key, value in self._inputs.flat().items() if key not in shown and value != {}}
+        shown = {*self._elsewhere, *(list_of(field.key) for field, _ in self._controls)}
+        rest = {
+            key: value for key, value in self._flat(self._inputs).items() if key not in shown and value != {}
+        }
         self._others.set_visibility(bool(rest))
         self._others_head.set_content(f"Other inputs of the file ({len(rest)})")
         self._others_list.clear()

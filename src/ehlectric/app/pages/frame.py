@@ -9,6 +9,7 @@ from collections.abc import Awaitable, Callable, Iterator, Mapping
 from contextlib import contextmanager
 from functools import cache
 from importlib import resources
+from pathlib import Path
 from typing import Any
 
 import tomli
@@ -41,6 +42,20 @@ BEARING = start("bearing_6208")
 DRIVE = start("drive").changed({"drive_end.contacts": None, "drive.contacts": "atlas"})
 
 GEAR = start("gear_pair")
+
+
+def _axle() -> Inputs:
+    """Axle of the example, whose meshes contain the tables of their gear files."""
+    axle = start("e_axle")
+    meshes = [
+        {key: value for key, value in mesh.items() if key != "file"}
+        | {"pair": dict(start(Path(mesh["file"]).stem).table)}
+        for mesh in axle.value("mesh")
+    ]
+    return axle.changed({"mesh": meshes})
+
+
+AXLE = _axle()
 
 
 # First values of pages, all assumptions.
@@ -168,6 +183,7 @@ PATHS = {
     "bearing": "/",
     "drive": "/drive",
     "gear": "/gear",
+    "axle": "/axle",
     "contact": "/contact",
     "motion": "/contact",
     "sweep": "/sweep",
@@ -196,9 +212,9 @@ class Toolbar:
             self._redo = _button("Redo", "redo", self.redo, "Control+Shift+Z")
             _button("Copy link", "copy-link", self.copy_link)
             if opens:
-                if path not in (PATHS["drive"], PATHS["gear"]):
+                if path not in (PATHS["drive"], PATHS["gear"], PATHS["axle"]):
                     _button("Compare", "compare", self.compare)
-                if path != PATHS["sweep"]:
+                if path not in (PATHS["sweep"], PATHS["axle"]):
                     _button("Vary", "vary", self.vary)
                 if path == PATHS["bearing"]:
                     _button("In its drive", "in-drive", self.in_drive)
@@ -288,7 +304,9 @@ class Toolbar:
             'data-testid="upload-case" aria-hidden="true" tabindex="-1"'
         )
         open_file = ui.button("Open file").props('outline no-caps dense data-testid="open-file"')
-        open_file.tooltip("A case, bearing, drive, gear or sweep file (TOML), with the files that it names")
+        open_file.tooltip(
+            "A case, bearing, drive, axle, gear or sweep file (TOML), with the files that it names"
+        )
         open_file.on("click", js_handler=f"() => getElement({self._upload.id}).$refs.qRef.pickFiles()")
 
     def _rejected(self, _: events.UiEventArguments) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 from shutil import rmtree
 from typing import Generic, TypeVar
@@ -41,6 +41,9 @@ class SolvingTexts:
     beyond: str = ""
 
 
+# Names of the texts.
+_TEXTS = tuple(field.name for field in fields(SolvingTexts))
+
 # Solved answers that a tab keeps.
 _KEPT = 20
 
@@ -55,21 +58,23 @@ class _Solved(Generic[A]):
 
 
 class Solving(Generic[A]):
-    """Button that starts a solution, and the answers solved so far by their inputs.
+    """Button that starts a solution, and the answers solved so far by their inputs; without a call, only how
+    the immediate answer was computed.
 
     ``changed`` is called when another answer is to be shown, ``back`` with the inputs to go back to.
     """
 
     def __init__(
         self,
-        call: Call[A],
+        call: Call[A] | None,
         kind: str,
         session: Session,
         changed: Callable[[], object],
         back: Callable[[Inputs], None],
     ) -> None:
         self._call = call
-        self._texts = texts = SolvingTexts(**page_texts("solving")[kind])
+        given = page_texts("solving")[kind] if call is not None else dict.fromkeys(_TEXTS, "")
+        self._texts = texts = SolvingTexts(**given)
         self._session, self._changed, self._back = session, changed, back
         self._solved: dict[str, _Solved[A]] = {}
         self._quick = False
@@ -107,7 +112,7 @@ class Solving(Generic[A]):
         """Show how an answer was computed, if there is one, and the buttons that suit it."""
         solved = self._session.inputs.toml() in self._solved
         self.how.text = "" if answer is None else answer.how
-        offered = answer is None or answer.solvable
+        offered = self._call is not None and (answer is None or answer.solvable)
         self._solve.set_visibility(offered and not solved and self._running is None)
         beyond = bool(self._texts.beyond) and self._texts.beyond in str(error)
         self._solve.set_enabled(answer is not None or beyond)
@@ -122,6 +127,7 @@ class Solving(Generic[A]):
 
     def start(self) -> None:
         """Solve the present inputs."""
+        assert self._call is not None
         inputs = self._session.inputs
         # A folder for every run, so that the files of an answer stay as long as the answer.
         self._runs += 1

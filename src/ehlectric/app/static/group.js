@@ -4,7 +4,7 @@ const NARROW = 860; // pixels, as in the style sheet
 export default {
   template: `
     <details ref="details" class="group" :data-testid="'group-' + testid">
-      <summary><span class="group-title">{{ title }}</span><span v-if="switches && !on" class="group-off">off</span></summary>
+      <summary><span class="group-title">{{ title }}</span><span v-if="about" class="group-about">{{ about }}</span><span v-if="switches && !on" class="group-off">off</span></summary>
       <div class="group-body">
         <label v-if="switches" class="switch">
           <input type="checkbox" :checked="on" :data-testid="'switch-' + testid" @change="$emit('switch', $event.target.checked)">
@@ -19,6 +19,8 @@ export default {
     title: String,
     testid: String,
     note: String,
+    // Short text about what the group contains.
+    about: String,
     tells: String,
     // Whether the group is opened on a narrow screen, too.
     first: { type: Boolean, default: false },

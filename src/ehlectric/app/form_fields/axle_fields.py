@@ -1,0 +1,442 @@
+"""Fields of the page of an axle: groups of shafts, bearings, meshes and links, and rules of its inputs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from copy import deepcopy
+from dataclasses import replace
+from typing import Any
+
+from ehlectric.app.form_fields.bearing_fields import BEARING_GROUPS
+from ehlectric.app.form_fields.drive_fields import DRIVE_GROUPS
+from ehlectric.app.form_fields.field import Field, Group, When, always, equal, group_of
+from ehlectric.app.form_fields.field_defaults import field_at
+from ehlectric.app.form_fields.gear_fields import GEAR_GROUPS
+from ehlectric.app.page_inputs import Inputs
+from ehlectric.quantities.inputs import form
+
+# Name of the node whose potential is 0.
+HOUSING = "housing"
+
+# Lists of tables of an axle.
+LISTS = ("shaft", "bearing", "mesh", "link")
+
+# Keys of a gear file that the axle replaces, without their mesh.
+REPLACED_IN_GEAR_FILES = (
+    *("title", "contacts", "lubricant", "discharge", "ranges"),
+    *(f"gear.operation.{key}" for key in ("pinion_torque", "pinion_speed")),
+)
+
+_WITH_RESISTANCE, _WITH_CAPACITANCE = ("ring", "brush", "seal"), ("insulated",)
+
+# Groups of the axle itself, by their titles, with the keys of the book.
+AXLE_TEMPLATES = tuple(group_of("axle", title, {}) for title in form("axle"))
+_TEMPLATES = {group.title: group.fields for group in AXLE_TEMPLATES}
+_OF_BEARING = {field.key: field for group in BEARING_GROUPS for field in group.fields}
+_OF_GEAR = {
+    field.key: field
+    for group in GEAR_GROUPS
+    if group.title in ("Gear pair", "Flanks", "Electrical contact", "Operation")
+    for field in group.fields
+    if field.key not in (*REPLACED_IN_GEAR_FILES, "gear.contact.voltage")
+}
+
+# Fields of a mounted bearing: always shown, and folded away until they are given.
+_BEARING = (
+    *("bearing.base", "bearing.clearance", "bearing.radial_clearance", "bearing.clearance_class"),
+    *("bearing.way_roughness", "bearing.composite_rq", "bearing.composite_ra", "bearing.rq_over_ra"),
+)
+_BEARING_MORE = (
+    *("bearing.profile", "bearing.element_material", "bearing.element_capacitance"),
+    *("bearing.radial_load", "bearing.axial_load", "bearing.contact_resistance"),
+)
+
+# Fields of a gear pair that are shown at first.
+_GEAR = (
+    *("gear.normal_module", "gear.teeth.1", "gear.teeth.2", "gear.helix_angle", "gear.hand"),
+    *(
+        "gear.centre_distance",
+        "gear.profile_shift.1",
+        "gear.face_width",
+        "gear.flank_ra.1",
+        "gear.flank_ra.2",
+    ),
+    "gear.composite_rq",
+)
+
+
+def names_of(inputs: Inputs) -> list[str]:
+    """Names of the shafts; what is no table of a shaft is skipped."""
+    return [str(shaft.get("name", "")) for shaft in _tables(inputs, "shaft")]
+
+
+def _tables(inputs: Inputs, name: str) -> list[dict[str, Any]]:
+    """Tables of a list; none where the inputs have no list."""
+    tables = inputs.value(name)
+    return [table for table in tables if isinstance(table, dict)] if isinstance(tables, list) else []
+
+
+def _pair_of(table: Mapping[str, Any], key: str) -> tuple[str, str]:
+    """Both names of a mesh or a link."""
+    names = table.get(key)
+    both = [*map(str, names), "", ""] if isinstance(names, list) else ["", ""]
+    return both[0], both[1]
+
+
+def shape_of(inputs: Inputs) -> tuple[Any, ...]:
+    """What the groups of an axle depend on: its shafts, and the places of its bearings, meshes and links."""
+    return (
+        tuple(names_of(inputs)),
+        tuple(str(bearing.get("shaft", "")) for bearing in _tables(inputs, "bearing")),
+        tuple(_pair_of(mesh, "gears") for mesh in _tables(inputs, "mesh")),
+        len(_tables(inputs, "link")),
+    )
+
+
+def axle_groups(inputs: Inputs) -> tuple[Group, ...]:
+    """Groups of an axle: operating point, each shaft with its bearings, meshes, links, inverter, machine and
+    oil.
+    """
+    names, bearings = names_of(inputs), _tables(inputs, "bearing")
+    groups = [Group("Operation", tuple(_fields("Operation", "axle.", "")))]
+    for number, name in enumerate(names, 1):
+        groups.append(Group(shaft_title(name), tuple(_shaft_fields(number)), opened=False))
+        mounted = [n for n, bearing in enumerate(bearings, 1) if str(bearing.get("shaft", "")) == name]
+        for place, n in enumerate(mounted, 1):
+            groups.append(_bearing_group(n, f"Bearing {place} of {name}", names))
+    lost = [n for n, bearing in enumerate(bearings, 1) if str(bearing.get("shaft", "")) not in names]
+    groups += [_bearing_group(n, f"Bearing {n} without a shaft", names) for n in lost]
+    groups += [_mesh_group(n, names) for n in range(1, len(_tables(inputs, "mesh")) + 1)]
+    groups += [_link_group(n, [*names, HOUSING]) for n in range(1, len(_tables(inputs, "link")) + 1)]
+    return (*groups, *_OF_MACHINE)
+
+
+def shaft_title(name: str) -> str:
+    """Title of the group of a shaft."""
+    return f"Shaft {name}"
+
+
+def _fields(title: str, before: str, after: str) -> Iterator[Field]:
+    """Fields of a template at another place."""
+    for field in _TEMPLATES[title]:
+        yield replace(field, key=f"{after}{field.key.removeprefix(before)}")
+
+
+def _shaft_fields(number: int) -> Iterator[Field]:
+    for field in _fields("Shaft", "axle.", ""):
+        table, name = field.key.split(".")
+        inner = "adjustment." if table == "adjustment" else ""
+        kind = "flag" if name == "rotor" else field.kind
+        yield replace(field, key=f"shaft.{number}.{inner}{name}", kind=kind)
+
+
+def _bearing_group(number: int, title: str, names: Iterable[str]) -> Group:
+    end = f"bearing.{number}"
+    mounted = {field.key.rpartition(".")[2]: field for field in _fields("Bearing", "axle.bearing", end)}
+    fields = [
+        replace(field_at(_OF_BEARING[key], end), optional=key in _BEARING_MORE, custom_label="")
+        for key in (*_BEARING, *_BEARING_MORE)
+    ]
+    placed = [mounted["at"], replace(mounted["locating"], kind="flag")]
+    shaft = replace(mounted["shaft"], kind="choice", choices=tuple(names), optional=True)
+    return Group(title, (fields[0], *placed, *fields[1:], shaft), opened=False)
+
+
+def _mesh_group(number: int, names: Iterable[str]) -> Group:
+    of_mesh = tuple(
+        replace(field, kind="choice", choices=tuple(names)) if ".gears." in field.key else field
+        for field in _fields("Mesh", "axle.mesh", f"mesh.{number}")
+    )
+    gear = [
+        replace(field_at(field, f"mesh.{number}.pair"), optional=key not in _GEAR)
+        for key, field in _OF_GEAR.items()
+    ]
+    return Group(mesh_title(number), (*of_mesh, *gear), opened=False)
+
+
+def mesh_title(number: int) -> str:
+    """Title of the group of a mesh."""
+    return f"Gear mesh {number}"
+
+
+def link_title(number: int) -> str:
+    """Title of the group of a link."""
+    return f"Link {number}"
+
+
+def _link_group(number: int, nodes: Iterable[str]) -> Group:
+    fields = []
+    when: Mapping[str, When] = {
+        "resistance": equal(f"link.{number}.kind", *_WITH_RESISTANCE),
+        "capacitance": equal(f"link.{number}.kind", *_WITH_CAPACITANCE),
+    }
+    for field in _fields("Link", "axle.link", f"link.{number}"):
+        name = field.key.split(".")[2]
+        if name == "between":
+            field = replace(field, kind="choice", choices=tuple(nodes))
+        fields.append(replace(field, when=when.get(name, always)))
+    return Group(link_title(number), tuple(fields))
+
+
+def _of_drive(title: str, keys: Iterable[str], shown: Iterable[str]) -> Group:
+    """Group of the page of a drive with some of its fields, of which those ``shown`` are not folded away."""
+    (group,) = (group for group in DRIVE_GROUPS if group.title == title)
+    fields = {field.key: field for field in group.fields}
+    kept = tuple(replace(fields[key], optional=key not in shown) for key in keys)
+    return replace(group, fields=kept, opened=title != "Ring, choke and ground")
+
+
+# Groups of the inverter, the machine and the oil.
+_MACHINE = ("circuit.winding_rotor_capacitance", "circuit.rotor_frame_capacitance")
+_RING = ("circuit.grounding_ring_resistance",)
+_SOURCE = (
+    *("source.dc_link", "source.rise_time", "source.modulation", "source.switching_frequency"),
+    *("source.frequency_way", "source.pole_pairs", "source.fundamental_frequency", "source.modulation_index"),
+    "source.base_frequency",
+)
+_COMMON = {group.title: group for group in BEARING_GROUPS}
+_OF_MACHINE = (
+    _of_drive("Source", _SOURCE, _SOURCE[:2]),
+    _of_drive("Machine", _MACHINE, _MACHINE),
+    replace(_of_drive("Ring, choke and ground", _RING, _RING), title="Grounding ring on the rotor"),
+    _COMMON["Oil"],
+    Group("Breakdown", _COMMON["Breakdown"].fields[:1], note=_COMMON["Breakdown"].note),
+    _COMMON["Title"],
+)
+
+
+def summary_of(inputs: Inputs, title: str) -> str:
+    """Short text about the element of a group, next to its title."""
+    for number, mesh in enumerate(_tables(inputs, "mesh"), 1):
+        if title == mesh_title(number):
+            teeth = inputs.value(f"mesh.{number}.pair.gear.teeth")
+            ratio = ":".join(map(str, teeth)) if isinstance(teeth, list) else ""
+            return ", ".join(filter(None, [" and ".join(_pair_of(mesh, "gears")), ratio]))
+    for number, link in enumerate(_tables(inputs, "link"), 1):
+        if title == link_title(number):
+            return f"{link.get('kind', '')}, {' and '.join(_pair_of(link, 'between'))}"
+    for number, shaft in enumerate(_tables(inputs, "shaft"), 1):
+        name = names_of(inputs)[number - 1]
+        if title == shaft_title(name):
+            return "rotor" if shaft.get("rotor") is True else ""
+        mounted = [bearing for bearing in _tables(inputs, "bearing") if bearing.get("shaft") == name]
+        for place, bearing in enumerate(mounted, 1):
+            if title == f"Bearing {place} of {name}":
+                parts = [bearing.get("designation", bearing.get("base", "")), bearing.get("at", "")]
+                return ", ".join(map(str, [*parts, *(["axial"] if bearing.get("locating") is True else [])]))
+    return ""
+
+
+def other_inputs(inputs: Inputs) -> dict[str, Any]:
+    """Inputs by dotted key with the numbers of tables, without what the axle replaces in gear files."""
+    flat = {key: value for key, value in inputs.flat().items() if key not in (*LISTS, "remedies")}
+    for name in LISTS:
+        for number, table in enumerate(_tables(inputs, name), 1):
+            for key, value in Inputs(table).flat().items():
+                inner = key.removeprefix("pair.")
+                replaced = inner.startswith(REPLACED_IN_GEAR_FILES) and name == "mesh" and inner != key
+                if not replaced:
+                    flat[f"{name}.{number}.{key}"] = value
+    return flat
+
+
+def fitted_axle(before: Inputs, after: Inputs) -> Inputs:
+    """Inputs in which a new name of a shaft, the only rotor and the only locating bearing of a shaft hold.
+
+    Examples
+    --------
+    >>> shafts = [{"name": "a", "rotor": True}, {"name": "b"}]
+    >>> before = Inputs({"shaft": shafts, "bearing": [{"shaft": "b"}]})
+    >>> after = before.changed({"shaft.2.name": "c", "shaft.2.rotor": True})
+    >>> fitted = fitted_axle(before, after)
+    >>> fitted.value("bearing.1.shaft"), fitted.value("shaft.1.rotor")
+    ('c', None)
+    """
+    if before == after or not _tables(after, "shaft"):
+        return after
+    old, new = names_of(before), names_of(after)
+    if len(old) == len(new):
+        changed = [(a, b) for a, b in zip(old, new, strict=True) if a != b]
+        if len(changed) == 1 and changed[0][1] not in old and changed[0][1]:
+            after = _renamed(after, *changed[0])
+    after = _single(before, after, "shaft", "rotor", lambda _: "")
+    return _single(before, after, "bearing", "locating", lambda table: str(table.get("shaft", "")))
+
+
+def _renamed(inputs: Inputs, old: str, new: str) -> Inputs:
+    """Inputs in which all tables refer to a shaft by its new name."""
+
+    def renamed(value: Any) -> Any:
+        if isinstance(value, list):
+            return [renamed(item) for item in value]
+        if isinstance(value, Mapping):
+            return {_renamed_key(str(key), old, new): renamed(item) for key, item in value.items()}
+        return new if value == old else value
+
+    changes: dict[str, Any] = {}
+    for name, keys in (("bearing", ("shaft",)), ("mesh", ("gears",)), ("link", ("between",))):
+        tables = _tables(inputs, name)
+        if tables:
+            changes[name] = [
+                {key: renamed(value) if key in keys else value for key, value in table.items()}
+                for table in tables
+            ]
+    remedies = _tables(inputs, "remedies")
+    if remedies:
+        changes["remedies"] = [
+            {key: renamed(value) if key == "changes" else value for key, value in remedy.items()}
+            for remedy in remedies
+        ]
+    return inputs.changed(changes)
+
+
+def _renamed_key(key: str, old: str, new: str) -> str:
+    """Key of a change with the new name of a shaft."""
+    first, _, rest = key.partition(".")
+    if first in ("bearing", "shaft") and rest.startswith(f"{old}."):
+        return f"{first}.{new}.{rest.removeprefix(f'{old}.')}"
+    return key
+
+
+def _single(before: Inputs, after: Inputs, name: str, key: str, group: Any) -> Inputs:
+    """Inputs in which a newly set flag is the only one among the tables of its group."""
+    old, new = _tables(before, name), _tables(after, name)
+    if len(old) != len(new):
+        return after
+    turned_on = [n for n, (a, b) in enumerate(zip(old, new, strict=True)) if b.get(key) and not a.get(key)]
+    if len(turned_on) != 1:
+        return after
+    (number,) = turned_on
+    others = {
+        f"{name}.{n}.{key}": None
+        for n, table in enumerate(new, 1)
+        if n != number + 1 and table.get(key) and group(table) == group(new[number])
+    }
+    return after.changed(others)
+
+
+def with_shaft(inputs: Inputs) -> Inputs:
+    """Inputs with a further shaft: copies of the bearings and of the mesh of the last shaft."""
+    names = names_of(inputs)
+    name = next(text for n in range(len(names) + 1, 1000) if (text := f"shaft {n}") not in names)
+    last = names[-1] if names else ""
+    bearings, meshes = _tables(inputs, "bearing"), _tables(inputs, "mesh")
+    copies = [{**deepcopy(bearing), "shaft": name} for bearing in bearings if bearing.get("shaft") == last]
+    changes: dict[str, Any] = {
+        "shaft": [*_tables(inputs, "shaft"), {"name": name}],
+        "bearing": [*bearings, *copies],
+    }
+    if meshes:
+        changes["mesh"] = [*meshes, {**deepcopy(meshes[-1]), "gears": [last, name]}]
+    return inputs.changed(changes)
+
+
+def without_shaft(inputs: Inputs, number: int) -> Inputs:
+    """Inputs without a shaft, by its number from 1, and without its bearings, meshes, links and remedies."""
+    name = names_of(inputs)[number - 1]
+    meshes = _tables(inputs, "mesh")
+    lost = [n for n, mesh in enumerate(meshes, 1) if name in _pair_of(mesh, "gears")]
+    for n in reversed(lost):
+        inputs = without_table(inputs, "mesh", n)
+    changes: dict[str, Any] = {
+        f"shaft.{number}": None,
+        "bearing": [each for each in _tables(inputs, "bearing") if each.get("shaft") != name] or None,
+        "link": [each for each in _tables(inputs, "link") if name not in _pair_of(each, "between")] or None,
+        "remedies": [each for each in _tables(inputs, "remedies") if not _refers(each, name)] or None,
+    }
+    return inputs.changed(changes)
+
+
+def _refers(remedy: Mapping[str, Any], name: str) -> bool:
+    """Whether a remedy changes a shaft or a link to it."""
+    changes = remedy.get("changes")
+    if not isinstance(changes, Mapping):
+        return False
+    links = changes.get("link")
+    linked = isinstance(links, list) and any(
+        isinstance(link, Mapping) and name in _pair_of(link, "between") for link in links
+    )
+    return linked or any(key.startswith((f"bearing.{name}.", f"shaft.{name}.")) for key in changes)
+
+
+def without_table(inputs: Inputs, name: str, number: int) -> Inputs:
+    """Inputs without a bearing, mesh or link, by its number from 1; numbers of remedies follow."""
+    remedies = []
+    for remedy in _tables(inputs, "remedies"):
+        changes = {}
+        for key, value in remedy.get("changes", {}).items():
+            first, _, rest = key.partition(".")
+            place, _, inner = rest.partition(".")
+            if first == name and place.isdecimal() and name in ("mesh", "link"):
+                if int(place) == number:
+                    continue
+                key = f"{name}.{int(place) - (int(place) > number)}.{inner}"
+            changes[key] = value
+        if changes:
+            remedies.append({**remedy, "changes": changes})
+    return inputs.changed({f"{name}.{number}": None, "remedies": remedies or None})
+
+
+def with_bearing(inputs: Inputs, shaft: str) -> Inputs:
+    """Inputs with a further bearing on a shaft, a copy of its first bearing or of the first of all."""
+    bearings = _tables(inputs, "bearing")
+    on_shaft = [bearing for bearing in bearings if bearing.get("shaft") == shaft]
+    copied = deepcopy((on_shaft or bearings or [{"base": "6208"}])[0])
+    copied.pop("locating", None)
+    return inputs.changed({"bearing": [*bearings, {**copied, "shaft": shaft}]})
+
+
+def with_mesh(inputs: Inputs) -> Inputs:
+    """Inputs with a further mesh of the last two shafts, a copy of the last mesh."""
+    meshes, names = _tables(inputs, "mesh"), names_of(inputs)
+    copied = deepcopy(meshes[-1]) if meshes else {"at": ["0 mm", "0 mm"], "pair": {}}
+    return inputs.changed({"mesh": [*meshes, {**copied, "gears": names[-2:]}]})
+
+
+def with_link(inputs: Inputs) -> Inputs:
+    """Inputs with a further link: a ring from the last shaft to the housing."""
+    link = {"between": [names_of(inputs)[-1], HOUSING], "kind": "ring", "resistance": "1 ohm"}
+    return inputs.changed({"link": [*_tables(inputs, "link"), link]})
+
+
+def remedy_presets(inputs: Inputs) -> dict[str, dict[str, Any]]:
+    """Usual remedies of an axle by their titles, with what they change."""
+    presets: dict[str, dict[str, Any]] = {}
+    shafts, links = _tables(inputs, "shaft"), _tables(inputs, "link")
+    for shaft, name in zip(shafts, names_of(inputs), strict=True):
+        rotor = shaft.get("rotor") is True
+        words = "rotor" if rotor else name if name.endswith("shaft") else f"{name} shaft"
+        link = {"between": [name, HOUSING], "kind": "ring", "resistance": "1 ohm"}
+        ring = {"circuit.grounding_ring_resistance": "1 ohm"} if rotor else {"link": [*links, link]}
+        presets[f"Ring on the {words}"] = ring
+        presets[f"Hybrid bearings on the {words}"] = {
+            f"bearing.{name}.element_material": "silicon-nitride",
+            f"bearing.{name}.element_capacitance": "5 pF",
+        }
+    for number in range(1, len(_tables(inputs, "mesh")) + 1):
+        presets[f"Superfinished flanks of gear mesh {number}"] = {
+            f"mesh.{number}.gear.flank_ra": ["0.05 um", "0.05 um"]
+        }
+    return presets
+
+
+# Loads of a bearing, which follow from the gears of its shaft.
+_LOADS = ("bearing.radial_load", "bearing.axial_load")
+
+
+def without_first_values(inputs: Inputs, before: Inputs, after: Inputs, changes: Mapping[str, Any]) -> Inputs:
+    """Inputs of a bearing without first values of its kind that the axle gives: loads, and keys of all
+    bearings.
+
+    Examples
+    --------
+    >>> axle = Inputs({"bearings": {"composite_rq": "0.1 um"}})
+    >>> bearing = Inputs({"bearing": {"base": "6208"}})
+    >>> after = bearing.changed({"bearing.composite_rq": "0.03 um"})
+    >>> without_first_values(axle, bearing, after, {"bearing.base": "6208"}) == bearing
+    True
+    """
+    common = inputs.value("bearings")
+    names = common if isinstance(common, Mapping) else {}
+    keys = (*_LOADS, *(f"bearing.{name}" for name in names))
+    return after.changed({key: None for key in keys if before.value(key) is None and key not in changes})

@@ -1,0 +1,223 @@
+"""Page of an axle, which says which bearing or gear mesh breaks down first, and what changes that."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable, Mapping
+from functools import partial
+from html import escape
+from typing import Any, ClassVar
+
+from nicegui import ui
+
+from ehlectric.app.calls import AXLE_QUICK, AXLE_WHOLE
+from ehlectric.app.form_fields.axle_fields import (
+    LISTS,
+    axle_groups,
+    link_title,
+    mesh_title,
+    names_of,
+    other_inputs,
+    remedy_presets,
+    shaft_title,
+    shape_of,
+    summary_of,
+    with_bearing,
+    with_link,
+    with_mesh,
+    with_shaft,
+    without_shaft,
+    without_table,
+)
+from ehlectric.app.form_fields.drive_fields import remedies_of, with_remedy, without_remedy
+from ehlectric.app.page_inputs import Inputs
+from ehlectric.app.pages.answer_page import AnswerPage, AnswerView
+from ehlectric.app.pages.form import Form
+from ehlectric.app.pages.frame import AXLE, PATHS
+from ehlectric.app.pages.page_parts import GroupBox, button, removable
+from ehlectric.app.pages.result_parts import behind, table_html
+from ehlectric.app.session import Session
+from ehlectric.app.view_models import AxleAnswer
+
+REMEDIES = "remedies"
+
+
+class AxleView(AnswerView[AxleAnswer]):
+    """Place of an answer about an axle."""
+
+    rows_name = "Numbers of the axle"
+    keys = ("first.margin", "first.voltage", "first.breakdown_voltage", "edge.voltage")
+    leading = ("ratios",)
+
+    def build(self) -> None:
+        """Build the parts of the answer below its numbers."""
+        self._remedies = ui.html("", sanitize=False).props('data-testid="remedies-table"')
+        self._elements, self._shafts = (
+            ui.html("", sanitize=False).props(f'data-testid="{name}"') for name in ("elements", "shafts")
+        )
+        self.build_figures(())
+
+    def show(self, answer: AxleAnswer) -> None:
+        """Show an answer."""
+        super().show(answer)
+        self.body.props["data-whole"] = str(answer.whole).lower()
+        self.body.update()
+        self.panel.lead("ratios", answer.figures.get("ratios"))
+        effects = "".join(f"<li>{escape(text)}</li>" for text in answer.effects)
+        remedies = answer.remedies
+        self._remedies.content = (
+            ""
+            if remedies is None
+            else f"<h2>Mitigation measures</h2><ul data-testid=effects>{effects}</ul>{table_html(remedies)}"
+        )
+        self._remedies.set_visibility(remedies is not None)
+        self._elements.content = f"<h2>Bearings and meshes</h2>{table_html(answer.elements)}"
+        self._shafts.content = behind("Speeds, torques and voltages of the shafts", table_html(answer.shafts))
+
+
+class AxleRemedies:
+    """Group with a box to tick for each usual remedy of the axle, and a list of the others of the file."""
+
+    def __init__(self, session: Session, change: Callable[[str, Any], Awaitable[None]]) -> None:
+        self._session, self._change = session, change
+        self._titles: tuple[str, ...] = ()
+        with (
+            ui.element("div").classes("form").props('role="form" aria-label="Mitigation measures"'),
+            GroupBox("Remedies", title="Mitigation measures to compare", opened=True, first=True),
+        ):
+            ui.label("Each measure is computed in addition to the axle.").classes("field-help")
+            self._boxes = ui.element("div")
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Show the remedies of the present inputs."""
+        given = remedies_of(self._session.inputs)
+        presets: Mapping[str, Mapping[str, Any]] = remedy_presets(self._session.inputs)
+        self._boxes.clear()
+        with self._boxes:
+            for title, changes in presets.items():
+                with ui.element("div").classes("remedy"):
+                    box = ui.checkbox(title, value=title in given, on_change=partial(self._switched, title))
+                    box.props("dense").props["data-testid"] = f"remedy-{title.lower().replace(' ', '-')}"
+                    shown = given.get(title, changes)
+                    ui.label(", ".join(f"{key} = {value}" for key, value in shown.items())).classes(
+                        "field-note"
+                    )
+            for title, changes in given.items():
+                if title not in presets:
+                    text = ", ".join(f"{key} = {value}" for key, value in changes.items())
+                    removable(
+                        f"{title}: {text}", f"the mitigation measure {title}", partial(self._remove, title)
+                    )
+
+    async def _switched(self, title: str, event: Any) -> None:
+        inputs = self._session.inputs
+        if bool(event.value) == (title in remedies_of(inputs)):
+            return
+        changes = remedy_presets(inputs)[title]
+        after = with_remedy(inputs, title, changes) if event.value else without_remedy(inputs, title)
+        await self._change(REMEDIES, after or None)
+
+    async def _remove(self, title: str) -> None:
+        await self._change(REMEDIES, without_remedy(self._session.inputs, title) or None)
+        self.refresh()
+
+
+class AxlePage(AnswerPage[AxleAnswer]):
+    """Page of one tab."""
+
+    path = PATHS["axle"]
+    title = "Which bearing or gear mesh of this axle breaks down first?"
+    start = AXLE
+    kind = "axle"
+    groups = ()
+    elsewhere = (*LISTS, REMEDIES)
+    first = 1
+    short: ClassVar[Mapping[str, str]] = {"first.margin": "margin", "first.voltage": "U"}
+    wait = 0.6
+    quick, later = AXLE_QUICK, (AXLE_WHOLE,)
+
+    def build_view(self) -> None:
+        """Build the place of the answer."""
+        self.view = AxleView()
+
+    def build_form(self) -> None:
+        """Build the form, whose groups follow the shafts, bearings, meshes and links."""
+        self._place = ui.element("div")
+        self._build_groups()
+
+    def _build_groups(self) -> None:
+        inputs = self.session.inputs
+        self._shape = shape_of(inputs)
+        self._place.clear()
+        with self._place:
+            self.form = Form(axle_groups(inputs), inputs, self.change, first=self.first, listed=other_inputs)
+        self._build_buttons()
+        self._show_summaries()
+
+    def _build_buttons(self) -> None:
+        """Build the buttons that add and remove elements, each in the group of its element."""
+        inputs = self.session.inputs
+        names = names_of(inputs)
+        for number, name in enumerate(names, 1):
+            mounted = [n for n in range(1, _count(inputs, "bearing") + 1) if _shaft_of(inputs, n) == name]
+            with self.form.group(shaft_title(name)):
+                if len(mounted) < 2:
+                    self._button("Add a bearing", f"add-bearing-{number}", partial(with_bearing, shaft=name))
+                if inputs.value(f"shaft.{number}.rotor") is not True:
+                    remove = partial(without_shaft, number=number)
+                    self._button(f"Remove the shaft {name}", f"remove-shaft-{number}", remove)
+            for place, n in enumerate(mounted, 1):
+                self._remove(f"Bearing {place} of {name}", "bearing", n)
+        for number in range(1, _count(inputs, "mesh") + 1):
+            self._remove(mesh_title(number), "mesh", number)
+        for number in range(1, _count(inputs, "link") + 1):
+            self._remove(link_title(number), "link", number)
+        with self._place, ui.element("div").classes("buttons"):
+            self._button("Add a shaft with bearings and a mesh", "add-shaft", with_shaft)
+            self._button("Add a gear mesh", "add-mesh", with_mesh)
+            self._button("Add a ring, seal or coupling", "add-link", with_link)
+
+    def _remove(self, title: str, name: str, number: int) -> None:
+        with self.form.group(title):
+            remove = partial(without_table, name=name, number=number)
+            self._button(f"Remove {title.lower()}", f"remove-{name}-{number}", remove)
+
+    def _button(self, text: str, test: str, change: Callable[[Inputs], Inputs]) -> None:
+        button(text, test, lambda: self.go_to(change(self.session.inputs)), "no-caps dense")
+
+    def _show_summaries(self) -> None:
+        for group in axle_groups(self.session.inputs):
+            self.form.group(group.title).show(about=summary_of(self.session.inputs, group.title))
+
+    def build_boxes(self) -> None:
+        """Build the remedies."""
+        self.remedies = AxleRemedies(self.session, self.change)
+
+    def show_boxes(self) -> None:
+        """Show the present inputs in the remedies and in the titles of the groups."""
+        if shape_of(self.session.inputs) == self._shape:
+            self._show_summaries()
+        self.remedies.refresh()
+
+    def shown_again(self) -> None:
+        """Show the present inputs in the form, whose groups are made anew where elements were added or
+        removed.
+        """
+        if shape_of(self.session.inputs) != self._shape:
+            self._build_groups()
+        super().shown_again()
+
+    async def change(self, key: str, value: Any) -> None:
+        """Take over a changed input, and answer."""
+        await super().change(key, value)
+        if key == REMEDIES or shape_of(self.session.inputs) != self._shape:
+            self.shown_again()
+
+
+def _count(inputs: Inputs, name: str) -> int:
+    tables = inputs.value(name)
+    return len(tables) if isinstance(tables, list) else 0
+
+
+def _shaft_of(inputs: Inputs, number: int) -> str:
+    return str(inputs.value(f"bearing.{number}.shaft") or "")

@@ -1,0 +1,92 @@
+"""Answers about an axle, which have the numbers of ``solve_axle``, and opened files of axles."""
+
+import tomllib
+
+import pytest
+
+from ehlectric import InputError
+from ehlectric.app.compute.axle_answers import quick_answer, whole_answer
+from ehlectric.app.compute.page_files import uploaded, write
+from ehlectric.app.page_inputs import Inputs
+from ehlectric.app.pages.frame import AXLE
+from ehlectric.axle import solve_axle
+from ehlectric.cases.axle_case import AxleCase
+from ehlectric.readable import readable
+from tests.helpers.places import EXAMPLES
+
+FILES = ("e_axle.toml", "e_axle_stage_1.toml", "e_axle_stage_2.toml")
+
+
+def contents(*names):
+    return {name: (EXAMPLES / name).read_bytes() for name in names}
+
+
+def test_an_answer_has_the_numbers_of_the_command():
+    """Expected: ``solve_axle`` of the files of the example."""
+    summary = solve_axle(AxleCase.from_toml(EXAMPLES / FILES[0])).summary()
+    answer = whole_answer(AXLE.table)
+    rows = {row[0]: row[1:] for row in answer.elements.rows}
+    for row in summary["elements"]:
+        expected = (row["capacitance"], row["breakdown_voltage"], row["voltage"], row["voltage_ratio"])
+        texts = [
+            "–" if value is None else readable(factor * value)
+            for value, factor in zip(expected, (1e9, 1.0, 1.0, 1.0), strict=True)
+        ]
+        assert list(rows[row["element"]][3:]) == texts
+    assert answer.elements.rows[0][0] == summary["rank"]["by-film"][0]
+    assert answer.verdict.margin == pytest.approx(
+        1.0 / max(row["voltage_ratio"] or 0.0 for row in summary["elements"])
+    )
+    remedies = {row[0]: row[2:] for row in answer.remedies.rows}
+    for number, remedy in enumerate(summary["remedies"]):
+        for row in remedy["elements"]:
+            ratio = row["voltage_ratio"]
+            assert remedies[row["element"]][number] == ("–" if ratio is None else readable(ratio))
+
+
+def test_sentences_state_the_effect_of_each_remedy_on_all_elements():
+    """A ring from the rotor to the housing lowers the voltage of every element: the rotor feeds all nodes."""
+    ring, hybrid, *_ = whole_answer(AXLE.table).effects
+    assert ring.startswith("Ring on the rotor: lowers U/V_b of all elements.")
+    assert "no element breaks down" in ring
+    assert "mesh of rotor and intermediate" in hybrid
+
+
+def test_a_quick_answer_has_no_remedies():
+    answer = quick_answer(AXLE.table)
+    assert not answer.whole
+    assert answer.remedies is None
+    assert answer.verdict == whole_answer(AXLE.table).verdict
+
+
+def test_files_of_an_axle_come_with_their_gear_files(tmp_path):
+    opened = uploaded(contents(*FILES[:2]), tmp_path)
+    assert opened.missing == (FILES[2],)
+    opened = uploaded(contents(*reversed(FILES)), tmp_path)
+    assert (opened.name, opened.kind, opened.missing) == (FILES[0], "axle", ())
+    assert Inputs(opened.table) == AXLE
+
+
+def test_a_downloaded_axle_is_one_file_with_the_numbers_of_the_page(tmp_path):
+    path = tmp_path / "axle.toml"
+    path.write_text(AXLE.toml(), "utf-8")
+    summary = solve_axle(AxleCase.from_toml(path)).summary()
+    answer = whole_answer(tomllib.loads(AXLE.toml()))
+    assert [row[0] for row in answer.elements.rows][:2] == summary["rank"]["by-film"][:2]
+    written = write(AXLE.table, "", tmp_path, lambda *_: None)
+    assert {"summary.json", "elements.csv", "shafts.csv"} <= {*written.names}
+
+
+@pytest.mark.parametrize(
+    ("changes", "key"),
+    [
+        ({"drive.torque": "0 N m"}, "drive.torque"),
+        ({"mesh.1.file": "/etc/passwd"}, "mesh.1.file"),
+        ({"bearing.3.base": "x99"}, "bearing"),
+        ({"mesh.1.gears": ["rotor", "wheel"]}, "mesh"),
+    ],
+)
+def test_wrong_inputs_are_refused(changes, key):
+    with pytest.raises(InputError) as refused:
+        quick_answer(AXLE.changed(changes).table)
+    assert refused.value.key.startswith(key)
