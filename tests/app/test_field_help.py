@@ -9,6 +9,7 @@ import pytest
 from ehlectric import BearingCase, Case, DriveCase, GearCase, solve, solve_gear
 from ehlectric.app import catalogue
 from ehlectric.app.form_fields import BEARING_GROUPS, GEAR_GROUPS
+from ehlectric.app.form_fields.axle_fields import AXLE_TEMPLATES
 from ehlectric.app.form_fields.contact_fields import groups_of
 from ehlectric.app.form_fields.drive_fields import DRIVE_GROUPS
 from ehlectric.app.form_fields.field_defaults import end_and_key
@@ -21,7 +22,7 @@ from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.units import in_unit
 from tests.helpers.places import EXAMPLES
 
-GROUPS = (BEARING_GROUPS, DRIVE_GROUPS, groups_of("line"), groups_of("point"), GEAR_GROUPS)
+GROUPS = (BEARING_GROUPS, DRIVE_GROUPS, groups_of("line"), groups_of("point"), GEAR_GROUPS, AXLE_TEMPLATES)
 FIELDS = {
     end_and_key(field.key)[1]: field
     for groups in GROUPS

@@ -3,6 +3,7 @@
 import pytest
 
 from ehlectric.app.form_fields import BEARING_GROUPS, GEAR_GROUPS
+from ehlectric.app.form_fields.axle_fields import AXLE_TEMPLATES
 from ehlectric.app.form_fields.contact_fields import groups_of
 from ehlectric.app.form_fields.drive_fields import DRIVE_GROUPS
 from ehlectric.cases.amounts import Amount, Count
@@ -43,6 +44,8 @@ FIELDS = {
     if field.kind != "alternatives"
 }
 KEYS = sorted({key for _, key in FIELDS} - {"title"})
+# Keys of the fields of shafts, mounted bearings, meshes and links, of which an axle has several.
+OF_AXLES = {key_of_list(field.key) for group in AXLE_TEMPLATES for field in group.fields}
 CASE = case_of_dict({name: table for name, table in CONTACTS["line"].items() if name != "motion"})
 
 
@@ -92,7 +95,7 @@ def test_an_input_with_a_field_is_in_a_form():
     sliding = {
         f"{table}.{key}" for table, keys in inputs().items() for key, entry in keys.items() if entry.shown
     }
-    assert sliding <= {key_of_list(key).replace("body_1", "body") for key in KEYS}
+    assert sliding <= {key_of_list(key).replace("body_1", "body") for key in KEYS} | OF_AXLES
 
 
 @each("name, key", [place for place, field in FIELDS.items() if field.kind in ("number", "count")])
@@ -127,4 +130,4 @@ def test_columns_of_a_duty_cycle_replace_the_operating_point():
 
 @each("name", ["default", "field", "help", "lists", "only_given"])
 def test_attributes_of_fields_are_of_inputs_with_a_field(name):
-    assert attributes(name).keys() <= {key_of_list(key) for _, key in FIELDS}
+    assert attributes(name).keys() <= {key_of_list(key) for _, key in FIELDS} | OF_AXLES

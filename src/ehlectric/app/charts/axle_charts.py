@@ -69,6 +69,6 @@ def ratios_figure(result: AxleResult) -> Figure:
             shapes=[limit | {"line": {"color": INK, "width": 1, "dash": "dash"}}],
             bargap=0.35,
         ),
-        caption="Above 1 the element breaks down. A line extends between the values for all meshes conducting "
-        "and no mesh conducting.",
+        caption="Above 1 the element breaks down. A line extends between the values for all meshes conducting"
+        " and no mesh conducting.",
     )

@@ -1,4 +1,4 @@
-"""Fields of the page of an axle: groups of shafts, bearings, meshes and links, and rules of its inputs."""
+"""Fields of the page of an axle: groups by shaft, bearing, mesh and link, and rules for its inputs."""
 
 from __future__ import annotations
 
@@ -179,7 +179,7 @@ def _link_group(number: int, nodes: Iterable[str]) -> Group:
 
 
 def _of_drive(title: str, keys: Iterable[str], shown: Iterable[str]) -> Group:
-    """Group of the page of a drive with some of its fields, of which those ``shown`` are not folded away."""
+    """Group on the page of a drive with some fields; fields that are not ``shown`` are folded away."""
     (group,) = (group for group in DRIVE_GROUPS if group.title == title)
     fields = {field.key: field for field in group.fields}
     kept = tuple(replace(fields[key], optional=key not in shown) for key in keys)
