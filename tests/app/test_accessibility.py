@@ -135,13 +135,17 @@ _DESCRIBED = """one => one.getAttribute('aria-describedby').split(' ')
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("path", ["/", "/drive", "/gear", "/contact"])
+@pytest.mark.parametrize("path", ["/", "/drive", "/gear", "/axle", "/contact"])
 def test_fields_have_names_units_and_errors_in_the_accessibility_tree(open_page, app_server, path):
     page = open_page(app_server, path)
     page.locator(".form .field").first.wait_for()
     for one in page.evaluate(_NAMELESS):
         assert one["name"], one
-    named = {"/contact": ("Entrainment speed", "m/s"), "/gear": ("Normal module", "mm")}
+    named = {
+        "/contact": ("Entrainment speed", "m/s"),
+        "/gear": ("Normal module", "mm"),
+        "/axle": ("Torque of the rotor", "Nm"),
+    }
     name, unit = named.get(path, ("Radial load", "N"))
     box = page.get_by_role("textbox", name=name, exact=True).first
     box.wait_for()
@@ -160,6 +164,7 @@ def test_fields_have_names_units_and_errors_in_the_accessibility_tree(open_page,
         ("bearing", "Breakdown likely", "Margin (first breakdown / shaft voltage)"),
         ("drive", "Discharges expected", "Discharges per second"),
         ("gear", "Breakdown expected", "Margin"),
+        ("axle", "Breakdown expected", "Margin of the first element"),
     ],
 )
 def test_the_answer_is_a_live_region_with_headings_and_named_figures(
@@ -205,6 +210,7 @@ new PerformanceObserver((list) => {
         ("/", "slider-bearing-radial_load"),
         ("/drive", "slider-drive-speed"),
         ("/gear", "slider-gear-face_width"),
+        ("/axle", "slider-drive-torque"),
     ],
 )
 def test_nothing_jumps_when_numbers_arrive(open_page, app_server, path, slider, width):

@@ -73,6 +73,7 @@ PAGES = {
     "bearing": (lambda: "/", bearing),
     "drive": (lambda: address_of("/drive", short("0.05 s")), drive),
     "gear": (lambda: "/gear", gear),
+    "axle": (lambda: "/axle", gear),
     "contact": (lambda: "/contact", contact),
     "contact-point": (lambda: "/contact?contact.geometry=point", contact_point),
     "sweep": (lambda: address_of("/sweep", sweep(6)), swept),
