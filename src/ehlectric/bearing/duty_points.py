@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import product
 
 import numpy as np
@@ -67,15 +68,71 @@ def values_at(case: BearingCase, inputs: Mapping[str, Array]) -> PointValues:
     ``inputs``, numbers by dotted key, SI units, shape (n,). More than ``MOST_SOLVED`` different points are
     interpolated.
     """
+    keys = tuple(inputs)
+    return values_of_rows(inputs, partial(_solved, case, keys), partial(_interpolated, case, keys))
+
+
+def values_of_rows(
+    inputs: Mapping[str, Array],
+    solve: Callable[[Array], PointValues],
+    interpolate: Callable[[Array], PointValues],
+) -> PointValues:
+    """Quantities at many points, equal ones computed once.
+
+    ``inputs``, numbers by their names, shape (n,); ``solve`` gives the quantities at the rows of a table with
+    a column for each input, shape (m, inputs), and ``interpolate`` replaces it for more than ``MOST_SOLVED``
+    rows.
+    """
     table, place = np.unique(np.column_stack(list(inputs.values())), axis=0, return_inverse=True)
-    if len(table) <= MOST_SOLVED:
-        points = _solved(case, tuple(inputs), table)
-    else:
-        points = _interpolated(case, tuple(inputs), table)
+    points = solve(table) if len(table) <= MOST_SOLVED else interpolate(table)
     place = place.reshape(-1)
     reasons = {k: points.reasons[p] for k, p in enumerate(place.tolist()) if p in points.reasons}
     values = {name: column[place] for name, column in points.values.items()}
     return PointValues(values, reasons, points.solved, points.error)
+
+
+@dataclass(frozen=True, eq=False)
+class Design:
+    """Nodes around the rows of a table, between which quantities are interpolated."""
+
+    nodes: Array  # shape (m, columns)
+    corners: IntArray  # nodes around each row, shape (n, 2^d)
+    weights: Array  # shape (n, 2^d)
+
+    @classmethod
+    def of(cls, table: Array, scaled: Mask) -> Design:
+        """Finest regular design for the rows of a table, shape (n, columns), whose nodes are few enough.
+
+        ``scaled``, columns that are interpolated over their logarithms, if all of their values are positive.
+        """
+        low, high = table.min(axis=0), table.max(axis=0)
+        varied = np.flatnonzero(high > low)
+        log = scaled & (low > 0.0)
+        ends = [_scaled(end, log)[varied] for end in (low, high)]
+        unit = (_scaled(table, log)[:, varied] - ends[0]) / (ends[1] - ends[0])
+        nodes, corners, weights = _design(unit)
+        points = np.repeat(low[np.newaxis], len(nodes), axis=0)
+        points[:, varied] = ends[0] + nodes * (ends[1] - ends[0])
+        points[:, varied] = np.where(log[varied], np.exp(points[:, varied]), points[:, varied])
+        return cls(np.clip(points, low, high), corners, weights)
+
+    def between(self, column: Array) -> Array:
+        """Values of a quantity at all rows, shape (n,), from values at the nodes, shape (m,)."""
+        return _between(column, self.corners, self.weights)
+
+
+def places_to_compare(number: int, without: IntArray | None = None) -> IntArray:
+    """Places among a number of rows at which interpolated values are compared with solved ones."""
+    places = np.linspace(0, number - 1, _COMPARED).astype(int)
+    return np.setdiff1d(places, [] if without is None else without)
+
+
+def largest_error(
+    values: Mapping[str, Array], exact: Mapping[str, Array], places: IntArray, names: Sequence[str]
+) -> float:
+    """Largest relative error of quantities at the compared places."""
+    errors = [np.abs(values[name][places] / exact[name] - 1.0) for name in names]
+    return float(np.nanmax(errors, initial=0.0))
 
 
 def _solved(case: BearingCase, keys: tuple[str, ...], table: Array) -> PointValues:
@@ -100,33 +157,24 @@ def _numbers(solution: BearingSolution) -> tuple[Numbers | None, ...]:
 
 def _interpolated(case: BearingCase, keys: tuple[str, ...], table: Array) -> PointValues:
     """Quantities at the rows of a table between the nodes of a design, and the error at some of the rows."""
-    low, high = table.min(axis=0), table.max(axis=0)
-    varied = np.flatnonzero(high > low)
     # Films follow powers of speed and load, which are straight lines in logarithms.
-    log = np.array([key != TEMPERATURE and low[k] > 0.0 for k, key in enumerate(keys)])
-    ends = [_scaled(end, log)[varied] for end in (low, high)]
-    unit = (_scaled(table, log)[:, varied] - ends[0]) / (ends[1] - ends[0])
-    nodes, corners, weights = _design(unit)
-    points = np.repeat(low[np.newaxis], len(nodes), axis=0)
-    points[:, varied] = ends[0] + nodes * (ends[1] - ends[0])
-    points[:, varied] = np.where(log[varied], np.exp(points[:, varied]), points[:, varied])
-    design = _solved(case, keys, np.clip(points, low, high))
+    between = Design.of(table, np.array([key != TEMPERATURE for key in keys]))
+    design = _solved(case, keys, between.nodes)
     height = case.bearing.summit_height
     smooth = _smooth(design.values, height)
-    values = {name: _between(column, corners, weights) for name, column in smooth.items()}
+    values = {name: between.between(column) for name, column in smooth.items()}
     # No voltage is computed where surfaces touch. Points next to points with touching surfaces are solved.
     touching = touches(values["lambda_ratio"], height)
     for name in _VOLTAGES:
         part = part_over_summits(values["lambda_ratio"], height) if name in _OVER_SUMMITS else 1.0
         values[name] = np.where(touching, np.nan, values[name] * part)
-    edge = _next_to_touching(design.values, corners, height)
+    edge = _next_to_touching(design.values, between.corners, height)
     edge &= values["lambda_ratio"] > _NEARLY * contact_limit(height)
     places = np.flatnonzero(edge)[:MOST_SOLVED]
-    compared = np.setdiff1d(np.linspace(0, len(table) - 1, _COMPARED).astype(int), places)
+    compared = places_to_compare(len(table), places)
     exact = _solved(case, keys, table[np.concatenate([places, compared])])
-    error = _largest_error(
-        values, {name: column[places.size :] for name, column in exact.values.items()}, compared
-    )
+    apart = {name: column[places.size :] for name, column in exact.values.items()}
+    error = largest_error(values, apart, compared, ("lambda_ratio", "margin"))
     for name, column in exact.values.items():
         values[name][places] = column[: places.size]
     reason = next(iter({**design.reasons, **exact.reasons}.values()), "")
@@ -224,9 +272,3 @@ def _between(column: Array, corners: IntArray, weights: Array) -> Array:
     total = np.sum(weights, axis=-1, where=known)
     mean = np.sum(np.where(known, logs, 0.0) * weights, axis=-1) / np.where(total > 0.0, total, 1.0)
     return np.where(total > 0.0, np.exp(mean), np.nan)
-
-
-def _largest_error(values: Mapping[str, Array], exact: Mapping[str, Array], places: IntArray) -> float:
-    """Largest relative error of lambda ratio and margin at the compared points."""
-    errors = [np.abs(values[name][places] / exact[name] - 1.0) for name in ("lambda_ratio", "margin")]
-    return float(np.nanmax(errors, initial=0.0))

@@ -13,11 +13,12 @@ from ehlectric.arrays import Array
 from ehlectric.bearing.conditions import BearingConditions, ContactFriction
 from ehlectric.bearing.cycle_life import CycleLife
 from ehlectric.bearing.cycle_rows import StoredDuty
-from ehlectric.bearing.duty_cycle import DutyResult, DutyRows, Stretch
+from ehlectric.bearing.duty_cycle import DutyResult, DutyRows
 from ehlectric.bearing.loads.ball_loads import BallEquilibrium
 from ehlectric.bearing.loads.geometry import Speeds
 from ehlectric.bearing.loads.roller_loads import RollerEquilibrium
 from ehlectric.bearing.loads.totals import Equilibrium
+from ehlectric.bearing.margin_cycle import Stretch
 from ehlectric.bearing.preparation import resolve_bearing
 from ehlectric.bearing.ring_contacts import ContactCurve, ContactSolution, ContactValues, RingContacts
 from ehlectric.bearing.solution import BearingSolution, Position, RingState

@@ -498,7 +498,7 @@ def _stretches(rows: DriveDutyRows) -> Iterator[DriveStretch]:
 
 def _warnings(ready: _Ready, simulated: _SimulatedRates) -> Iterator[ResultWarning]:
     """Warnings about the file of a cycle and about what is not computed of it."""
-    yield from file_warnings(ready.cycle, ready.case.bearings[0])
+    yield from file_warnings(ready.cycle, ready.case.bearings[0].lubricant)
     yield from dict.fromkeys(warning for life in ready.lives for warning in life.warnings())
     yield from _of_ring(ready)
     left_out = np.flatnonzero(~np.isfinite(simulated.rates[:, 0]))

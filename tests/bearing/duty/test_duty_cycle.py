@@ -10,10 +10,11 @@ import pytest
 from ehlectric import load, solve_bearing
 from ehlectric.bearing import duty_points
 from ehlectric.bearing.cycle_rows import STATES
-from ehlectric.bearing.duty_cycle import SAMPLES_OF_ROW, check_duty, run_duty
+from ehlectric.bearing.duty_cycle import check_duty, run_duty
 from ehlectric.bearing.duty_points import values_at
 from ehlectric.bearing.many_points import solved_parts
 from ehlectric.bearing.many_uncertainties import spreads_of
+from ehlectric.bearing.margin_cycle import SAMPLES_OF_ROW
 from ehlectric.bearing.run import solve_to_folder
 from ehlectric.bearing.solution import lambda_ratio
 from ehlectric.bearing.uncertainty import SEED, spread_of_result
