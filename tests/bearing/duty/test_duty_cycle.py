@@ -312,7 +312,8 @@ def test_ceramic_elements_have_states_and_no_margin(tmp_path):
 def test_files_of_a_cycle(case, duty, tmp_path):
     outcome = solve_to_folder(case, tmp_path / "out")
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
-    assert summary["duty"] == json.loads(json.dumps(duty.summary()))
+    # The file also contains former keys.
+    assert {key: summary["duty"][key] for key in duty.summary()} == json.loads(json.dumps(duty.summary()))
     assert 0.0 < summary["duty"]["breakdown_probability"] < 1.0
     lines = (tmp_path / "out" / "duty.csv").read_text().splitlines()
     assert lines[0].startswith("time [s],duration [s],speed [rad/s],radial_load [N]")
