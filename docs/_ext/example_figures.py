@@ -26,6 +26,7 @@ _RUNS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
         ("measured_and_computed.png",),
     ),
     "duty_wltc": (("bearing", "duty_wltc.toml"), ("bearing_duty.png",)),
+    "duty_gear": (("gear", "duty_gear.toml"), ("gear_duty.png",)),
     "duty_drive": (("drive", "duty_drive.toml"), ("drive_duty.png",)),
     "drive": (
         ("drive", "drive.toml"),

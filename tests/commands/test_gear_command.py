@@ -32,6 +32,19 @@ def test_examples_are_solved(typed, tmp_path, name):
     assert mean == pytest.approx(summary["mesh"]["capacitance"])
 
 
+@pytest.mark.slow
+@pytest.mark.gate
+def test_a_duty_cycle_is_computed(typed, tmp_path):
+    done = typed("gear", EXAMPLES / "duty_gear.toml", "-o", "out")
+    assert done.returncode == 0
+    assert "share of the duty cycle, conducts at times" in done.stdout
+    names = {path.name for path in (tmp_path / "out").iterdir()}
+    assert {"duty.csv", "gear_duty.png"} <= names
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text("utf-8"))
+    # The car stops for 234 of 1800 s.
+    assert summary["duty"]["standstill_share"] == pytest.approx(234.0 / 1800.0, abs=0.001)
+
+
 def test_json_is_the_summary(typed, tmp_path):
     done = typed("gear", EXAMPLE, "-o", "out", "--no-plots", "--json")
     printed = json.loads(done.stdout)

@@ -205,6 +205,7 @@ def test_kinds_of_the_examples():
         "breakdown_probability_map": "sweep",
         "duty_wltc": "bearing",
         "duty_drive": "drive",
+        "duty_gear": "gear",
         "drive": "drive",
         "drive_map": "sweep",
         "e_axle": "axle",

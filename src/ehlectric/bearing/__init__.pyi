@@ -35,7 +35,12 @@ from .duty_cycle import file_warnings as file_warnings
 from .duty_cycle import life_of as life_of
 from .duty_cycle import rows_of as rows_of
 from .duty_cycle import run_duty as run_duty
+from .duty_points import Design as Design
+from .duty_points import PointValues as PointValues
 from .duty_points import between_places as between_places
+from .duty_points import largest_error as largest_error
+from .duty_points import places_to_compare as places_to_compare
+from .duty_points import values_of_rows as values_of_rows
 from .gaps import RollerRaceway as RollerRaceway
 from .gaps import roller_tails as roller_tails
 from .impedance import Impedance as Impedance
@@ -58,6 +63,14 @@ from .many_uncertainties import spreads_of as spreads_of
 from .many_uncertainties import tables_of_spread as tables_of_spread
 from .many_uncertainties import warnings_of_spread as warnings_of_spread
 from .margin import MarginAnalysis as MarginAnalysis
+from .margin_cycle import MAYBE as MAYBE
+from .margin_cycle import SAMPLES_OF_ROW as SAMPLES_OF_ROW
+from .margin_cycle import MarginCycle as MarginCycle
+from .margin_cycle import MarginRows as MarginRows
+from .margin_cycle import Stretch as Stretch
+from .margin_cycle import moves as moves
+from .margin_cycle import row_probabilities as row_probabilities
+from .margin_cycle import worst_stretches as worst_stretches
 from .measured_capacitance import bearing_factors as bearing_factors
 from .preparation import resolve_bearing as resolve_bearing
 from .quick_contacts import formula_factor as formula_factor

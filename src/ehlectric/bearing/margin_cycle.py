@@ -188,6 +188,11 @@ class MarginCycle(Values, Generic[Rows]):
         return means[0], means[1], means[2]
 
     @property
+    def judges_breakdown(self) -> bool:
+        """Whether breakdown is known at any row."""
+        return self.breakdown_probability is not None
+
+    @property
     def statement(self) -> Statement | None:
         """Statement on the cycle: probability of breakdown, share of time with breakdown; None without."""
         probability, low, high = self._means(whole=True)
@@ -221,7 +226,7 @@ class MarginCycle(Values, Generic[Rows]):
         rows = self.rows
         worst = int(np.nanargmin(rows.margin)) if rows.has_margin else None
         return {
-            "breakdown_share": None if self.breakdown_probability is None else rows.share(rows.breaks),
+            "breakdown_share": rows.share(rows.breaks) if self.judges_breakdown else None,
             "low_margin_share": rows.share(self.low) if rows.has_margin else None,
             **self._probabilities(),
             "least_margin": None if worst is None else float(rows.margin[worst]),
@@ -341,8 +346,8 @@ class _Causes:
         changed = {column: np.repeat(given[places], len(means)) for column, given in self.inputs.items()}
         for k, (column, mean) in enumerate(means.items()):
             changed[column][k :: len(means)] = np.copysign(mean, self.inputs[column][places])
-        found = self.values(changed)
-        results, ratios = (found[key].reshape(len(places), len(means)) for key in (name, "lambda_ratio"))
+        raised_to = self.values(changed)
+        results, ratios = (raised_to[key].reshape(len(places), len(means)) for key in (name, "lambda_ratio"))
         texts = []
         for place, row, ratio in zip(places, results, ratios, strict=True):
             best = int(np.argmax(np.nan_to_num(row, nan=-1.0)))

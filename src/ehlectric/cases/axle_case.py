@@ -236,7 +236,8 @@ class AxleCase(CaseFile, book="axle_file"):
         """
         pair = self.mesh[number].pair
         table = pair.to_dict()
-        table.pop("ranges", None)
+        for name in ("ranges", "duty"):
+            table.pop(name, None)
         if self.drive.contacts is not None:
             table["contacts"] = self.drive.contacts
         table["gear"]["operation"] |= self.gear_operation(number, turning)

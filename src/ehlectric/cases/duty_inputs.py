@@ -1,4 +1,4 @@
-"""Table ``duty`` of a bearing or a drive file, and the duty cycle in the file that it names."""
+"""Table ``duty`` of a bearing, a gear or a drive file, and the duty cycle in the file that it names."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from pathlib import Path
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.cases.measurements import CYCLE, Measurement, read_measurement
+from ehlectric.cases.measurements import CYCLE, ColumnBook, Measurement, read_measurement
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
 
 
 class Duty(Table, book="duty"):
-    """Duty cycle of a bearing or a drive: speed, loads, temperature and common-mode voltage over time."""
+    """Duty cycle of a bearing, a drive or a gear pair: speed, loads, temperature and voltage over time."""
 
     file: str
 
@@ -27,7 +27,7 @@ class Cycle:
     source: str  # path of the file
     lines: tuple[int, ...]  # line of each row in the file, from 1
     time: Array  # increasing [s], shape (n,)
-    # Quantities of the rows besides the time by name, as ``CYCLE`` has them, shape (n,).
+    # Quantities of the rows besides the time by name, as their book has them, shape (n,).
     values: Mapping[str, Array]
     read: Measurement  # rows as read, with the heads of ignored columns and the lines of void rows
 
@@ -38,20 +38,21 @@ class Cycle:
         return (*self.read.ignored, *uncertain)
 
 
-def read_cycle(path: str | Path) -> Cycle:
-    """Read a duty cycle from a text file with units in its heads, such as ``time [s],speed [rpm]``.
+def read_cycle(path: str | Path, book: ColumnBook = CYCLE) -> Cycle:
+    """Read a duty cycle from a text file with units in its heads, such as ``time [s],speed [rpm]``; ``book``,
+    quantities that its columns may have.
 
     Raises InputError if the file cannot be read or is too large; if it has no time, or nothing else; if it
     has fewer than two rows, or a time that does not increase; and for a value as ``read_measurement`` does.
     """
-    read = read_measurement(path, CYCLE)
+    read = read_measurement(path, book)
     values = dict(read.values)
     if "time" not in values:
         raise InputError.missing(f"{read.source}: time", "a column 'time [s]'")
     time = values.pop("time")
     if not values:
         text = "has no column but the time"
-        raise InputError(read.source, text, takes=f"headings such as {CYCLE.examples}")
+        raise InputError(read.source, text, takes=f"headings such as {book.examples}")
     if time.size < 2:
         raise InputError(read.source, "has one row", takes="at least two")
     back = np.flatnonzero(np.diff(time) <= 0.0)

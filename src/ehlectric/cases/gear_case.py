@@ -12,6 +12,7 @@ from pydantic import field_serializer, field_validator, model_validator
 from ehlectric.cases.case_oil import Lubricant
 from ehlectric.cases.defaults import Contacts
 from ehlectric.cases.discharge_inputs import Discharge
+from ehlectric.cases.duty_inputs import Duty
 from ehlectric.cases.gear_inputs import Gear, GearOperation
 from ehlectric.cases.input_ranges import (
     InputRange,
@@ -24,6 +25,7 @@ from ehlectric.cases.input_ranges import (
 )
 from ehlectric.cases.key_names import refuse_deep
 from ehlectric.cases.oil_inputs import displace_oil
+from ehlectric.cases.roughness_inputs import find_files
 from ehlectric.cases.stated_ranges import with_stated_ranges
 from ehlectric.cases.table import CaseFile, Title, number_of, with_name_keys
 from ehlectric.cases.table_edits import displace, nested, set_keys
@@ -58,6 +60,8 @@ class GearCase(CaseFile, book="gear_file"):
         Dielectric strength and conductivity of the oil.
     ranges : mapping, optional
         Ranges of uncertain inputs by dotted key, each a list of two values.
+    duty : mapping, optional
+        ``file``, the file of a duty cycle.
     """
 
     if TYPE_CHECKING:
@@ -70,6 +74,7 @@ class GearCase(CaseFile, book="gear_file"):
     lubricant: Lubricant
     discharge: Discharge = Discharge()
     ranges: tuple[InputRange, ...] | None = None
+    duty: Duty | None = None
 
     @model_validator(mode="before")
     @classmethod
@@ -90,8 +95,9 @@ class GearCase(CaseFile, book="gear_file"):
         return table_of_ranges(ranges)
 
     @classmethod
-    def of_file(cls, table: dict[str, Any], path: Path) -> Self:  # noqa: ARG003
+    def of_file(cls, table: dict[str, Any], path: Path) -> Self:
         """Make a gear case from the tables of the file at a path."""
+        find_files(table, path.parent)
         return cls.from_written(table)
 
     @classmethod

@@ -85,9 +85,16 @@ DRIVE_FIGURE_FILES = (
 )
 
 # Figures of gear pairs: radii, speeds, loads and pressures along the path of contact, the film along it, map
-# of the film on the flank, and capacitance and breakdown voltage over a phase of the mesh.
+# of the film on the flank, capacitance and breakdown voltage over a phase of the mesh, and a duty cycle.
 GEAR_FLANK_FIGURE = "gear_flank.png"
-GEAR_FIGURE_FILES = ("gear_path.png", "gear_film.png", GEAR_FLANK_FIGURE, "gear_mesh.png")
+GEAR_DUTY_FIGURE = "gear_duty.png"
+GEAR_FIGURE_FILES = (
+    "gear_path.png",
+    "gear_film.png",
+    GEAR_FLANK_FIGURE,
+    "gear_mesh.png",
+    GEAR_DUTY_FIGURE,
+)
 
 # Figure of an axle: voltage of each element over its breakdown voltage.
 AXLE_FIGURE = "axle_elements.png"

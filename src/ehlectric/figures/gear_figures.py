@@ -13,9 +13,11 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from ehlectric.arrays import Array
+from ehlectric.cases.defaults import HOW
 from ehlectric.figures.data import Along, Panel, with_unit
 from ehlectric.figures.draw import draw_panel
-from ehlectric.figures.figure_names import GEAR_FIGURE_FILES
+from ehlectric.figures.duty_panels import cycle_lines, gear_duty_panels, time_axis
+from ehlectric.figures.figure_names import GEAR_DUTY_FIGURE, GEAR_FIGURE_FILES, in_formats
 from ehlectric.figures.gear_panels import (
     ENDS_OF_FLANK,
     LAST_COLOUR,
@@ -51,6 +53,7 @@ from ehlectric.figures.style import (
 from ehlectric.gear import GearResult, discharge_places, weakest
 from ehlectric.quantities.palette import BLACK, MAP_EDGE, ON_MAP, ORANGE, OUT_OF_RANGE
 from ehlectric.quantities.units import unit_for
+from ehlectric.readable import readable
 
 
 def flank(result: GearResult, ax: Axes) -> None:
@@ -158,11 +161,16 @@ def _letters_above(result: GearResult, ax: Axes) -> None:
 
 
 def _stacked(
-    result: GearResult, panels: Sequence[Panel], along: Along, height: float, columns: int = 2
+    result: GearResult,
+    panels: Sequence[Panel],
+    along: Along,
+    height: float,
+    columns: int = 2,
+    *,
+    on_path: bool = False,
 ) -> Axes:
     """Axes of panels below each other, the highest one with the legend; returns it."""
     axes = new_panels(len(panels), 1, (6.3, height))
-    on_path = along is not PHASE_AXIS
     for panel, ax in zip(panels, axes, strict=True):
         draw_panel(panel, ax, along)
     if on_path:
@@ -181,16 +189,41 @@ def _stacked(
 
 
 def _draw_path(result: GearResult) -> Axes:
-    return _stacked(result, path_panels(result), path_axis(result), 6.6, 3)
+    return _stacked(result, path_panels(result), path_axis(result), 6.6, 3, on_path=True)
 
 
 def _draw_film(result: GearResult) -> Axes:
-    return _stacked(result, film_panels(result), path_axis(result), 5.0)
+    return _stacked(result, film_panels(result), path_axis(result), 5.0, on_path=True)
 
 
 def _draw_mesh(result: GearResult) -> Axes:
     panels = mesh_panels(result)
     return _stacked(result, panels, PHASE_AXIS, 1.3 + 1.45 * len(panels))
+
+
+def _draw_duty(result: GearResult) -> Axes:
+    assert result.duty is not None
+    panels = list(gear_duty_panels(result.duty, result.case.gear.summit_height))
+    return _stacked(result, panels, time_axis(result.duty.rows), 1.3 + 1.45 * len(panels), 3)
+
+
+def duty_finding(result: GearResult) -> str:
+    """Return a sentence with the time shares of the states of the mesh in a duty cycle."""
+    assert result.duty is not None
+    summary = result.duty.summary()
+    keys = {"insulates": "insulating", "conducts at times": "conducting_at_times", "conducts": "conducting"}
+    shares = [f"{name} {readable(100.0 * summary[f'{key}_share'])} %" for name, key in keys.items()]
+    return f"The mesh {', '.join(shares)} of the time"
+
+
+def _lines_below(result: GearResult, name: str) -> Sequence[str]:
+    """Lines below a figure: the case, or the file of the cycle with the number of its operating points."""
+    if name != GEAR_DUTY_FIGURE:
+        return case_lines(result)
+    duty = result.duty
+    assert duty is not None
+    text = f"{duty.points} operating points, contacts {HOW[duty.contacts]}"
+    return cycle_lines(result.case.title, duty.source, text)
 
 
 def _draw_flank(result: GearResult) -> Axes:
@@ -208,15 +241,29 @@ FIGURES: Mapping[str, tuple[Callable[[GearResult], Axes], Callable[[GearResult],
             (_draw_film, film_finding),
             (_draw_flank, flank_finding),
             (_draw_mesh, mesh_finding),
+            (_draw_duty, duty_finding),
         ),
         strict=True,
     )
 )
 
 
+def gear_figures_of(result: GearResult) -> tuple[str, ...]:
+    """Names of the figure files: a pair without a duty cycle has no figure of a cycle."""
+    return tuple(name for name in FIGURES if name != GEAR_DUTY_FIGURE or result.duty is not None)
+
+
+def lacking(result: GearResult, file: str) -> str | None:  # noqa: ARG001
+    """Why a gear pair lacks a figure that other gear pairs have; None if no gear pair has it."""
+    if file == GEAR_DUTY_FIGURE:
+        return "the figure of a duty cycle needs [duty], which the case does not have"
+    return None
+
+
 def figure(result: GearResult, name: str) -> Figure:
     """Figure of a gear pair. Raises InputError where there is no figure of this name."""
-    draw, finding = drawing_of(FIGURES, name)
+    draw, finding = drawing_of({file: FIGURES[file] for file in gear_figures_of(result)}, name)
+    (file,) = in_formats([name])
     with style():
         ax = draw(result)
-        return titled(ax, "\n".join([finding(result), *case_lines(result)]), converged=True)
+        return titled(ax, "\n".join([finding(result), *_lines_below(result, file)]), converged=True)

@@ -253,9 +253,14 @@ def _of_drives() -> _Draws:
 
 def _of_gears() -> _Draws:
     from ehlectric.figures import gear_figures as gear
-    from ehlectric.figures.figure_names import GEAR_FIGURE_FILES, GEAR_FLANK_FIGURE
+    from ehlectric.figures.figure_names import GEAR_FLANK_FIGURE
 
-    return _Draws(gear.figure, lambda _: GEAR_FIGURE_FILES, _without_options(lambda _: GEAR_FLANK_FIGURE))
+    return _Draws(
+        gear.figure,
+        gear.gear_figures_of,
+        _without_options(lambda _: GEAR_FLANK_FIGURE),
+        lacking=gear.lacking,
+    )
 
 
 def _of_axles() -> _Draws:

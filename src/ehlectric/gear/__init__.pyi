@@ -6,6 +6,10 @@ from .gear_verdict import state_of as state_of
 from .gear_warnings import gear_warnings as gear_warnings
 from .geometry import GearPair as GearPair
 from .geometry import gear_pair as gear_pair
+from .mesh_duty import MeshDuty as MeshDuty
+from .mesh_duty import MeshRows as MeshRows
+from .mesh_duty import check_mesh_duty as check_mesh_duty
+from .mesh_duty import mesh_states as mesh_states
 from .mesh_forces import Hand as Hand
 from .mesh_forces import mesh_forces as mesh_forces
 from .points import name_of_place as name_of_place

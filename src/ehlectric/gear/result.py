@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -12,6 +12,7 @@ from ehlectric.cases.gear_case import GearCase
 from ehlectric.errors import InputError
 from ehlectric.gear.gear_verdict import breakdown_margin, gear_verdict
 from ehlectric.gear.gear_warnings import gear_warnings
+from ehlectric.gear.mesh_duty import MeshDuty, check_mesh_duty, run_mesh_duty
 from ehlectric.gear.solution import GearSolution
 from ehlectric.gear.solving import solve_gear_pair
 from ehlectric.gear.stored import layout_of
@@ -22,6 +23,7 @@ from ehlectric.quantities.results import POINT_KEYS
 from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import readable
 from ehlectric.runtime.display import ResultKind, Shown, headline, read_only_property
+from ehlectric.runtime.files import plain
 from ehlectric.version import __version__
 
 if TYPE_CHECKING:
@@ -45,6 +47,8 @@ class GearResult(Shown):
         Whether the verdict and the summary contain the probability of breakdown, which takes several seconds.
     version : str
         Version of ehlectric that solved it.
+    stored_duty : MeshDuty, optional
+        Result of the duty cycle that was stored with the solution.
     """
 
     result_kind: ClassVar[ResultKind] = "gear"
@@ -53,6 +57,7 @@ class GearResult(Shown):
     seconds: float = field(default=0.0, compare=False)
     version: str = __version__
     probable: bool = True
+    stored_duty: MeshDuty | None = field(default=None, compare=False)
 
     @property
     def case(self) -> GearCase:
@@ -68,7 +73,25 @@ class GearResult(Shown):
     def verdict(self) -> Verdict:
         """Verdict: the state of the mesh, and whether its film breaks down at the voltage of the case."""
         pending = not self.probable and has_chance(self.case)
-        return gear_verdict(self.solution, self.uncertainty, pending=pending)
+        verdict = gear_verdict(self.solution, self.uncertainty, pending=pending)
+        cycle = None if self.duty is None else self.duty.statement
+        return verdict if cycle is None else replace(verdict, reasons=(*verdict.reasons, cycle))
+
+    @read_only_property
+    def duty(self) -> MeshDuty | None:
+        """Result of the duty cycle of the case, states of the mesh and margins over time; None without one.
+
+        It is computed when it is first asked for, at about a millisecond for each operating point. Raises an
+        InputError where the file of the cycle cannot be used.
+        """
+        if self.stored_duty is not None:
+            return self.stored_duty
+        return run_mesh_duty(self.case, probable=self.probable)
+
+    @property
+    def all_warnings(self) -> tuple[ResultWarning, ...]:
+        """Warnings about the gear pair and its duty cycle, each once."""
+        return (*self.warnings, *(() if self.duty is None else self.duty.warnings))
 
     @property
     def uncertainty(self) -> MeshUncertainty | None:
@@ -100,17 +123,22 @@ class GearResult(Shown):
             "schema": SCHEMA,
             "version": self.version,
             "title": self.case.title,
-            **texts_and_codes(self.warnings),
+            **texts_and_codes(self.all_warnings),
             **self.verdict.as_data(),
             "inputs": self.case.to_dict(),
             **gear_summary(self.solution),
             **self._uncertainty(),
+            **self._duty(),
             "seconds": self.seconds,
         }
 
     def _uncertainty(self) -> dict[str, Any]:
         """Table ``uncertainty`` of the summary; none of a result without probability."""
         return {} if self.uncertainty is None else {"uncertainty": self.uncertainty.summary()}
+
+    def _duty(self) -> dict[str, Any]:
+        """Table ``duty`` of the summary; none without a duty cycle."""
+        return {} if self.duty is None else {"duty": plain(self.duty.summary())}
 
     def points(self) -> list[dict[str, Any]]:
         """Table of the points A, B, C, D and E of the path of contact, SI units."""
@@ -143,7 +171,9 @@ class GearResult(Shown):
 
     def to_xarray(self) -> xr.Dataset:
         """Return the dataset of the result, as gear.nc contains it; SI units."""
-        return layout_of(self.solution, self.seconds, self.version, probable=self.probable).dataset()
+        return layout_of(
+            self.solution, self.seconds, self.version, probable=self.probable, duty=self.duty
+        ).dataset()
 
     def key_numbers(self) -> tuple[str, ...]:
         """Return teeth, capacitance and lambda ratio as texts."""
@@ -176,8 +206,10 @@ def solve_gear(case: GearCase, *, probable: bool = True) -> GearResult:
     Raises
     ------
     InputError
-        If the gears cannot run together, or the oil has no value at the temperature of the flanks.
+        If the gears cannot run together, the oil has no value at the temperature of the flanks,
+        or the file of a duty cycle cannot be used.
     """
+    check_mesh_duty(case)
     start = time.perf_counter()
     solution = solve_gear_pair(case)
     return GearResult(solution, seconds=time.perf_counter() - start, probable=probable)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.gear.result import GearResult, solve_gear
-from ehlectric.gear.stored import SCHEMA, layout_of, solution_of
+from ehlectric.gear.stored import SCHEMA, duty_of, layout_of, solution_of
 from ehlectric.quantities.results import PHASE_COLUMNS, POINT_KEYS
 from ehlectric.runtime.file_rules import check_format, number_of, refusing
 from ehlectric.runtime.files import Content, column_head, csv_of, json_of, plain, write_together
@@ -27,7 +27,8 @@ def solve_to_folder(
     case: GearCase, folder: str | Path, progress: Progress = silent, *, others: Sequence[str] = ()
 ) -> RunOutcome[GearResult]:
     """Solve a gear pair, and write summary.json, path.csv with the points of the path of contact, mesh.csv
-    with capacitance and breakdown voltage over the phase of the mesh, and gear.nc.
+    with capacitance and breakdown voltage over the phase of the mesh, gear.nc and, with a duty cycle,
+    duty.csv.
 
     Files of an earlier result in the folder are removed when the pair is solved, also the ``others``.
     """
@@ -35,7 +36,7 @@ def solve_to_folder(
     progress(0, 0, "solving films")
     result = solve_gear(case)
     files = save(result, folder, replaced=(*FILES, *others))
-    return RunOutcome(result, result.summary(), tuple(files), result.warnings)
+    return RunOutcome(result, result.summary(), tuple(files), result.all_warnings)
 
 
 def save(result: GearResult, folder: str | Path, *, replaced: Sequence[str] = ()) -> list[Path]:
@@ -48,13 +49,17 @@ def save(result: GearResult, folder: str | Path, *, replaced: Sequence[str] = ()
     heads = ["point", *(column_head(name, about.unit) for name, about in POINT_KEYS.items())]
     phase = result.over_phase()
     columns = [column_head(name, unit) for name, unit in PHASE_COLUMNS.items()]
-    layout = layout_of(result.solution, result.seconds, result.version, probable=result.probable)
+    layout = layout_of(
+        result.solution, result.seconds, result.version, probable=result.probable, duty=result.duty
+    )
     contents: dict[str, Content] = {
         SUMMARY: json_of(plain(result.summary())),
         PATH: csv_of(heads, (row.values() for row in result.points())),
         MESH: csv_of(columns, zip(*(phase[name].tolist() for name in PHASE_COLUMNS), strict=True)),
         NETCDF: content_of(layout),
     }
+    if result.duty is not None:
+        contents |= result.duty.contents()
     with alone_in(folder, FILES, locks=[RESULT_LOCK]) as folder:
         files = write_together(folder, contents, (*FILES, *replaced))
     check_readable(layout, folder / NETCDF, result_of)
@@ -69,4 +74,5 @@ def result_of(dataset: xr.Dataset, path: Path) -> GearResult:
     with refusing(path):
         solution, seconds, version = solution_of(dataset)
         probable = number_of(dataset.attrs, "probable", "0 or 1") == 1.0
-    return GearResult(solution, seconds, version, probable)
+        duty = duty_of(dataset)
+    return GearResult(solution, seconds, version, probable, duty)

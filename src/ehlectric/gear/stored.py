@@ -11,12 +11,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ehlectric.bearing import StoredDuty, Stretch
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.gear.contact_lines import PlaneOfAction
 from ehlectric.gear.contact_path import POINTS
 from ehlectric.gear.flank_films import FlankFilms
 from ehlectric.gear.flank_oil import flank_oils
 from ehlectric.gear.load_sharing import LineLoads
+from ehlectric.gear.mesh_duty import MeshDuty, MeshRows
 from ehlectric.gear.solution import GearSolution, OperatingPair
 from ehlectric.runtime.file_rules import UnfitError, case_of, number_of, text_of
 from ehlectric.runtime.netcdf import Layout
@@ -33,16 +35,19 @@ _SOLUTION, _LOADS = Part(GearSolution), Part(LineLoads)
 # Places of the films are the places of the loads.
 _FILMS = Part(FlankFilms, prefix="film_", axes={"place": _NODE})
 _POINT_FILMS = Part(FlankFilms, prefix="point_", axes={"place": (_POINT,)})
+_DUTY = StoredDuty(MeshDuty, MeshRows, {"stretches": Stretch})
 _PARTS = (_SOLUTION, _LOADS, _FILMS, _POINT_FILMS)
 
 # Rounding of nodes that are computed again from the case [m].
 _ROUNDING = 1e-9
 
 
-def layout_of(solution: GearSolution, seconds: float, version: str, *, probable: bool) -> Layout:
+def layout_of(
+    solution: GearSolution, seconds: float, version: str, *, probable: bool, duty: MeshDuty | None = None
+) -> Layout:
     """Variables and attributes of a gear.nc, SI units, from which ``solution_of`` makes an equal solution.
 
-    ``probable``, whether the result contains the probability of breakdown.
+    ``probable``, whether the result contains the probability of breakdown; ``duty``, its duty cycle.
     """
     return Layout(
         {
@@ -50,6 +55,7 @@ def layout_of(solution: GearSolution, seconds: float, version: str, *, probable:
             **_LOADS.written(solution.loads),
             **_FILMS.written(solution.films),
             **_POINT_FILMS.written(solution.point_films),
+            **_DUTY.variables(duty),
             _POINT: (_POINT, list(POINTS)),
         },
         {
@@ -58,6 +64,7 @@ def layout_of(solution: GearSolution, seconds: float, version: str, *, probable:
             "case": solution.case.to_toml(),
             "seconds": seconds,
             "probable": int(probable),
+            **_DUTY.attributes(duty),
         },
         storage={name: {"compression": "gzip"} for name in (*_FILMS.rules, "capacitance_of_lines")},
     )
@@ -88,6 +95,13 @@ def solution_of(dataset: xr.Dataset) -> tuple[GearSolution, float, str]:
         **_SOLUTION.read(values),
     )
     return solution, number_of(attributes, "seconds"), text_of(attributes, "version")
+
+
+def duty_of(dataset: xr.Dataset) -> MeshDuty | None:
+    """Result of the duty cycle in a dataset of ``layout_of``; None without one. Raises UnfitError where a
+    variable or an attribute is missing, or is not as it was written.
+    """
+    return _DUTY.read(dataset)
 
 
 def _check_nodes(plane: PlaneOfAction, loads: LineLoads) -> None:

@@ -261,6 +261,19 @@ def uncertainty_of(
     )
 
 
+def chance_of(solution: GearSolution, samples: int) -> tuple[float, float, float] | None:
+    """Probability of breakdown of a solved mesh within its uncertain inputs, and its bounds.
+
+    It is 0 for a mesh that conducts at all points, and None where no point has a result. ``samples``, number
+    of points, a power of 2.
+    """
+    try:
+        uncertainty = uncertainty_of(solution, samples=samples)
+    except InputError as error:
+        return (0.0, 0.0, 0.0) if error.text == _CONDUCTS else None
+    return uncertainty.probability, *uncertainty.bounds
+
+
 @dataclass(frozen=True)
 class _Meshes:
     """Meshes of a gear pair at changed inputs, with tabulated films."""

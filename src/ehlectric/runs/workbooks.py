@@ -74,7 +74,7 @@ def workbook(result: AnyResult | SweepResults) -> bytes:
     _fill(book, "table", _table(frame, result, case))
     if isinstance(result, BearingResult):
         _fill_over_speed(book, result.case, tables)
-    if isinstance(result, BearingResult | DriveResult) and result.duty is not None:
+    if isinstance(result, BearingResult | DriveResult | GearResult) and result.duty is not None:
         _fill(book, "duty cycle", _duty(result))
     file = BytesIO()
     book.save(file)
@@ -161,13 +161,18 @@ def _table(
     return _columns(columns)
 
 
-def _duty(result: BearingResult | DriveResult) -> Iterator[Iterable[Any]]:
+def _duty(result: BearingResult | DriveResult | GearResult) -> Iterator[Iterable[Any]]:
     """Rows of the duty cycle, below heads with units."""
     assert result.duty is not None
-    table = "bearing" if isinstance(result, BearingResult) else "drive"
     columns = {}
     for name, (unit, values) in result.duty.columns().items():
-        key = name if end_and_key(name)[0] else f"{table}.{name}"
+        match result:
+            case GearResult():
+                key = "gear.bulk_temperature"
+            case BearingResult():
+                key = f"bearing.{name}"
+            case _:
+                key = name if end_and_key(name)[0] else f"drive.{name}"
         columns[name] = (unit, label_of(key, result.case).shown if unit == "K" else "", values)
     return _columns(columns)
 

@@ -12,7 +12,6 @@ from ehlectric.quantities.formats import (
     amount,
     rpm_text,
     scale_of,
-    speed_text,
     time_share_text,
 )
 from ehlectric.quantities.lubrication_states import BOUNDARY, FREQUENT, FULL, MIXED, is_shorted
@@ -37,6 +36,7 @@ from ehlectric.quantities.sheets import (
     VALUES,
 )
 from ehlectric.readable import formatted, ratio_text, readable
+from ehlectric.tables.duty_rows import alarms_of_cycle, stretch_rows, unless_zero, values_of_cycle
 from ehlectric.tables.measured_tables import columns_table, status_rows
 from ehlectric.tables.probability_rows import (
     input_range,
@@ -432,26 +432,9 @@ def _left_out(summary: Summary) -> Iterator[Row]:
         yield Row("not computed", note=text, key="margin.left_out")
 
 
-def _unless_zero(key: str) -> Callable[[Summary], Any]:
-    return lambda summary: value_at(summary, key) or None
-
-
 def _stretches(summary: Summary) -> Iterator[Row]:
     """Rows of the worst stretches of a duty cycle, the worst first."""
-    bounds = bearing_bounds(BEARING_BOOK, summary)
-    for place, stretch in enumerate((summary.get("duty") or {}).get("stretches", ())):
-        name = "lambda_ratio" if stretch["least_margin"] is None else "least_margin"
-        about = BEARING_BOOK[key := f"duty.stretches.{name}"]
-        span = f"{about.label}, {readable(stretch['start'], 6)} to {readable(stretch['end'], 6)} s"
-        at = f", {stretch['why']}" if stretch["why"] else f", at {speed_text(stretch['speed'])}"
-        yield Row(
-            span,
-            stretch[name],
-            note=at,
-            digits=about.digits,
-            bound=bounds.get(key, ""),
-            key=f"duty.stretches.{place}.{name}",
-        )
+    return stretch_rows(BEARING_BOOK, summary, bearing_bounds(BEARING_BOOK, summary))
 
 
 _WORDS = RowTexts(
@@ -511,16 +494,11 @@ _WORDS = RowTexts(
         **of_reliability("life.", "duty."),
         "margin.range": _range,
         "uncertainty.margin_range": _margin_range,
+        "uncertainty.breakdown_probability": probability_value("uncertainty.breakdown_probability"),
+        **values_of_cycle(),
         **{
-            key: probability_value(key)
-            for key in (
-                *("uncertainty.breakdown_probability", "duty.breakdown_probability"),
-                "duty.turning_breakdown_probability",
-            )
-        },
-        **{
-            f"duty.{name}_share": _unless_zero(f"duty.{name}_share")
-            for name in ("left_out", "low_viscosity", "low_film", "unsolved")
+            f"duty.{name}_share": unless_zero(f"duty.{name}_share")
+            for name in ("low_viscosity", "low_film", "unsolved")
         },
         "margin.critical_speed": _critical_speed,
         **{
@@ -534,8 +512,7 @@ _WORDS = RowTexts(
         "bearing.first_break": is_shorted,
         "bearing.margin": lambda s: bool(s["bearing"]["margin"] < 1.0),
         "bearing.current_density": _over_limits,
-        "duty.breakdown_share": lambda s: bool(s["duty"]["breakdown_share"]),
-        "duty.low_margin_share": lambda s: bool(s["duty"]["low_margin_share"]),
+        **alarms_of_cycle(),
     },
     rows={
         "margin.effects": _effects,

@@ -11,6 +11,7 @@ from ehlectric.quantities.results import GEAR_BOOK, PATH_POINTS, POINT_KEYS
 from ehlectric.quantities.rows import Row, RowTexts, Summary, row_of, sheet_rows, value_at
 from ehlectric.quantities.sheets import GEAR
 from ehlectric.readable import SAME_NUMBER
+from ehlectric.tables.duty_rows import alarms_of_cycle, stretch_rows, values_of_cycle
 from ehlectric.tables.measured_tables import columns_table
 from ehlectric.tables.probability_rows import (
     left_out_of_probability,
@@ -66,8 +67,13 @@ def gear_rows(summary: Summary) -> list[Row]:
 # Texts next to the numbers of a gear pair.
 _WORDS = RowTexts(
     notes={_PROBABILITY: probability_note},
-    values={_PROBABILITY: _probability, **{key: _voltage(key) for key in _VOLTAGES}},
-    rows={"uncertainty.indices": shares_of_spread, "uncertainty.left_out": left_out_of_probability},
+    values={_PROBABILITY: _probability, **{key: _voltage(key) for key in _VOLTAGES}, **values_of_cycle()},
+    alarms=alarms_of_cycle(),
+    rows={
+        "uncertainty.indices": shares_of_spread,
+        "uncertainty.left_out": left_out_of_probability,
+        "duty.stretches": partial(stretch_rows, GEAR_BOOK),
+    },
 )
 
 

@@ -26,7 +26,7 @@ HEAD = f"""\
 # radial load: {WEIGHT:g} N of the rotor + {SHARE:g} of the force on a pinion of {1e3 * PINION:g} mm radius,
 # pressure angle 20 deg;
 # temperature: {COLD:g} degC, where the test begins, to {WARM:g} degC, time constant {WARMING:g} s.
-time [s],vehicle speed [km/h],speed [rpm],radial load [N],temperature [degC]
+time [s],vehicle speed [km/h],speed [rpm],torque [N m],radial load [N],temperature [degC]
 """
 
 
@@ -45,8 +45,8 @@ def text(speeds):
     load = WEIGHT + SHARE * np.abs(torque) / PINION / math.cos(math.radians(20.0))
     rpm = speed / WHEEL * RATIO * 30.0 / math.pi
     warm = WARM - (WARM - COLD) * np.exp(-time / WARMING)
-    rows = zip(time, speeds, rpm, load, warm, strict=True)
-    return HEAD + "".join(f"{t:.0f},{v:.1f},{n:.1f},{f:.0f},{c:.1f}\n" for t, v, n, f, c in rows)
+    rows = zip(time, speeds, rpm, torque, load, warm, strict=True)
+    return HEAD + "".join(f"{t:.0f},{v:.1f},{n:.1f},{m:.1f},{f:.0f},{c:.1f}\n" for t, v, n, m, f, c in rows)
 
 
 if __name__ == "__main__":

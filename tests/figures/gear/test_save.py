@@ -16,7 +16,8 @@ from tests.helpers.each import each
 from tests.helpers.gears import RELIEVED, helical_case, spur_case
 from tests.helpers.titles import title_of
 
-PATH, FILM, FLANK, MESH = (name.removesuffix(".png") for name in GEAR_FIGURE_FILES)
+WITHOUT_CYCLE = GEAR_FIGURE_FILES[:-1]
+PATH, FILM, FLANK, MESH = (name.removesuffix(".png") for name in WITHOUT_CYCLE)
 
 # Planet and ring, whose flank is concave.
 RING = {"gear.teeth": [20, -70], "gear.centre_distance": None, "gear.profile_shift": None}
@@ -52,11 +53,25 @@ def test_names_are_those_of_the_files(spur, tmp_path):
     assert default_figure(spur) == ("gear_flank.png", {})
     assert title_of(spur.plot()) == title_of(figure(spur, FLANK))
     assert GearResult.result_kind in get_args(ResultKind)
+    with pytest.raises(InputError, match=r"\[duty\]"):
+        figure(spur, GEAR_FIGURE_FILES[-1])
     with pytest.raises(InputError, match=r"^figure: .*'film'.* gear_path"):
         figure(spur, "film")
     files = save_figures(spur, tmp_path, FORMATS)
-    assert [file.name for file in files] == list(in_formats(GEAR_FIGURE_FILES, FORMATS))
+    assert [file.name for file in files] == list(in_formats(WITHOUT_CYCLE, FORMATS))
     assert all(file.is_file() for file in files)
+
+
+def test_a_cycle_has_a_figure_with_bands(tmp_path):
+    """A row at a standstill is a band; the speed and the torque are the numbers of the file."""
+    (tmp_path / "cycle.csv").write_text("time [s],speed [rpm],torque [N m]\n0,0,0\n10,2000,50\n20,3000,-60\n")
+    result = solve_gear(spur_case(**{"duty.file": str(tmp_path / "cycle.csv")}), probable=False)
+    drawn = figure(result, "gear_duty")
+    speed, torque, *_ = drawn.axes
+    assert speed.get_lines()[-1].get_ydata().tolist() == pytest.approx([0.0, 2000.0, 3000.0])
+    assert torque.get_lines()[-1].get_ydata().tolist() == [0.0, 50.0, -60.0]
+    assert "standstill" in [area.get_label() for area in speed.collections]
+    assert title_of(drawn)[0].startswith("The mesh insulates")
 
 
 @pytest.mark.slow
