@@ -8,7 +8,7 @@ import scipy
 
 from ehlectric import AxleCase, BearingCase, InputError
 from ehlectric.axle.adjusted_rows import AdjustedRows
-from ehlectric.axle.solution import shaft_loads, solve_elements
+from ehlectric.axle.solution import loads_on_shafts, solve_elements
 from ehlectric.bearing import InclinedRow
 from ehlectric.cases.axle_inputs import Adjustment
 from tests.axle.axles import two_stages
@@ -170,7 +170,7 @@ def test_adjusted_bearings_of_an_axle_balance_the_forces_of_its_meshes(base, tor
     """The shares add up to the axial force of the helical gears, 2535.397 N at 150 N m, with both signs."""
     table = axle(base, arrangement="X", axial_play="10 um")
     table["drive"]["torque"] = torque
-    loads = shaft_loads(AxleCase.from_dict(table))["intermediate"]
+    loads = loads_on_shafts(AxleCase.from_dict(table))["intermediate"]
     assert sum(loads.shares) == pytest.approx(-2535.397 * torque / 150.0, rel=2e-6)
     assert loads.shares[0] < 0.0 < loads.shares[1]
 
@@ -182,7 +182,7 @@ def test_an_axle_with_tapered_bearings_is_solved():
     assert [element.axial_load for element in assumed.elements] == [
         element.axial_load for element in given.elements
     ]
-    shares = shaft_loads(axles[0])["intermediate"].shares
+    shares = loads_on_shafts(axles[0])["intermediate"].shares
     assert tuple(element.axial_load for element in given.elements[2:4]) == shares
     codes = [[warning.code for warning in solution.warnings] for solution in (assumed, given)]
     assert "adjustment-assumed" in codes[0]

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from ehlectric import AxleCase, DriveCase, InputError
-from ehlectric.axle.solution import shaft_loads
+from ehlectric.axle.solution import loads_on_shafts
 from tests.axle.axles import ALONE, two_stages
 from tests.helpers.each import each
 from tests.helpers.places import DATA, EXAMPLES
@@ -28,7 +28,7 @@ from tests.helpers.places import DATA, EXAMPLES
 )
 def test_loads_of_an_axle(torque, radial, axial):
     """Loads [N] that a separate program computed, driving and coasting."""
-    loads = list(shaft_loads(two_stages(**{"drive.torque": torque})).values())
+    loads = list(loads_on_shafts(two_stages(**{"drive.torque": torque})).values())
     for of_shaft, expected, force in zip(loads, radial, axial, strict=True):
         assert of_shaft.radial == pytest.approx(expected, rel=2e-6)
         assert of_shaft.axial == pytest.approx(force, rel=2e-6)

@@ -5,4 +5,9 @@ from .result import AxleResult as AxleResult
 from .result import solve_axle as solve_axle
 from .run import save as save
 from .run import solve_to_folder as solve_to_folder
+from .shaft_loads import BearingLoads as BearingLoads
+from .solution import AxleSolution as AxleSolution
+from .solution import Element as Element
+from .solution import forces_on_shafts as forces_on_shafts
+from .solution import loads_on_shafts as loads_on_shafts
 from .summary import tables_of_point as tables_of_point

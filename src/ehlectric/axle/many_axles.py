@@ -17,7 +17,7 @@ from ehlectric.axle.solution import (
     load_of,
     mesh_element,
     named_warnings,
-    shaft_loads,
+    loads_on_shafts,
 )
 from ehlectric.bearing import codes_of, is_quick, many_of, solve_bearing, solved_parts
 from ehlectric.cases.axle_case import AxleCase, Turning
@@ -87,7 +87,7 @@ def solve_axles(cases: Iterable[AxleCase]) -> list[Outcome]:
     of_oil = _OfOil()
     for place, case in enumerate(cases):
         try:
-            axle = _Axle(case, case.turning(), shaft_loads(case))
+            axle = _Axle(case, case.turning(), loads_on_shafts(case))
             mounted += _mounted(place, axle, of_oil)
             axles[place] = axle
         except InputError as error:

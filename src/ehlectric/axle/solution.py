@@ -150,23 +150,30 @@ class AxleSolution:
         return tuple(name for name in second if first.index(name) != second.index(name))
 
 
-def shaft_loads(case: AxleCase) -> dict[str, BearingLoads]:
-    """Loads of the bearings of each shaft with gears, by the name of the shaft."""
+def forces_on_shafts(case: AxleCase) -> dict[str, list[tuple[str, ForceAt]]]:
+    """Forces of the meshes on each shaft with gears, each with the name of the other shaft."""
     turning = case.turning()
-    forces: dict[str, list[ForceAt]] = {}
+    forces: dict[str, list[tuple[str, ForceAt]]] = {}
     for number, mesh in enumerate(case.mesh):
         gear = mesh.pair.gear
         with within("mesh.pair"):
             pair = gear_pair(drawing_of(gear))
         torque = case.torque_of_gear(number, turning)
         both = forces_of_mesh(pair, torque, gear.hand or "right", mesh.direction, (mesh.at[0], mesh.at[1]))
-        for name, force in zip(mesh.gears, both, strict=True):
-            forces.setdefault(name, []).append(force)
+        for name, other, force in zip(mesh.gears, mesh.gears[::-1], both, strict=True):
+            forces.setdefault(name, []).append((other, force))
+    return forces
+
+
+def loads_on_shafts(case: AxleCase) -> dict[str, BearingLoads]:
+    """Loads of the bearings of each shaft with gears, by the name of the shaft."""
+    turning, forces = case.turning(), forces_on_shafts(case)
     loads = {}
     for shaft in case.shaft:
         if shaft.name in forces:
             rows = _adjusted_rows(case, shaft, turning[shaft.name].speed)
-            loads[shaft.name] = _loads_on(case, shaft.name, forces[shaft.name], rows)
+            of_shaft = [force for _, force in forces[shaft.name]]
+            loads[shaft.name] = _loads_on(case, shaft.name, of_shaft, rows)
     return loads
 
 
@@ -202,7 +209,7 @@ def solve_elements(case: AxleCase, progress: Progress = silent) -> AxleSolution:
     ``progress`` is called with the number of solved elements, the number of all, and a text. Raises
     InputError where a bearing cannot carry its load, or gears cannot run together.
     """
-    turning, loads = case.turning(), shaft_loads(case)
+    turning, loads = case.turning(), loads_on_shafts(case)
     names = case.names_of_bearings()
     elements: list[Element] = []
     warnings = [*adjustment_warnings(case, loads)]

@@ -1,0 +1,170 @@
+"""Figure of an axle: forces of gear meshes and bearings on its shafts, for both signs of the torque."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+
+from ehlectric.axle import AxleResult, BearingLoads, forces_on_shafts, loads_on_shafts
+from ehlectric.cases.axle_case import AxleCase
+from ehlectric.errors import printable
+from ehlectric.figures.style import legend_above, new_panels, note, text_colour
+from ehlectric.quantities.formats import amount
+from ehlectric.quantities.palette import BLACK, BLUE, GREY, ORANGE
+from ehlectric.readable import readable
+
+# Colours of the torque of the case, and of the torque with the other sign.
+_COLOURS = (BLUE, ORANGE)
+
+# Height of the panels of a shaft, and of titles, legend and labels below them [inches]; width of the figure.
+_HEIGHT, _AROUND, _WIDTH = 2.2, 0.9, 9.0
+
+# Distance of both arrows from their place, part of the axis beyond the shaft, and least distance of two names
+# on one line, in lengths of the shaft.
+_ASIDE, _ROOM, _APART = 0.008, 0.16, 0.24
+
+# Part of the largest force that is the half height of a panel.
+_HIGH = 1.45
+
+
+@dataclass(frozen=True)
+class PlacedForce:
+    """Force on a shaft at a bearing or a mesh, for the torque of the case and for the other sign."""
+
+    name: str
+    kind: str  # "bearing" or "mesh"
+    place: float  # along z [m]
+    forces: tuple[tuple[float, float, float], ...]  # in x, y and z [N]
+
+    @property
+    def label(self) -> tuple[str, str]:
+        """Name with the force across the axis, and with the force along the axis."""
+        across, along = (
+            " | ".join(readable(value, 3) for value in values)
+            for values in (
+                [float(np.hypot(x, y)) for x, y, _ in self.forces],
+                [0.0 if abs(z) < _NO_FORCE else z for *_, z in self.forces],
+            )
+        )
+        return f"{self.name}\n{across} N", f"{self.name}\n{along} N"
+
+
+# Axial force that is rounding [N].
+_NO_FORCE = 1e-6
+
+
+def placed_forces(case: AxleCase) -> dict[str, list[PlacedForce]]:
+    """Forces on all shafts with gears: forces of the meshes, and reactions of the bearings.
+
+    The second force of each place belongs to the torque with the other sign.
+    """
+    both = case, case.replace({"drive.torque": -case.drive.torque})
+    forces, loads = [forces_on_shafts(each) for each in both], [loads_on_shafts(each) for each in both]
+    placed: dict[str, list[PlacedForce]] = {}
+    for shaft, of_meshes in forces[0].items():
+        rows = [
+            PlacedForce(
+                f"mesh with {mesh}",
+                "mesh",
+                float(force.point[2]),
+                tuple(_vector(of_sign[shaft][number][1].force) for of_sign in forces),
+            )
+            for number, (mesh, force) in enumerate(of_meshes)
+        ]
+        for place, number in enumerate(case.bearings_of(shaft)):
+            bearing = case.bearing[number]
+            reactions = [_reaction(of_sign[shaft], place, locating=bearing.locating) for of_sign in loads]
+            rows.append(PlacedForce(f"bearing {place + 1}", "bearing", bearing.at, tuple(reactions)))
+        placed[shaft] = sorted(rows, key=lambda row: row.place)
+    return placed
+
+
+def _vector(force: Sequence[float]) -> tuple[float, float, float]:
+    x, y, z = (float(part) for part in force)
+    return x, y, z
+
+
+def _reaction(loads: BearingLoads, place: int, *, locating: bool) -> tuple[float, float, float]:
+    """Force of a bearing on its shaft [N]."""
+    across = loads.second if place else loads.first
+    if loads.shares is not None:
+        along = loads.shares[place]
+    else:
+        along = loads.axial if locating else 0.0
+    return _vector((-across[0], -across[1], -along))
+
+
+def shaft_forces(result: AxleResult) -> list[Axes]:
+    """Draw the forces on each shaft with gears along x and along y, on axes along z."""
+    placed = placed_forces(result.case)
+    panels = new_panels(len(placed), 2, (_WIDTH, _AROUND + _HEIGHT * len(placed)), exact=True)
+    for row, (shaft, forces) in enumerate(placed.items()):
+        most = max(abs(part) for each in forces for force in each.forces for part in force[:2])
+        for way, ax in enumerate(panels[2 * row : 2 * row + 2]):
+            _draw(ax, forces, way, _HIGH * most)
+            what = "radial forces below" if way == 0 else "axial forces along z below"
+            note(ax, 0.01, 0.98, f"{printable(shaft)}, along {'xy'[way]}; {what}", va="top", color=GREY)
+    torque = result.case.drive.torque
+    handles = [
+        *(
+            Line2D([], [], color=colour, lw=2.0, label=f"{amount(value, 'N m')} of the rotor")
+            for colour, value in zip(_COLOURS, (torque, -torque), strict=True)
+        ),
+        Line2D([], [], color=BLACK, ls="none", marker="^", label="bearing"),
+        Line2D([], [], color=BLACK, ls="none", marker="s", label="gear"),
+    ]
+    legend_above(panels[0], handles, columns=4)
+    return panels
+
+
+def _draw(ax: Axes, forces: Sequence[PlacedForce], way: int, high: float) -> None:
+    """Draw forces along x (0) or y (1) as arrows from the shaft, with numbers at their ends."""
+    places = 1e3 * np.array([each.place for each in forces])
+    length = float(np.ptp(places))
+    ax.axhline(0.0, color=BLACK, lw=1.5, zorder=1.0)
+    for each, place in zip(forces, places, strict=True):
+        marker = "^" if each.kind == "bearing" else "s"
+        ax.plot(place, 0.0, ls="none", marker=marker, ms=8.0, color=BLACK, zorder=3.0)
+        for number, (colour, force) in enumerate(zip(_COLOURS, each.forces, strict=True)):
+            side = 2 * number - 1
+            at, value = place + side * _ASIDE * length, force[way]
+            ax.annotate(
+                "",
+                (at, value),
+                (at, 0.0),
+                arrowprops={"arrowstyle": "-|>", "color": colour, "lw": 1.6, "shrinkA": 0.0, "shrinkB": 0.0},
+            )
+            ax.annotate(
+                f"{readable(abs(value), 3)} N",
+                (at, value),
+                (3.0 * side, 0.0),
+                textcoords="offset points",
+                ha="right" if number == 0 else "left",
+                va="bottom" if value > 0.0 else "top",
+                fontsize="x-small",
+                color=text_colour(colour),
+            )
+    ax.set(ylim=(-high, high), xlim=(places[0] - _ROOM * length, places[-1] + _ROOM * length))
+    ax.set_yticks([])
+    ax.set_xticks(places, list(_lowered(places / length, [each.label[way] for each in forces])))
+    ax.tick_params(axis="x", labelsize="x-small")
+    for edge in ("left", "right", "top"):
+        ax.spines[edge].set_visible(False)
+
+
+def _lowered(places: Sequence[float], labels: Sequence[str]) -> Iterator[str]:
+    """Labels of places, a line of labels lower where the label before is near."""
+    free = [-np.inf] * len(labels)
+    for place, label in zip(places, labels, strict=True):
+        line = next(number for number, last in enumerate(free) if place - last >= _APART)
+        free[line] = place
+        yield "\n" * (2 * line) + printable_lines(label)
+
+
+def printable_lines(text: str) -> str:
+    """Text of several lines, each of which can be printed."""
+    return "\n".join(printable(line) for line in text.split("\n"))
