@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from ehlectric import (
+    AxleCase,
     BearingCase,
     Case,
     DriveCase,
@@ -14,6 +15,7 @@ from ehlectric import (
     film_factors,
     load,
     solve,
+    solve_axle,
     solve_bearing,
     solve_drive,
 )
@@ -30,6 +32,7 @@ from ehlectric.surfaces.maps import Map
 from ehlectric.surfaces.profiles import Profile
 from ehlectric.sweep.points import Range
 from ehlectric.sweep.store import read_sweep
+from tests.axle.axles import ALONE, two_stages
 from tests.figures.motion.test_save import BALL as MOVING_BALL
 from tests.figures.motion.test_save import by_hand
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
@@ -119,6 +122,30 @@ def test_drives(changes):
     assert of_result(result) == {}
     for name in figure_names(result):
         assert 25.4 * figure(result, name, style="journal").get_figwidth() == pytest.approx(84.0), name
+
+
+# Links of an axle: several between two shafts, and one past a shaft.
+LINKS = [
+    {"between": ["rotor", "housing"], "kind": "ring", "resistance": 1.0},
+    {"between": ["rotor", "output"], "kind": "ring", "resistance": 1e4},
+    {"between": ["rotor", "intermediate"], "kind": "brush", "resistance": 3e3},
+    {"between": ["intermediate", "output"], "kind": "seal", "resistance": 3e3},
+]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "make",
+    [
+        two_stages,
+        lambda: two_stages(link=LINKS),
+        lambda: AxleCase.from_toml(ROOT / "tests" / "data" / "axles" / "e_axle.toml"),
+        lambda: AxleCase.from_dict(ALONE),
+    ],
+    ids=["example", "links", "tapered", "alone"],
+)
+def test_axles(make):
+    assert of_result(solve_axle(make(), remedies=False)) == {}
 
 
 @pytest.mark.slow

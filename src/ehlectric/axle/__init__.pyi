@@ -1,6 +1,9 @@
 """Names of axle that other packages may import."""
 
 from .many_axles import solve_axles as solve_axles
+from .network import HOUSING as HOUSING
+from .network import WINDING as WINDING
+from .network import Film as Film
 from .result import AxleResult as AxleResult
 from .result import solve_axle as solve_axle
 from .run import save as save

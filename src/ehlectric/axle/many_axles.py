@@ -15,9 +15,9 @@ from ehlectric.axle.solution import (
     adjustment_warnings,
     bearing_elements,
     load_of,
+    loads_on_shafts,
     mesh_element,
     named_warnings,
-    loads_on_shafts,
 )
 from ehlectric.bearing import codes_of, is_quick, many_of, solve_bearing, solved_parts
 from ehlectric.cases.axle_case import AxleCase, Turning

@@ -1,6 +1,8 @@
-"""Figure of an axle: voltage of each bearing and mesh over its breakdown voltage."""
+"""Figures of an axle: its elements by their voltages, its network, and the forces on its shafts."""
 
 from __future__ import annotations
+
+from collections.abc import Callable, Mapping
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -9,8 +11,11 @@ from matplotlib.patches import Patch
 
 from ehlectric.axle import AxleResult
 from ehlectric.errors import printable
-from ehlectric.figures.figure_names import AXLE_FIGURE
-from ehlectric.figures.style import drawing_of, legend_above, new_panels, titled
+from ehlectric.figures.figure_names import AXLE_FIGURE_FILES, FORCES_FIGURE
+from ehlectric.figures.network_picture import network_picture
+from ehlectric.figures.shaft_forces import shaft_forces
+from ehlectric.figures.style import drawing_of, legend_above, new_panels, note, style, titled
+from ehlectric.quantities.formats import amount
 from ehlectric.quantities.palette import BLACK, BLUE, GREY, ORANGE
 from ehlectric.readable import readable
 
@@ -39,7 +44,7 @@ def elements(result: AxleResult, ax: Axes) -> None:
         if name in rest:
             element = next(each for each in solution.elements if each.name == name)
             text = f"summits touch, {element.state}" if element.touching else element.state
-            ax.text(max(1.0, low) * 1.05, place, text, va="center", color=GREY)
+            note(ax, 0.02, place, text, data_axis="y", va="center", color=GREY, fontsize="medium")
     ax.axvline(1.0, color=BLACK, ls="--", lw=1.0)
     ax.set(xscale="log", xlim=(low, high), ylim=(len(names) - 0.4, -0.6))
     ax.set_yticks(range(len(names)), [printable(name) for name in names])
@@ -55,9 +60,46 @@ def elements(result: AxleResult, ax: Axes) -> None:
     )
 
 
-def figure(result: AxleResult, name: str) -> Figure:
-    """Draw the figure of an axle; its only name is "axle_elements.png"."""
-    draw = drawing_of({AXLE_FIGURE: elements}, name)
+def _draw_elements(result: AxleResult) -> Axes:
     (ax,) = new_panels(1, 1, (8.0, 1.8 + 0.4 * len(result.solution.elements)))
-    draw(result, ax)
-    return titled(ax, result.case.title, converged=True)
+    elements(result, ax)
+    return ax
+
+
+def _first(result: AxleResult) -> str:
+    """Sentence about the element that breaks down first."""
+    ranking = [(name, ratio) for name, ratio in result.solution.ranking() if ratio > 0.0]
+    if not ranking:
+        return "No bearing or mesh has a voltage and a breakdown voltage"
+    name, ratio = ranking[0]
+    return f"{name}: {readable(ratio, 3)} times the breakdown voltage after an edge, the largest ratio"
+
+
+def _torques(result: AxleResult) -> str:
+    """Sentence about the torques of the figure of forces."""
+    torque = result.case.drive.torque
+    return f"Forces on the shafts at {amount(torque, 'N m')} and at {amount(-torque, 'N m')} of the rotor"
+
+
+# Functions that draw each figure, and sentences with its finding, by the names of the files.
+FIGURES: Mapping[str, tuple[Callable[[AxleResult], Axes], Callable[[AxleResult], str]]] = dict(
+    zip(
+        AXLE_FIGURE_FILES,
+        ((_draw_elements, _first), (network_picture, _first), (shaft_forces, _torques)),
+        strict=True,
+    )
+)
+
+
+def drawings_of(result: AxleResult) -> list[str]:
+    """Names of the figures of an axle; an axle without gears has no figure of forces."""
+    return [name for name in FIGURES if name != FORCES_FIGURE or result.case.mesh]
+
+
+def figure(result: AxleResult, name: str) -> Figure:
+    """Figure of an axle. Raises InputError where there is no figure of this name."""
+    draw, finding = drawing_of({each: FIGURES[each] for each in drawings_of(result)}, name)
+    with style():
+        return titled(
+            draw(result), "\n".join(filter(None, [finding(result), result.case.title])), converged=True
+        )

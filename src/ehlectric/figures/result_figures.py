@@ -267,7 +267,7 @@ def _of_axles() -> _Draws:
     from ehlectric.figures import axle_figures as axle
     from ehlectric.figures.figure_names import AXLE_FIGURE
 
-    return _Draws(axle.figure, lambda _: [AXLE_FIGURE], _without_options(lambda _: AXLE_FIGURE))
+    return _Draws(axle.figure, axle.drawings_of, _without_options(lambda _: AXLE_FIGURE))
 
 
 def _of_measurements() -> _Draws:

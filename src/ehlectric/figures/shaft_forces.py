@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import math
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,12 +24,17 @@ _COLOURS = (BLUE, ORANGE)
 # Height of the panels of a shaft, and of titles, legend and labels below them [inches]; width of the figure.
 _HEIGHT, _AROUND, _WIDTH = 2.2, 0.9, 9.0
 
-# Distance of both arrows from their place, part of the axis beyond the shaft, and least distance of two names
-# on one line, in lengths of the shaft.
-_ASIDE, _ROOM, _APART = 0.008, 0.16, 0.24
+# Distance of both arrows from their place, and part of the axis beyond the shaft, in lengths of the shaft.
+_ASIDE, _ROOM = 0.008, 0.16
+
+# Width of a letter of a name in lengths of the shaft: a panel has room for about 80 letters.
+_LETTER = (1.0 + 2.0 * _ROOM) / 80.0
+
+# Part of the height of a panel below which an arrow is short, and distance of its number from the shaft [pt].
+_SHORT, _AWAY = 0.08, 5.0
 
 # Part of the largest force that is the half height of a panel.
-_HIGH = 1.45
+_HIGH = 1.7
 
 
 @dataclass(frozen=True)
@@ -50,7 +56,8 @@ class PlacedForce:
                 [0.0 if abs(z) < _NO_FORCE else z for *_, z in self.forces],
             )
         )
-        return f"{self.name}\n{across} N", f"{self.name}\n{along} N"
+        name = f"{self.name}\nat {readable(1e3 * self.place, 4)} mm"
+        return f"{name}\n{across} N", f"{name}\n{along} N"
 
 
 # Axial force that is rounding [N].
@@ -83,7 +90,7 @@ def placed_forces(case: AxleCase) -> dict[str, list[PlacedForce]]:
     return placed
 
 
-def _vector(force: Sequence[float]) -> tuple[float, float, float]:
+def _vector(force: Iterable[float]) -> tuple[float, float, float]:
     x, y, z = (float(part) for part in force)
     return x, y, z
 
@@ -91,14 +98,12 @@ def _vector(force: Sequence[float]) -> tuple[float, float, float]:
 def _reaction(loads: BearingLoads, place: int, *, locating: bool) -> tuple[float, float, float]:
     """Force of a bearing on its shaft [N]."""
     across = loads.second if place else loads.first
-    if loads.shares is not None:
-        along = loads.shares[place]
-    else:
-        along = loads.axial if locating else 0.0
+    alone = loads.axial if locating else 0.0
+    along = alone if loads.shares is None else loads.shares[place]
     return _vector((-across[0], -across[1], -along))
 
 
-def shaft_forces(result: AxleResult) -> list[Axes]:
+def shaft_forces(result: AxleResult) -> Axes:
     """Draw the forces on each shaft with gears along x and along y, on axes along z."""
     placed = placed_forces(result.case)
     panels = new_panels(len(placed), 2, (_WIDTH, _AROUND + _HEIGHT * len(placed)), exact=True)
@@ -118,7 +123,7 @@ def shaft_forces(result: AxleResult) -> list[Axes]:
         Line2D([], [], color=BLACK, ls="none", marker="s", label="gear"),
     ]
     legend_above(panels[0], handles, columns=4)
-    return panels
+    return panels[0]
 
 
 def _draw(ax: Axes, forces: Sequence[PlacedForce], way: int, high: float) -> None:
@@ -141,7 +146,7 @@ def _draw(ax: Axes, forces: Sequence[PlacedForce], way: int, high: float) -> Non
             ax.annotate(
                 f"{readable(abs(value), 3)} N",
                 (at, value),
-                (3.0 * side, 0.0),
+                (3.0 * side, math.copysign(_AWAY if abs(value) < _SHORT * high else 0.0, value)),
                 textcoords="offset points",
                 ha="right" if number == 0 else "left",
                 va="bottom" if value > 0.0 else "top",
@@ -156,13 +161,14 @@ def _draw(ax: Axes, forces: Sequence[PlacedForce], way: int, high: float) -> Non
         ax.spines[edge].set_visible(False)
 
 
-def _lowered(places: Sequence[float], labels: Sequence[str]) -> Iterator[str]:
+def _lowered(places: Iterable[float], labels: Sequence[str]) -> Iterator[str]:
     """Labels of places, a line of labels lower where the label before is near."""
-    free = [-np.inf] * len(labels)
+    free = [-math.inf] * len(labels)
     for place, label in zip(places, labels, strict=True):
-        line = next(number for number, last in enumerate(free) if place - last >= _APART)
-        free[line] = place
-        yield "\n" * (2 * line) + printable_lines(label)
+        half = 0.5 * _LETTER * max(map(len, label.split("\n")))
+        line = next(number for number, last in enumerate(free) if place - half >= last)
+        free[line] = place + half
+        yield "\n" * (3 * line) + printable_lines(label)
 
 
 def printable_lines(text: str) -> str:

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 from ehlectric.errors import InputError
 from ehlectric.figures.figure_names import (
     ALL_FIGURES,
-    AXLE_FIGURE,
+    AXLE_FIGURE_FILES,
     BEARING_FIGURE_FILES,
     DRIVE_FIGURE_FILES,
     FORMATS,
@@ -60,7 +60,7 @@ _FIGURES = (
     *BEARING_FIGURE_FILES,
     *DRIVE_FIGURE_FILES,
     *GEAR_FIGURE_FILES,
-    AXLE_FIGURE,
+    *AXLE_FIGURE_FILES,
     *SPEED_FIGURE_FILES,
     SENSITIVITY_FIGURE,
     MEASURED_FIGURE,

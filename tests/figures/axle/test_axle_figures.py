@@ -1,0 +1,83 @@
+"""Figures of an axle: forces in equilibrium on each shaft, and the network with its voltages."""
+
+import numpy as np
+import pytest
+
+from ehlectric import AxleCase, figure, figure_names, solve_axle
+from ehlectric.figures.axle_figures import FIGURES
+from ehlectric.figures.figure_names import AXLE_FIGURE_FILES
+from ehlectric.figures.shaft_forces import placed_forces
+from ehlectric.quantities.palette import ORANGE
+from tests.axle.axles import ALONE, two_stages
+from tests.helpers.places import DATA
+from tests.helpers.titles import title_of
+
+
+@pytest.fixture(scope="module")
+def result():
+    return solve_axle(two_stages(), remedies=False)
+
+
+def texts(ax):
+    return [text.get_text() for text in ax.texts]
+
+
+def test_names_are_those_of_the_files(result):
+    names = [name.removesuffix(".png") for name in AXLE_FIGURE_FILES]
+    assert tuple(FIGURES) == AXLE_FIGURE_FILES
+    assert figure_names(result) == names
+    assert figure_names(solve_axle(AxleCase.from_dict(ALONE))) == names[:2]
+
+
+@pytest.mark.parametrize("case", [two_stages, lambda: AxleCase.from_toml(DATA / "axles" / "e_axle.toml")])
+def test_forces_of_each_shaft_are_in_balance(case):
+    """For both signs of the torque; the second sign turns the tangential and the axial forces."""
+    for forces in placed_forces(case()).values():
+        both = np.array([each.forces for each in forces])
+        assert np.sum(both, axis=0) == pytest.approx(0.0, abs=1e-9 * np.max(np.abs(both)))
+        meshes = [each.forces for each in forces if each.kind == "mesh"]
+        for first, second in meshes:
+            assert first[2] == pytest.approx(-second[2], rel=1e-12)
+            assert np.hypot(*first[:2]) == pytest.approx(np.hypot(*second[:2]), rel=1e-12)
+
+
+def test_forces_are_written_at_their_arrows(result):
+    """Numbers of the separate program at 150 N m, in proportion to the torque, in the names below."""
+    panels = figure(result, "axle_forces").axes
+    assert len(panels) == 6
+    labels = [label.get_text() for label in panels[0].get_xticklabels()]
+    assert labels[0] == "bearing 1\nat 0 mm\n989 | 860 N"
+    assert labels[2] == "bearing 2\nat 80 mm\n507 | 633 N"
+    along = [label.get_text().split("\n")[2] for label in panels[1].get_xticklabels()]
+    assert along == ["630 | -630 N", "-630 | 630 N", "0 | 0 N"]
+    assert "-30 N m" in title_of(figure(result, "axle_forces"))[0]
+
+
+def test_the_network_shows_voltages_and_marks_the_first_element(result):
+    (ax,) = figure(result, "axle_network").axes
+    written = texts(ax)
+    potentials = result.solution.potentials()
+    assert f"rotor\n{potentials['rotor']:.1f} V" in written
+    name, ratio = result.solution.ranking()[0]
+    assert name == "mesh of rotor and intermediate"
+    assert any(text.endswith(f"= {ratio:.1f}") for text in written)
+    assert "mesh, conducts" in written
+    bold = [text.get_text() for text in ax.texts if text.get_weight() == "bold"]
+    assert bold[-2] == "mesh, 622.6 pF"
+    # Bars of all elements with a breakdown voltage; a half is filled at the breakdown voltage.
+    filled = [patch for patch in ax.patches if patch.get_facecolor()[:3] == pytest.approx(_rgb(ORANGE))]
+    assert len(filled) == 1
+    assert filled[0].get_width() == pytest.approx(1.2 * 0.5 * (1.0 + np.log10(ratio) / 2.0))
+
+
+def _rgb(colour):
+    return [int(colour[at : at + 2], 16) / 255.0 for at in (1, 3, 5)]
+
+
+def test_links_are_in_the_network():
+    links = [
+        {"between": ["rotor", "output"], "kind": "ring", "resistance": 1e4},
+        {"between": ["intermediate", "housing"], "kind": "brush", "resistance": 2.0},
+    ]
+    (ax,) = figure(solve_axle(two_stages(link=links), remedies=False), "axle_network").axes
+    assert {"ring, 10 kΩ", "brush, 2 Ω"} <= {*texts(ax)}
