@@ -180,6 +180,7 @@ def test_every_figure_that_a_result_can_have_has_a_caption():
         figure_names.METER_FIGURE, *figure_names.MOTION_FIGURE_FILES, *figure_names.BEARING_FIGURE_FILES,
         *figure_names.SPEED_FIGURE_FILES, figure_names.SENSITIVITY_FIGURE,
         figure_names.TEMPERATURE_FIGURE, figure_names.SHEAR_FIGURE, *figure_names.GEAR_FIGURE_FILES,
+        *figure_names.AXLE_FIGURE_FILES,
     )  # fmt: skip
     assert {file.removesuffix(".png") for file in in_formats(files)} == set(TEXTS["captions"])
     assert caption_of("film", converged=False).startswith(SENTENCES["unconverged_figure"])
