@@ -144,7 +144,7 @@ def test_fields_have_names_units_and_errors_in_the_accessibility_tree(open_page,
     named = {
         "/contact": ("Entrainment speed", "m/s"),
         "/gear": ("Normal module", "mm"),
-        "/axle": ("Torque of the rotor", "Nm"),
+        "/axle": ("Torque of the rotor", "N m"),
     }
     name, unit = named.get(path, ("Radial load", "N"))
     box = page.get_by_role("textbox", name=name, exact=True).first
