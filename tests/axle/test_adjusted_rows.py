@@ -204,29 +204,29 @@ def _rows(change):
     [
         (
             _rows(lambda number: {"base": ("32207", "6207")[number]}),
-            "bearing.base",
+            "bearing.4.base",
             "tapered roller and deep",
         ),
-        (_rows(lambda number: {"base": ("32207", "7207 B")[number]}), "bearing.base", "one kind"),
-        (_rows(lambda number: {"locating": number == 0}), "bearing.locating", "both carry"),
+        (_rows(lambda number: {"base": ("32207", "7207 B")[number]}), "bearing.4.base", "one kind"),
+        (_rows(lambda number: {"locating": number == 0}), "bearing.3.locating", "both carry"),
         (
             lambda table: table["shaft"][1].update(adjustment={"arrangement": "X"}),
-            "shaft.adjustment.preload",
+            "shaft.2.adjustment.preload",
             "axial_play",
         ),
         (
             lambda table: table["shaft"][1].update(adjustment={"preload": 1.0, "axial_play": 1e-6}),
-            "shaft.adjustment.preload",
+            "shaft.2.adjustment.preload",
             "together",
         ),
         (
             lambda table: table["shaft"][0].update(adjustment={"preload": 1.0}),
-            "shaft.adjustment",
+            "shaft.1.adjustment",
             "deep-groove",
         ),
         (
             lambda table: table["shaft"][1].update(adjustment={"arrangement": "T", "preload": 1.0}),
-            "shaft.adjustment.arrangement",
+            "shaft.2.adjustment.arrangement",
             "'O'",
         ),
     ],

@@ -187,32 +187,32 @@ def _tapered(rows):
 
 
 REFUSED = [
-    ("mesh", _first(gears=["rotor", "wheel"]), "mesh.gears", "'wheel'"),
-    ("mesh", _first(gears=["rotor", "rotor"]), "mesh.gears", "two different"),
-    ("mesh", _first(gears=["rotor"]), "mesh.gears", "two"),
-    ("mesh", _loop, "mesh.gears", "ratios that agree"),
-    ("mesh", lambda rows: [*rows, rows[0]], "mesh.gears", "two paths"),
-    ("mesh", lambda rows: rows[:1], "shaft.name", "'output'"),
-    ("shaft", _first(rotor=False), "shaft.rotor", "no shaft"),
-    ("shaft", lambda rows: [{**row, "rotor": True} for row in rows], "shaft.rotor", "3 shafts"),
-    ("shaft", lambda rows: [*rows, rows[1]], "shaft.name", "'intermediate'"),
-    ("shaft", lambda rows: [*rows, {"name": "wheel"}], "bearing.shaft", "no path to the housing"),
-    ("bearing", lambda rows: [*rows, {**rows[0], "at": 0.1}], "bearing.shaft", "3 on shaft 'rotor'"),
-    ("bearing", lambda rows: rows[1:], "bearing.shaft", "1 on shaft 'rotor'"),
-    ("bearing", _first(locating=False), "bearing.locating", "'rotor'"),
-    ("bearing", _first(shaft="wheel"), "bearing.shaft", "'wheel'"),
-    ("bearing", _first(radial_load="1 kN"), "bearing.radial_load", "'rotor'"),
-    ("bearing", _first(inner_speed="1 rpm"), "bearing.inner_speed", "drive"),
-    ("bearing", _tapered, "bearing.base", "adjusted"),
-    ("bearing", _first(radial_lode=1.0), "bearing.radial_lode", "unknown key"),
+    ("mesh", _first(gears=["rotor", "wheel"]), "mesh.1.gears", "'wheel'"),
+    ("mesh", _first(gears=["rotor", "rotor"]), "mesh.1.gears", "two different"),
+    ("mesh", _first(gears=["rotor"]), "mesh.1.gears", "two"),
+    ("mesh", _loop, "mesh.2.gears", "ratios that agree"),
+    ("mesh", lambda rows: [*rows, rows[0]], "mesh.3.gears", "two paths"),
+    ("mesh", lambda rows: rows[:1], "shaft.3.name", "'output'"),
+    ("shaft", _first(rotor=False), "shaft.1.rotor", "no shaft"),
+    ("shaft", lambda rows: [{**row, "rotor": True} for row in rows], "shaft.3.rotor", "3 shafts"),
+    ("shaft", lambda rows: [*rows, rows[1]], "shaft.4.name", "'intermediate'"),
+    ("shaft", lambda rows: [*rows, {"name": "wheel"}], "shaft.4.name", "no path to the housing"),
+    ("bearing", lambda rows: [*rows, {**rows[0], "at": 0.1}], "bearing.7.shaft", "3 on shaft 'rotor'"),
+    ("bearing", lambda rows: rows[1:], "bearing.1.shaft", "1 on shaft 'rotor'"),
+    ("bearing", _first(locating=False), "bearing.2.locating", "'rotor'"),
+    ("bearing", _first(shaft="wheel"), "bearing.1.shaft", "'wheel'"),
+    ("bearing", _first(radial_load="1 kN"), "bearing.1.radial_load", "'rotor'"),
+    ("bearing", _first(inner_speed="1 rpm"), "bearing.1.inner_speed", "drive"),
+    ("bearing", _tapered, "bearing.2.base", "adjusted"),
+    ("bearing", _first(radial_lode=1.0), "bearing.1.radial_lode", "unknown key"),
     (
         "link",
         lambda _: [{"between": ["rotor", "x"], "kind": "ring", "resistance": 1.0}],
-        "link.between",
+        "link.1.between",
         "'x'",
     ),
-    ("link", lambda _: [{"between": ["rotor", "housing"], "kind": "ring"}], "link.resistance", "missing"),
-    ("link", lambda _: [{"between": ["rotor", "housing"], "kind": "spline"}], "link.kind", "housing"),
+    ("link", lambda _: [{"between": ["rotor", "housing"], "kind": "ring"}], "link.1.resistance", "missing"),
+    ("link", lambda _: [{"between": ["rotor", "housing"], "kind": "spline"}], "link.1.kind", "housing"),
     ("drive", lambda row: {**row, "torque": 0.0}, "drive.torque", "0"),
     ("circuit", lambda row: {**row, "ground_inductance": 1e-6}, "circuit.ground_inductance", "not used"),
 ]
@@ -230,6 +230,6 @@ def test_contradictions_are_refused(table, change, key, words):
 def test_a_shaft_without_gears_needs_loads():
     table = {**ALONE, "bearing": [ALONE["bearing"][0], {**ALONE["bearing"][1]}]}
     del table["bearing"][1]["radial_load"]
-    with pytest.raises(InputError, match=r"bearing.radial_load"):
+    with pytest.raises(InputError, match=r"bearing\.2\.radial_load"):
         AxleCase.from_dict(table)
     assert math.isclose(AxleCase.from_dict(ALONE).edge, 300.0)

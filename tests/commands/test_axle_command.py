@@ -60,8 +60,8 @@ def test_wrong_files_are_refused_in_one_line(typed, tmp_path):
         shutil.copy(EXAMPLES / name, tmp_path / name)
     text = EXAMPLE.read_text("utf-8")
     for before, after, key in (
-        ('gears = ["rotor", "intermediate"]', 'gears = ["rotor", "wheel"]', "mesh.gears"),
-        ('file = "e_axle_stage_1.toml"', 'file = "missing.toml"', "mesh.file"),
+        ('gears = ["rotor", "intermediate"]', 'gears = ["rotor", "wheel"]', "mesh.1.gears"),
+        ('file = "e_axle_stage_1.toml"', 'file = "missing.toml"', "mesh.1.file"),
         ("[source]", "[breakdown]\narc_resistance = 10.0\n[source]", "breakdown"),
     ):
         assert before in text

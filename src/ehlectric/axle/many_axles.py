@@ -238,7 +238,7 @@ def _solved_meshes(axles: Mapping[int, _Axle]) -> dict[tuple[int, int], _Solved]
     for (place, number), outcome in zip(places, solve_gear_pairs(pairs), strict=True):
         case = axles[place].case
         if isinstance(outcome, InputError):
-            solved[place, number] = outcome.under("mesh.pair")
+            solved[place, number] = outcome.under(f"mesh.{number + 1}.pair")
         elif isinstance(outcome, ConvergenceError):
             solved[place, number] = outcome
         else:
@@ -254,7 +254,7 @@ def _pair(axle: _Axle, number: int, known: dict[tuple[Any, ...], GearCase]) -> G
     if objects not in known:
         known[objects] = case.gear_case(number, axle.turning)
     numbers = case.gear_operation(number, axle.turning).items()
-    with within("mesh.pair"):
+    with within(f"mesh.{number + 1}.pair"):
         return changed_pair(
             known[objects],
             {f"gear.operation.{key}": value for key, value in numbers if is_number(value)},

@@ -156,7 +156,7 @@ def forces_on_shafts(case: AxleCase) -> dict[str, list[tuple[str, ForceAt]]]:
     forces: dict[str, list[tuple[str, ForceAt]]] = {}
     for number, mesh in enumerate(case.mesh):
         gear = mesh.pair.gear
-        with within("mesh.pair"):
+        with within(f"mesh.{number + 1}.pair"):
             pair = gear_pair(drawing_of(gear))
         torque = case.torque_of_gear(number, turning)
         both = forces_of_mesh(pair, torque, gear.hand or "right", mesh.direction, (mesh.at[0], mesh.at[1]))
@@ -223,7 +223,7 @@ def solve_elements(case: AxleCase, progress: Progress = silent) -> AxleSolution:
         elements += bearing_elements(result.solution, [(names[number], bearing.shaft, axial)])
         progress(len(elements), count, names[number])
     for number, mesh in enumerate(case.mesh):
-        with within("mesh.pair"):
+        with within(f"mesh.{number + 1}.pair"):
             gears = solve_gear_pair(case.gear_case(number, turning))
         name = case.names_of_meshes()[number]
         elements.append(mesh_element(name, mesh.gears, gears))

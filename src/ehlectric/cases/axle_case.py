@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from pydantic import Field, model_validator
 
@@ -112,6 +112,8 @@ class AxleCase(CaseFile, book="axle_file"):
     if TYPE_CHECKING:
 
         def __init__(self, **tables: Any) -> None: ...
+
+    NUMBERED: ClassVar[tuple[str, ...]] = ("shaft", "bearing", "mesh", "link", "remedies")
 
     title: Title = ""
     drive: AxleOperation
@@ -227,7 +229,9 @@ class AxleCase(CaseFile, book="axle_file"):
             yield
         except InputError as error:
             text = f"{error.text} ({self.names_of_bearings()[number]})"
-            raise error.with_text(error.key or "bearing", text) from None
+            table, dot, key = (error.key or "bearing").partition(".")
+            place = f"{table}.{number + 1}" if table == "bearing" else table
+            raise error.with_text(f"{place}{dot}{key}", text) from None
 
     def gear_case(self, number: int, turning: Mapping[str, Turning]) -> GearCase:
         """Case of the gear pair of a mesh, at the speeds and torques of all shafts by their names.
@@ -241,7 +245,7 @@ class AxleCase(CaseFile, book="axle_file"):
         if self.drive.contacts is not None:
             table["contacts"] = self.drive.contacts
         table["gear"]["operation"] |= self.gear_operation(number, turning)
-        with within("mesh.pair"):
+        with within(f"mesh.{number + 1}.pair"):
             return GearCase.from_dict(
                 table | {"lubricant": self.lubricant.model_copy(), "discharge": self._discharge()}
             )
@@ -295,20 +299,20 @@ class AxleCase(CaseFile, book="axle_file"):
                 divided.append(f"shaft {name!r} drives {' and '.join(further)}")
         if divided:
             raise InputError.worded("mesh.gears", f"{divided[0]}; a torque that divides is not computed")
-        for shaft in self.shaft:
+        for number, shaft in enumerate(self.shaft, 1):
             if shaft.name not in done:
                 raise InputError.worded(
-                    "shaft.name", f"shaft {shaft.name!r} has no mesh or coupling towards the rotor"
+                    f"shaft.{number}.name", f"shaft {shaft.name!r} has no mesh or coupling towards the rotor"
                 )
         return done
 
     def _joints(self) -> Iterator[tuple[str, str, str, float]]:
         """Joints that turn shafts: key, first and second shaft, torque of the second over the first."""
-        for mesh in self.mesh:
-            yield "mesh.gears", mesh.gears[0], mesh.gears[1], -_ratio(mesh)
-        for link in self.link:
+        for number, mesh in enumerate(self.mesh, 1):
+            yield f"mesh.{number}.gears", mesh.gears[0], mesh.gears[1], -_ratio(mesh)
+        for number, link in enumerate(self.link, 1):
             if link.turns:
-                yield "link.between", link.between[0], link.between[1], 1.0
+                yield f"link.{number}.between", link.between[0], link.between[1], 1.0
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -328,7 +332,9 @@ class AxleCase(CaseFile, book="axle_file"):
             kind = self._kind_of(number)
             if kind in KINDS_OF_BEARINGS and not KINDS_OF_BEARINGS[kind].radial:
                 raise InputError(
-                    "bearing.base", got=f"a {kind} bearing", takes="one that carries radial loads"
+                    f"bearing.{number + 1}.base",
+                    got=f"a {kind} bearing",
+                    takes="one that carries radial loads",
                 )
         helical = {name for mesh in self.mesh if mesh.pair.gear.helix_angle for name in mesh.gears}
         for shaft in self.shaft:
@@ -341,17 +347,23 @@ class AxleCase(CaseFile, book="axle_file"):
         twice = [name for name, count in Counter(names).items() if count > 1]
         if twice or HOUSING in names or "" in names:
             name = twice[0] if twice else HOUSING if HOUSING in names else ""
-            raise InputError("shaft.name", got=repr(name), takes="a name of its own for each shaft")
+            number = len(names) - names[::-1].index(name)
+            raise InputError(f"shaft.{number}.name", got=repr(name), takes="a name of its own for each shaft")
         if len(names) > _MOST_SHAFTS:
             raise InputError("shaft", got=f"{len(names)} shafts", takes=f"at most {_MOST_SHAFTS}")
         rotors = [shaft.name for shaft in self.shaft if shaft.rotor]
         if len(rotors) != 1:
             got = f"{len(rotors)} shafts with rotor = true" if rotors else "no shaft with rotor = true"
-            raise InputError("shaft.rotor", got=got, takes="one: [circuit] acts on it")
+            number = names.index(rotors[-1]) + 1 if rotors else 1
+            raise InputError(f"shaft.{number}.rotor", got=got, takes="one: [circuit] acts on it")
         places = (
-            *(("bearing.shaft", bearing.shaft, False) for bearing in self.bearing),
-            *(("mesh.gears", name, False) for mesh in self.mesh for name in mesh.gears),
-            *(("link.between", name, True) for link in self.link for name in link.between),
+            *((f"bearing.{n}.shaft", bearing.shaft, False) for n, bearing in enumerate(self.bearing, 1)),
+            *((f"mesh.{n}.gears", name, False) for n, mesh in enumerate(self.mesh, 1) for name in mesh.gears),
+            *(
+                (f"link.{n}.between", name, True)
+                for n, link in enumerate(self.link, 1)
+                for name in link.between
+            ),
         )
         for key, name, housing in places:
             if name not in names and not (housing and name == HOUSING):
@@ -360,25 +372,27 @@ class AxleCase(CaseFile, book="axle_file"):
 
     def _check_bearings(self) -> None:
         """Check that each shaft has two bearings."""
-        for shaft in self.shaft:
-            bearings = [self.bearing[number] for number in self.bearings_of(shaft.name)]
-            if not bearings:
+        for place, shaft in enumerate(self.shaft, 1):
+            numbers = self.bearings_of(shaft.name)
+            if not numbers:
                 raise InputError.worded(
-                    "bearing.shaft", f"shaft {shaft.name!r} has no path to the housing; give it two bearings"
+                    f"shaft.{place}.name",
+                    f"shaft {shaft.name!r} has no path to the housing; give it two bearings",
                 )
-            if len(bearings) != 2:
+            if len(numbers) != 2:
                 raise InputError(
-                    "bearing.shaft",
-                    got=f"{len(bearings)} on shaft {shaft.name!r}",
+                    f"bearing.{numbers[-1] + 1}.shaft",
+                    got=f"{len(numbers)} on shaft {shaft.name!r}",
                     takes="two: the loads of more bearings do not follow from statics",
                 )
 
     def _check_locating(self, shaft: Shaft, *, helical: bool) -> None:
         """Check that one bearing carries the axial force of a shaft."""
-        locating = sum(self.bearing[number].locating for number in self.bearings_of(shaft.name))
+        numbers = self.bearings_of(shaft.name)
+        locating = sum(self.bearing[number].locating for number in numbers)
         if locating > 1 or (helical and locating != 1):
             raise InputError(
-                "bearing.locating",
+                f"bearing.{numbers[-1] + 1}.locating",
                 got=f"{locating} of the bearings of shaft {shaft.name!r}",
                 takes="one, which carries the axial force of the helical gears",
             )
@@ -424,22 +438,25 @@ class AxleCase(CaseFile, book="axle_file"):
         if not inclined:
             if shaft.adjustment is not None:
                 takes = "two tapered roller or two angular-contact ball bearings, without pair and loads"
-                raise InputError("shaft.adjustment", got=f"it with {names}", takes=takes)
+                place = self.shaft.index(shaft) + 1
+                raise InputError(f"shaft.{place}.adjustment", got=f"it with {names}", takes=takes)
             return None
         if len(inclined) == 1 or len({*kinds}) > 1:
             raise InputError(
-                "bearing.base",
+                f"bearing.{numbers[-1] + 1}.base",
                 got=names,
                 takes="two of one kind, which are adjusted against each other, or a pair at one place: the "
                 "axial load of a single inclined row depends on a second one",
             )
         if not any(shaft.name in mesh.gears for mesh in self.mesh):
             raise InputError.worded(
-                "bearing.axial_load", f"missing; shaft {shaft.name!r} has no gears that load its bearings"
+                f"bearing.{numbers[0] + 1}.axial_load",
+                f"missing; shaft {shaft.name!r} has no gears that load its bearings",
             )
-        if any(self.bearing[number].locating for number in numbers):
+        locating = [number for number in numbers if self.bearing[number].locating]
+        if locating:
             raise InputError.worded(
-                "bearing.locating",
+                f"bearing.{locating[0] + 1}.locating",
                 f"is not used by {names}: both carry axial forces; see shaft.adjustment",
             )
         return self.adjustment_of(shaft)
@@ -447,11 +464,11 @@ class AxleCase(CaseFile, book="axle_file"):
     def _check_gears(self) -> None:
         """Check that gears at one place of a shaft are one gear, which has two meshes."""
         placed = [
-            (name, at, mesh.pair.gear.face_width, _gear_of(mesh.pair.gear, number))
-            for mesh in self.mesh
+            (name, at, mesh.pair.gear.face_width, _gear_of(mesh.pair.gear, number), place)
+            for place, mesh in enumerate(self.mesh, 1)
             for number, (name, at) in enumerate(zip(mesh.gears, mesh.at, strict=True))
         ]
-        for (shaft, at, width, gear), (other, there, breadth, second) in combinations(placed, 2):
+        for (shaft, at, width, gear, _), (other, there, breadth, second, place) in combinations(placed, 2):
             if (
                 shaft == other
                 and gear != second
@@ -460,7 +477,7 @@ class AxleCase(CaseFile, book="axle_file"):
                 key = next(key for key in gear if gear[key] != second[key])
                 values = " and ".join(amount(each[key], _UNITS_OF_GEARS[key]) for each in (gear, second))
                 raise InputError(
-                    "mesh.at",
+                    f"mesh.{place}.at",
                     got=f"two gears at one place of shaft {shaft!r}, with {key} of {values}",
                     takes="places at least half of both face widths apart, or one gear with two meshes",
                 )
@@ -468,17 +485,13 @@ class AxleCase(CaseFile, book="axle_file"):
     def _check_loads(self) -> None:
         """Check that bearings of shafts with gears have no load, and all others have one."""
         meshing = {name for mesh in self.mesh for name in mesh.gears}
-        for shaft in self.shaft:
-            bearings = [self.bearing[number] for number in self.bearings_of(shaft.name)]
-            if shaft.name in meshing and any(bearing.loaded for bearing in bearings):
-                raise InputError.worded(
-                    "bearing.radial_load", f"shaft {shaft.name!r} has gears, from which its loads follow"
-                )
-            if shaft.name not in meshing and not all(bearing.loaded for bearing in bearings):
-                raise InputError.worded(
-                    "bearing.radial_load",
-                    f"missing; shaft {shaft.name!r} has no gears that load its bearings",
-                )
+        for number, bearing in enumerate(self.bearing, 1):
+            load = "axial" if "axial_load" in bearing.keys and "radial_load" not in bearing.keys else "radial"
+            key, name = f"bearing.{number}.{load}_load", bearing.shaft
+            if name in meshing and bearing.loaded:
+                raise InputError.worded(key, f"shaft {name!r} has gears, from which its loads follow")
+            if name not in meshing and not bearing.loaded:
+                raise InputError.worded(key, f"missing; shaft {name!r} has no gears that load its bearings")
 
     def _speeds(self, table: dict[str, Any]) -> Iterator[tuple[dict[str, Any], str]]:
         yield table["drive"], "speed"
@@ -693,18 +706,18 @@ def with_gear_files(table: Mapping[str, Any], folder: Path) -> dict[str, Any]:
     meshes = table.get("mesh")
     if not isinstance(meshes, list):
         return dict(table)
-    return {**table, "mesh": [_with_pair(mesh, folder) for mesh in meshes]}
+    return {**table, "mesh": [_with_pair(number, mesh, folder) for number, mesh in enumerate(meshes, 1)]}
 
 
-def _with_pair(mesh: Any, folder: Path) -> Any:
+def _with_pair(number: int, mesh: Any, folder: Path) -> Any:
     """Table of a mesh with the tables of the gear file that it names."""
     if not isinstance(mesh, Mapping) or "file" not in mesh:
         return mesh
     name = mesh["file"]
     if not isinstance(name, str):
-        raise InputError("mesh.file", got=str(name), takes="the path of a gear file")
+        raise InputError(f"mesh.{number}.file", got=str(name), takes="the path of a gear file")
     try:
         pair = GearCase.from_toml(folder / name)
     except InputError as error:
-        raise error.with_text(f"mesh.file, {error.key}", error.text) from None
+        raise error.with_text(f"mesh.{number}.file, {error.key}", error.text) from None
     return {key: value for key, value in mesh.items() if key != "file"} | {"pair": pair}

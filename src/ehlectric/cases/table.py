@@ -139,6 +139,8 @@ class Table(BaseModel, metaclass=_Listed):
     # Name of the table in the book of inputs, and key that a text instead of the table stands for.
     BOOK: ClassVar[str] = ""
     NAMED_BY: ClassVar[str] = ""
+    # Lists of tables in whose errors keys have the number of the table, from 1.
+    NUMBERED: ClassVar[tuple[str, ...]] = ()
 
     def __init__(self, /, **table: Any) -> None:
         refuse_deep(table)
@@ -444,7 +446,17 @@ def first_error(error: ValidationError, model: type[Table], given: Mapping[str, 
     # A default that is made from other keys says nothing in addition to the errors of these keys.
     details = [detail for detail in error.errors() if detail["type"] != "default_factory_not_called"]
     details.sort(key=lambda detail: detail["type"] != "extra_forbidden")
-    return InputError.together([_error(detail, model, given) for detail in details])
+    return InputError.together([_numbered(_error(detail, model, given), detail, model) for detail in details])
+
+
+def _numbered(error: InputError, detail: ErrorDetails, model: type[Table]) -> InputError:
+    """Error whose key has the number of its table in a list, as ``bearing.3.at``, if the model numbers it."""
+    name, number = (*detail["loc"], None, None)[:2]
+    if name not in model.NUMBERED or not isinstance(number, int):
+        return error
+    if error.several:
+        return InputError.together([_numbered(each, detail, model) for each in error.several])
+    return error.with_text(f"{name}.{number + 1}{(error.key or '').removeprefix(str(name))}", error.text)
 
 
 def details_of(error: ValidationError) -> list[InitErrorDetails]:
