@@ -7,10 +7,10 @@ import numpy as np
 from ehlectric.bearing.circuit import Path
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.drive_inputs import Breakdown, Circuit
+from ehlectric.drive.circuit_states import drive_states
 from ehlectric.drive.discharges.films_and_source import Segments, films_of
 from ehlectric.drive.discharges.simulation import Measuring, simulate
 from ehlectric.drive.drive_bearings import BearingElement
-from ehlectric.drive.motor_circuit import modes_of, states_of, voltage_nodes
 from tests.helpers.places import EXAMPLES
 
 MOTOR = {
@@ -75,12 +75,6 @@ def from_rest(segments, rise):
     return Segments(*(np.concatenate(pair) for pair in zip(begin, segments, strict=True)))
 
 
-def systems(circuit, bearings, breakdown):
-    """State equations of all states of a circuit, and whether films touch."""
-    films = films_of(bearings, breakdown)
-    return states_of(circuit, bearings, breakdown, touches=bool(films.states[0] == 3))
-
-
 def march(
     circuit,
     bearings,
@@ -95,12 +89,11 @@ def march(
     at_event=False,
 ):
     """Record of a march through segments of a source, from its begin on."""
-    modes = modes_of(systems(circuit, bearings, breakdown), voltage_nodes(bearings), ring)
     chunks = segments if isinstance(segments, list) else [segments]
     duration = float(sum(np.sum(one.duration) for one in chunks))
     measuring = Measuring(0.0, duration, highest, limits, trace, at_event)
     films = films_of(bearings, breakdown)
-    return simulate(modes, films, iter(chunks), measuring, seed)
+    return simulate(drive_states(circuit, bearings, breakdown, ring), films, iter(chunks), measuring, seed)
 
 
 def drive_with_remedy(**changes):

@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import product
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -29,8 +28,7 @@ def capacitive_divider(circuit: Circuit, bearings: Sequence[BearingElement]) -> 
     Returns share of each bearing, dimensionless, from 0 to 1.
     """
     plain = circuit.model_copy(update={"common_mode_inductance": None, "ground_inductance": None})
-    modes = modes_of([_system(plain, bearings)], film_nodes(bearings))
-    first, second = modes.films_source[0]
+    first, second = modes_of(drive_system(plain, bearings), film_nodes(bearings)).source_share
     return abs(float(first)), abs(float(second))
 
 
@@ -181,11 +179,6 @@ def film_nodes(elements: Sequence[BearingElement]) -> list[tuple[str, str]]:
     ]
 
 
-def voltage_nodes(elements: Sequence[BearingElement]) -> list[tuple[str, str]]:
-    """Nodes of the voltages that are measured: across the films of each bearing, and of the shaft."""
-    return [*film_nodes(elements), (ROTOR, FRAME)]
-
-
 def source_nodes(circuit: Circuit) -> tuple[str, str]:
     """Positive and negative node of the inverter's common-mode voltage."""
     return SOURCE if _reactor(circuit) else WINDING, EARTH if _parted(circuit) else FRAME
@@ -226,7 +219,7 @@ def motor_elements(circuit: Circuit) -> Iterator[Element]:
         yield Element("capacitor", WINDING, FRAME, circuit.cable_capacitance)
 
 
-def _system(
+def drive_system(
     circuit: Circuit,
     bearings: Sequence[BearingElement],
     places: Sequence[int] = (0, 0),
@@ -262,28 +255,13 @@ def oscillations(circuit: Circuit, bearings: Sequence[BearingElement]) -> list[t
     """
     if circuit.common_mode_inductance is None and circuit.ground_inductance is None:
         return []
-    rates = np.linalg.eigvals(_system(circuit, bearings).rates)
+    rates = np.linalg.eigvals(drive_system(circuit, bearings).rates)
     damped = [
         (float(rate.imag) / (2.0 * math.pi), abs(rate) / max(-2.0 * float(rate.real), 1e-300))
         for rate in rates
         if rate.imag > 0.0
     ]
     return sorted(damped, key=lambda oscillation: -oscillation[1])
-
-
-def states_of(
-    circuit: Circuit, bearings: Sequence[BearingElement], breakdown: Breakdown, *, touches: bool
-) -> list[StateSpace]:
-    """Return the state equations for all circuit states, in the order in which a march numbers them: each
-    state of the first and second film, and each position of both bearings' elements.
-    """
-    arc = 1.0 / breakdown.arc_resistance
-    doing = [[0.0, arc, 1.0 / bearing.touch_resistance][: 3 if touches else 2] for bearing in bearings]
-    places = [range(bearing.capacitance.size) for bearing in bearings]
-    return [
-        _system(circuit, bearings, at, conductances)
-        for conductances, at in product(product(*doing), product(*places))
-    ]
 
 
 Complex = NDArray[np.complex128]
@@ -295,60 +273,70 @@ _ALIKE = 1e9
 _APART = 1e-10
 
 
+# Rows of the modes of a state: rates, forces, states per volt of the ringing, and the vector k of
+# ``StateSpace``; from VOLTAGE_ROWS on, each voltage, and then what a discharge of each voltage does.
+RATE_ROW, FORCE_ROW, RING_ROW, JUMP_ROW, VOLTAGE_ROWS = range(5)
+
+# Square matrices of a state: eigenvectors and their inverse, and C of ``StateSpace`` and its inverse.
+SHAPES, INVERSE, CHARGE, UNCHARGE = range(4)
+
+# Columns after the modes: the source without its ringing, and the ringing.
+_FURTHER = 2
+
+
 class Modes(NamedTuple):
-    """Diagonal form of the state equations of several states of a circuit, one after the other."""
+    """Diagonal form of the state equations of a circuit with n states and v voltages.
 
-    rates: Complex  # eigenvalues [1/s]; no real part is above zero, shape (states, n)
-    # shapes and inverse: eigenvectors and their inverse, shape (states, n, n).
-    shapes: Complex
-    inverse: Complex
-    force: Complex  # force of each mode per volt of the source, shape (states, n)
-    # Voltage across each film, and any other voltage that is asked for, per amplitude of each mode [V],
-    # shape (states, films, n).
-    films: Complex
-    # Voltage across each film per volt of the source with all modes at zero, shape (states, films).
-    films_source: Array
-    ring_state: Complex  # states per volt of a source exp(mu t), shape (states, n)
-    ring_films: Complex  # voltage across each film per volt of a source exp(mu t), shape (states, films)
-    jump: Array  # vector k of ``StateSpace``, shape (states, n)
-    # charge and uncharge: matrix C of ``StateSpace`` and its inverse, shape (states, n, n).
-    charge: Array
-    uncharge: Array
-    ring: Complex  # rate mu of the source's ringing [1/s]; any damped rate without it, shape (1,)
+    The columns of ``rows``, shape (5 + 2 v, n + 2), are the modes, the source and its ringing:
+
+    - eigenvalues [1/s], of which no real part is above zero, and rate mu of the ringing;
+    - force of each mode per volt of the source;
+    - states per volt of a source exp(mu t), and the vector k, in the first n columns;
+    - each voltage per amplitude of each mode, per volt of the source, and per volt of its ringing;
+    - for each voltage U with U = a'p, what a discharge of U by 1 V takes from each state, C_th C^-1 a, and the
+      capacitance C_th = 1/(a'C^-1 a) that is discharged [F].
+
+    ``squares`` has the four matrices of a state, shape (4, n, n).
+    """
+
+    rows: Complex
+    squares: Complex
+
+    @property
+    def source_share(self) -> Array:
+        """Each voltage per volt of the source with all modes at zero, shape (v,)."""
+        count = (self.rows.shape[0] - VOLTAGE_ROWS) // 2
+        share: Array = self.rows[VOLTAGE_ROWS : VOLTAGE_ROWS + count, -2].real
+        return share
 
 
-def modes_of(
-    systems: Sequence[StateSpace], films: Sequence[tuple[str, str]], ring: complex | None = None
-) -> Modes:
-    """Diagonal form of a circuit in all of its states.
+def modes_of(system: StateSpace, voltages: Sequence[tuple[str, str]], ring: complex | None = None) -> Modes:
+    """Diagonal form of a circuit. ``voltages``, nodes between which each voltage lies.
 
     ``ring`` is the rate mu of the source's ringing [1/s]; without it the source does not ring.
     """
-    first = systems[0]
-    rates = np.array([system.rates for system in systems])
-    charge = np.array([system.capacitance for system in systems])
-    eigenvalues, shapes, inverse = _diagonal(rates, charge)
-    force = np.array([system.force for system in systems])
-    jump = np.array([system.jump for system in systems])
-    across = np.array([first.potential(upper) - first.potential(lower) for upper, lower in films])
-    ring_state = np.zeros(force.shape, dtype=complex)
+    states, count = system.force.size, len(voltages)
+    eigenvalues, shapes, inverse = _diagonal(system.rates, system.capacitance)
+    across = np.array([system.potential(upper) - system.potential(lower) for upper, lower in voltages])
+    ring_state = np.zeros(states, dtype=complex)
     if ring is not None:
-        identity = np.eye(rates.shape[1])
-        ring_state = np.linalg.solve(ring * identity - rates, force.astype(complex)[..., None])[..., 0]
-    return Modes(
-        rates=np.minimum(eigenvalues.real, 0.0) + 1j * eigenvalues.imag,
-        shapes=np.ascontiguousarray(shapes),
-        inverse=np.ascontiguousarray(inverse),
-        force=np.einsum("cij,cj->ci", inverse, force),
-        films=np.einsum("fi,cij->cfj", across, shapes),
-        films_source=-jump @ across.T,
-        ring_state=ring_state,
-        ring_films=(ring_state - jump) @ across.T,
-        jump=jump,
-        charge=charge,
-        uncharge=np.linalg.inv(charge),
-        ring=np.array([-1.0 + 0.0j if ring is None else ring]),
-    )
+        identity = np.eye(states)
+        ring_state = np.linalg.solve(ring * identity - system.rates, system.force.astype(complex))
+    uncharge = np.linalg.inv(system.capacitance)
+    spread = across @ uncharge
+    discharged = 1.0 / np.sum(spread * across, axis=1)
+    rows = np.zeros((VOLTAGE_ROWS + 2 * count, states + _FURTHER), dtype=complex)
+    modes, of_voltages = slice(states), slice(VOLTAGE_ROWS, VOLTAGE_ROWS + count)
+    rows[RATE_ROW, modes] = np.minimum(eigenvalues.real, 0.0) + 1j * eigenvalues.imag
+    rows[RATE_ROW, -1] = -1.0 if ring is None else ring
+    rows[FORCE_ROW, modes] = np.einsum("ij,j->i", inverse, system.force)
+    rows[RING_ROW, modes], rows[JUMP_ROW, modes] = ring_state, system.jump
+    rows[of_voltages, modes] = across @ shapes
+    rows[of_voltages, -2] = -system.jump @ across.T
+    rows[of_voltages, -1] = (ring_state - system.jump) @ across.T
+    rows[VOLTAGE_ROWS + count :, modes] = discharged[:, None] * spread
+    rows[VOLTAGE_ROWS + count :, -2] = discharged
+    return Modes(rows, np.array([shapes, inverse, system.capacitance, uncharge]))
 
 
 def _diagonal(rates: Array, charge: Array) -> tuple[Complex, Complex, Complex]:
@@ -357,11 +345,12 @@ def _diagonal(rates: Array, charge: Array) -> tuple[Complex, Complex, Complex]:
     In states that are scaled by the root of their energy, losses make the matrices symmetric, and exchange
     between capacitors and inductors makes them antisymmetric, so that the eigenvectors are well conditioned.
     """
-    energy = np.sqrt(np.diagonal(charge, axis1=1, axis2=2))
-    scaled = energy[:, :, None] * rates / energy[:, None, :]
+    energy = np.sqrt(np.diagonal(charge))
+    scaled = energy[:, None] * rates / energy[None, :]
     eigenvalues, shapes = (part.astype(complex) for part in np.linalg.eig(scaled))
-    alike = np.linalg.cond(shapes) > _ALIKE
-    if np.any(alike):
-        order = np.arange(1, rates.shape[1] + 1)
-        eigenvalues[alike], shapes[alike] = np.linalg.eig(scaled[alike] * (1.0 + _APART * order[:, None]))
-    return eigenvalues, shapes / energy[:, :, None], np.linalg.inv(shapes) * energy[:, None, :]
+    if np.linalg.cond(shapes) > _ALIKE:
+        order = np.arange(1, energy.size + 1)
+        eigenvalues, shapes = (
+            part.astype(complex) for part in np.linalg.eig(scaled * (1.0 + _APART * order[:, None]))
+        )
+    return eigenvalues, shapes / energy[:, None], np.linalg.inv(shapes) * energy[None, :]

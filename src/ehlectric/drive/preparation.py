@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
 from ehlectric.bearing import BearingResult, solve_bearing
 from ehlectric.cases.drive_case import DriveCase
+from ehlectric.drive.circuit_states import CircuitStates, drive_states
 from ehlectric.drive.discharges.films_and_source import Films, films_of
 from ehlectric.drive.drive_bearings import BearingElement, bearing_element
 from ehlectric.drive.drive_cycle import check_drive_cycle
 from ehlectric.drive.measured_source import measured_source
-from ehlectric.drive.motor_circuit import Modes, capacitive_divider, modes_of, states_of, voltage_nodes
+from ehlectric.drive.motor_circuit import capacitive_divider
 from ehlectric.drive.source_pieces import Ringing, ringing_of
 from ehlectric.drive.waveform_file import Waveform
 from ehlectric.errors import InputError
@@ -55,13 +55,11 @@ class PreparedDrive:
         """Voltage across the films of each bearing per volt of the source, by the capacitances."""
         return capacitive_divider(self.case.running_circuit, self.elements)
 
-    @cached_property
-    def modes(self) -> Modes:
-        """Circuit in each of its states, which only the simulation needs."""
-        touches = bool(self.films.states[0] == 3)
-        systems = states_of(self.case.running_circuit, self.elements, self.case.breakdown, touches=touches)
+    @property
+    def circuits(self) -> CircuitStates:
+        """States of the circuit, which only the simulation needs."""
         rate = None if self.ringing is None else self.ringing.rate
-        return modes_of(systems, voltage_nodes(self.elements), rate)
+        return drive_states(self.case.running_circuit, self.elements, self.case.breakdown, rate)
 
 
 def prepare(case: DriveCase, *, workers: int | None = None) -> PreparedDrive:

@@ -30,7 +30,7 @@ def solve(case: DriveCase, progress: Progress = silent, *, workers: int | None =
     whole = ready.settling + ready.duration
     reach = _highest(ready)
     record = simulate(
-        ready.modes,
+        ready.circuits,
         ready.films,
         _chunks(ready),
         Measuring(ready.settling, ready.duration, reach, LIMITS, _trace(ready), at_event=True),

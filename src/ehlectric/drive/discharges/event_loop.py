@@ -1,8 +1,11 @@
-"""March through the discharges of a drive over time, and measurement of its voltages; compiled.
+"""March through the discharges of a circuit over time, and measurement of its voltages; compiled.
 
 Between two changes, of the source or of a film, the circuit is linear and its solution exact. The march goes
 from change to change: edges of the source, elements that pass, films that are renewed or touch, voltages that
-reach the threshold of a film, and arcs that go out.
+reach the threshold of a film, and arcs that go out. After each change all films are checked again; of several
+films above their threshold, the film with the largest ratio of voltage to threshold breaks down first.
+
+The march stops where it needs the modes of a state that are not made yet, and goes on from there.
 """
 
 from __future__ import annotations
@@ -14,29 +17,23 @@ from typing import NamedTuple
 import numpy as np
 
 from ehlectric.arrays import Array
+from ehlectric.drive.circuit_states import DOES, MOVED
 from ehlectric.drive.discharges.compiled import compiled, inlined, inner
-from ehlectric.drive.discharges.films_and_source import Films, Integers, Segments
+from ehlectric.drive.discharges.films_and_source import Integers
 from ehlectric.drive.discharges.voltages_in_time import (
-    FALLS,
-    FURTHER,
     RATE,
-    RISES,
-    ROWS,
     START,
-    PieceVoltages,
-    Source,
     all_at,
     begin,
     crossing,
     curvature_bound,
-    empty_piece_voltages,
     move,
     states_at,
     unfold,
-    voltages,
 )
 from ehlectric.drive.drive_record import CHARGE, COLUMNS, ENERGY, FILM, OFF, ON, PEAK, PLACE, VOLTAGE
-from ehlectric.drive.motor_circuit import Complex, Modes
+from ehlectric.drive.motor_circuit import CHARGE as CHARGES
+from ehlectric.drive.motor_circuit import JUMP_ROW, UNCHARGE, VOLTAGE_ROWS, Complex
 
 # Largest number of lines of a spectrum, and the frequency above which it has none [Hz]: edges of 100 ns have
 # their corner at 1/(pi 100 ns) = 3 MHz.
@@ -106,160 +103,109 @@ def spectrum_of(means: Array) -> Array:
     return amplitudes
 
 
-# Phases of a film.
+# Phases of a film. What it does in the circuit is (phase + 1)//2.
 INSULATING, ARC, RECOVERING, TOUCHING = range(4)
 
-# Clocks of a film: time left to the next position, next film, its insulation, and the next touch.
+# Columns of a film in ``March.film``. Clocks: time left to the next position, next film, its insulation, and
+# the next touch [s].
 POSITION, RENEWAL, RECOVERY, TOUCH = range(4)
+CLOCKS = 4
+# Time from one position to the next, mean time of a film, time until a film insulates again, and mean times
+# without and with touching asperities [s].
+STEP, MEAN_RENEWAL, RECOVERS, MEAN_TOUCH = 4, 5, 6, 7
+# Arc resistance [Ohm], voltage at which an arc goes out [V], reciprocal shape of Weibull's law, threshold
+# divided by its scale, and largest absolute voltage while asperities touch [V].
+ARC_RESISTANCE, EXTINCTION, EXPONENT, DRAW, TOUCHED = range(9, 14)
+# Present event, and scale of the threshold at each position [V].
+EVENT, SCALE = 14, 14 + COLUMNS
+
+# Whole numbers of a film in ``March.count``: phase, position and number of positions of its elements, its
+# voltage, and used random numbers of both streams.
+PHASE, AT_PLACE, PLACES, ROW, USED = range(5)
+COUNTS = 6
 
 # Streams of random numbers of a film; the march stops where one has fewer than the reserve left.
-_THRESHOLDS, _TIMES = range(2)
+THRESHOLDS, TIMES = range(2)
 RESERVE = 16
 
+# Rows of ``March.segments``: duration [s], voltage at the start [V], and slope [V/s].
+DURATION, LEVEL, RISE = range(3)
 
-class State(NamedTuple):
-    """State of a march; it is changed in place."""
+# Numbers of ``March.now``: time [s], as a sum of whole chunks and of what has passed since; time that has
+# passed of the segment [s], and voltage of the source now [V]. Lowest and highest voltage of the histograms
+# and of the source without its ringing [V]; tolerances of the voltage: within which it is taken as straight
+# between two times, and below which the ringing of the source is over [V]; time interval of the trace, and
+# time of the first mean of the spectrum and spacing of its means [s].
+TIME, SINCE, PASSED, SOURCE = range(4)
+(LEFT_EDGE, RIGHT_EDGE, SOURCE_LOW, SOURCE_HIGH, ROUGH, SILENT, TRACE_FROM, TRACE_TO, FIRST_MEAN, SPACING) = (
+    range(4, 14)
+)
+NUMBERS = 14
 
-    x: Array  # states of the circuit, shape (n,)
-    ring: Complex  # amplitude of the ringing [V], shape (1,)
-    clocks: Array  # times left [s], shape (2, 4)
-    place: Integers  # position of the elements, shape (2,)
-    phase: Integers  # phase of each film, shape (2,)
-    draw: Array  # threshold of each film over its scale, shape (2,)
-    event: Array  # event of each film so far, shape (2, 8)
-    time: Array  # time [s], as a sum of whole chunks and of what has passed since, shape (2,)
-    # Next segment, what has passed of it [s], and whether it has begun (1) or not (0), shape (3,).
-    cursor: Array
+# Whole numbers of ``March.at``: present segment, whether it has begun, film whose clocks are read next, state
+# of the circuit, and the film and the change of a state that is missing; filled rows of the events and of
+# the trace; what ended a piece, and at which film; and row of the voltage with a spectrum.
+SEGMENT, BEGUN, NEXT, STATE, MISSING, CHANGE, FILLED, TRACED, ENDED_BY, ENDED_AT, SPECTRAL = range(11)
+PLACES_OF_MARCH = 11
+
+# Columns of a voltage in ``March.meter``: peak [V] and integral of the square [V^2 s], both of straight lines
+# where a parabola turns back; and integral [V s], integral of the square [V^2 s], lowest and highest voltage.
+HIGH, SQUARE, SUM, SUM_OF_SQUARES, LOWEST_VOLTAGE, HIGHEST_VOLTAGE = range(6)
+
+# Rows of ``March.volts``: voltages at the start and at the end of a panel, and at the end of a part of it;
+# voltages at the start and at the end of this part, and in its middle, by the series; and voltages in a search.
+FIRST, LAST, UNTIL, BEFORE, AFTER, MIDDLE, SEARCH = range(7)
+VOLT_ROWS = 7
+
+
+class March(NamedTuple):
+    """Circuit, films, source, state and meters of a march; all but the first three and the source change.
+
+    With f films, v voltages, of which the first w are voltages of films, and n states.
+    """
+
+    rows: Complex  # modes of all states, as in ``CircuitStates``
+    squares: Complex
+    links: Integers
+    segments: Array  # pieces of the source, shape (3, m)
+    rings: Complex  # what rings from each piece on [V], shape (m,)
+    film: Array  # shape (f, SCALE + positions)
+    count: Integers  # shape (f, COUNTS)
     # Random numbers of an exponential distribution of mean 1, of each film for thresholds and for times,
-    # shape (2, 2, m).
+    # shape (f, 2, k).
     random: Array
-    used: Integers  # how many of them are used, shape (2, 2)
-
-
-@inner
-def state_of(films: Films, state: State) -> int:
-    """Number of the circuit's state: what both films do, and where their elements are."""
-    number = 0
-    for b in range(2):
-        doing = 0
-        if state.phase[b] == TOUCHING:
-            doing = 2
-        elif state.phase[b] != INSULATING:
-            doing = 1
-        number = number * films.states[0] + doing
-    return int((number * films.positions[0] + state.place[0]) * films.positions[1] + state.place[1])
-
-
-@inlined
-def threshold(films: Films, state: State, b: int) -> float:
-    """Voltage at which a film breaks down now [V]; below the voltage of extinction there is no arc."""
-    return float(max(films.scale[b, state.place[b]] * state.draw[b], films.extinction[b]))
-
-
-@inner
-def _random(state: State, b: int, stream: int) -> float:
-    """Next random number of a film."""
-    k = state.used[b, stream]
-    state.used[b, stream] = k + 1
-    return float(state.random[b, stream, k])
-
-
-@inner
-def next_film(films: Films, state: State, b: int) -> None:
-    """Draw the threshold of a new film from Weibull's law of scale 1; 1 without scatter."""
-    if math.isfinite(films.shape[b]):
-        state.draw[b] = _random(state, b, _THRESHOLDS) ** (1.0 / films.shape[b])
-    else:
-        state.draw[b] = 1.0
-
-
-@inner
-def waits(state: State, b: int, mean: float) -> float:
-    """Waiting time of a Poisson process of a mean interval [s]."""
-    return mean * _random(state, b, _TIMES) if math.isfinite(mean) else math.inf
-
-
-@inner
-def burns_in(state: State, b: int) -> bool:
-    """Whether an arc burns in a film, or has gone out while the film does not insulate yet."""
-    return bool(state.phase[b] == ARC or state.phase[b] == RECOVERING)
-
-
-class Meters(NamedTuple):
-    """Measured values; they are changed in place."""
-
-    # Lowest and highest voltage of the histograms [V], which are doubled where a voltage is beyond them,
-    # shape (2,).
-    edges: Array
+    x: Array  # states of the circuit, shape (n,)
+    charges: Array  # charges of the nodes while elements move [C], shape (n,)
+    ring: Complex  # amplitude [V] and rate [1/s] of the ringing, shape (2,)
+    now: Array  # shape (NUMBERS,)
+    at: Integers  # shape (PLACES_OF_MARCH,)
+    piece: Complex  # present piece, as in ``empty_piece``
+    series: Complex  # voltages over the present piece, as in ``empty_series``
+    volts: Array  # voltages [V], shape (VOLT_ROWS, v)
+    meter: Array  # shape (v, 6)
     # Time at the voltages of each bin [s]; the number of bins is a multiple of four, and half of them are
-    # below zero, shape (2, bins).
+    # below zero, shape (w, bins).
     histogram: Array
     limits: Array  # limits of the voltage [V], shape (l,)
-    above: Array  # time at which the absolute voltage is above each limit [s], shape (2, l)
-    peak: Array  # largest absolute voltage [V], shape (2,)
-    # Triangular means of the shaft voltage over the measured time [V], as in ``spectrum``, shape (n,).
-    shaft: Array
-    spaced: Array  # time of the first mean and spacing of the means [s], shape (2,)
-    touching: Array  # largest absolute voltage while asperities touch [V], shape (2,)
-    square: Array  # integral of the squared voltage over time [V^2 s], shape (2,)
-    # Integrals of the shaft voltage [V s] and of its square [V^2 s] over time, shape (2,).
-    of_shaft: Array
-    # Lowest and highest voltage of the shaft, and of the source without its ringing [V], shape (2, 2).
-    ranges: Array
-    # Time [s], voltage of the source without its ringing, and both voltages [V], until the table is full,
-    # shape (m, 4).
+    above: Array  # time at which the absolute voltage is above each limit [s], shape (w, l)
+    means: Array  # triangular means of the voltage of a shaft over the measured time [V], shape (k,)
+    # Time [s], voltage of the source without its ringing, and voltages of films [V], until the table is full,
+    # shape (k, 2 + w).
     trace: Array
-    traced: Array  # rows of the trace that are filled, shape (1,)
-    until: Array  # time interval of the trace [s], shape (2,)
-    # Tolerances of the voltage: within which it is taken as straight between two times, and below which the
-    # ringing of the source is over [V], shape (2,).
-    rough: Array
+    events: Array  # table that takes the events, shape (k, 8)
 
 
 @inner
-def measure(
-    meters: Meters, now: float, duration: float, source: float,
-    first: tuple[float, float], last: tuple[float, float], bend: tuple[float, float],
-) -> None:  # fmt: skip
-    """Measure voltages that go on parabolas from first to last values in a duration [s].
-
-    In its middle a parabola lies by ``bend`` [V] below the straight line between its ends. It is taken as
-    straight if it turns back between them.
-    """
-    largest = max(max(abs(first[0]), abs(last[0])), max(abs(first[1]), abs(last[1])))
-    while largest > meters.edges[1]:
-        _widen(meters)
-    for b in range(2):
-        v, w = first[b], last[b]
-        e = bend[b] if 4.0 * abs(bend[b]) <= abs(w - v) else 0.0
-        highest = max(abs(v), abs(w))
-        meters.peak[b] = max(meters.peak[b], highest)
-        # Integral of (v + (w - v) s - 4 e s (1 - s))^2 over s from 0 to 1.
-        square = (v * v + v * w + w * w - 2.0 * e * (v + w)) / 3.0 + 8.0 * e * e / 15.0
-        meters.square[b] += duration * square
-        _fill(meters, b, v, w, e, duration)
-        for k in range(meters.limits.size):
-            if highest > meters.limits[k]:
-                meters.above[b, k] += duration * _share_above(v, w, e, meters.limits[k])
-    row = meters.traced[0]
-    if row < meters.trace.shape[0] and meters.until[0] <= now < meters.until[1]:
-        meters.trace[row, 0], meters.trace[row, 1] = now, source
-        meters.trace[row, 2], meters.trace[row, 3] = first[0], first[1]
-        meters.traced[0] = row + 1
-
-
-@inlined
-def _widen(meters: Meters) -> None:
+def _widen(histogram: Array) -> None:
     """Double the width of all bins: each takes the time of two neighbours, from zero outwards."""
-    half = meters.histogram.shape[1] // 2
-    for b in range(2):
-        bins = meters.histogram[b]
+    half = histogram.shape[1] // 2
+    for b in range(histogram.shape[0]):
         for k in range(half):
-            inside = 2 * k + 1 < half
-            bins[half + k] = bins[half + 2 * k] + bins[half + 2 * k + 1] if inside else 0.0
-            bins[half - 1 - k] = bins[half - 1 - 2 * k] + bins[half - 2 - 2 * k] if inside else 0.0
-    meters.edges[0] *= 2.0
-    meters.edges[1] *= 2.0
+            upper, lower = 0.0, 0.0
+            if 2 * k + 1 < half:
+                upper = histogram[b, half + 2 * k] + histogram[b, half + 2 * k + 1]
+                lower = histogram[b, half - 1 - 2 * k] + histogram[b, half - 2 - 2 * k]
+            histogram[b, half + k], histogram[b, half - 1 - k] = upper, lower
 
 
 @inner
@@ -275,41 +221,8 @@ def _share_before(v: float, w: float, e: float, level: float) -> float:
     return min(2.0 * (level - v) / (steep + math.copysign(root, w - v)), 1.0)
 
 
-@inner
-def _share_above(v: float, w: float, e: float, limit: float) -> float:
-    """Share of the time on a parabola from v to w at which its absolute value is above a limit."""
-    if v == w:
-        return 1.0 if abs(v) > limit else 0.0
-    upper, lower = _share_before(v, w, e, limit), _share_before(v, w, e, -limit)
-    return 1.0 - abs(upper - lower)
-
-
-@inner
-def _fill(meters: Meters, b: int, v: float, w: float, e: float, duration: float) -> None:
-    """Share a duration on a parabola from v to w among the bins between both."""
-    bins = meters.histogram.shape[1]
-    width = (meters.edges[1] - meters.edges[0]) / bins
-    low, high = (min(v, w) - meters.edges[0]) / width, (max(v, w) - meters.edges[0]) / width
-    start, end = min(max(int(low), 0), bins - 1), min(max(int(high), 0), bins - 1)
-    if start == end:
-        meters.histogram[b, start] += duration
-    elif e == 0.0:
-        each = duration / (high - low)
-        meters.histogram[b, start] += each * (start + 1.0 - low)
-        for k in range(start + 1, end):
-            meters.histogram[b, k] += each
-        meters.histogram[b, end] += each * (high - end)
-    else:
-        before = 0.0 if w > v else 1.0
-        for k in range(start, end):
-            share = _share_before(v, w, e, meters.edges[0] + (k + 1) * width)
-            meters.histogram[b, k] += duration * abs(share - before)
-            before = share
-        meters.histogram[b, end] += duration * abs((1.0 if w > v else 0.0) - before)
-
-
 # What ended a piece.
-_NOTHING, _BROKEN, _OUT = range(3)
+NOTHING, BROKEN, OUT = range(3)
 
 # Abscissae and weights of Gauss and Legendre on (0, 1) for charge and energy of an arc, and the exponent at
 # which a mode is over. Rate times duration of a panel, L, leaves an error of 5.8e-31 L^21 in the integral of
@@ -317,7 +230,7 @@ _NOTHING, _BROKEN, _OUT = range(3)
 # L is the smaller one of 4 exp(2 E/21) and 7.4 exp(E/21).
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(10)
 _OF_SQUARE, _OF_MODE, _ORDER, _GONE = 4.0, 7.4, 21.0, 40.0
-POINTS, WEIGHTS = 0.5 * (_POINTS + 1.0), 0.5 * _WEIGHTS
+POINTS, GAUSS_WEIGHTS = 0.5 * (_POINTS + 1.0), 0.5 * _WEIGHTS
 
 
 # Voltages are measured as parabolas. While an arc burns, these differ from straight lines by this part of the
@@ -332,41 +245,12 @@ _MEASURED = -0.5
 _FED = 1.0 + 1e-9
 
 
-class Work(NamedTuple):
-    """Arrays in which a march works; they are changed in place."""
-
-    piece: Complex  # present piece, shape (ROWS, n + FURTHER)
-    course: PieceVoltages  # voltages over the present piece
-    volts: Array  # voltages across both films at the end of the present piece [V], shape (2,)
-    charges: Array  # charges of the nodes while elements move [C], shape (n,)
-    events: Array  # table that takes the events, shape (m, 8)
-    filled: Integers  # rows of the table that are filled, shape (1,)
-
-
-def work_of(size: int, events: int) -> Work:
-    """Allocate the arrays for a number of circuit states, and a table for a number of events."""
-    return Work(
-        piece=np.zeros((ROWS, size + FURTHER), dtype=np.complex128),
-        course=empty_piece_voltages(size + FURTHER),
-        volts=np.zeros(2),
-        charges=np.zeros(size),
-        events=np.zeros((events, COLUMNS)),
-        filled=np.zeros(1, dtype=np.int64),
-    )
-
-
-@inlined
-def _most_used(state: State) -> int:
-    """Largest number of random numbers of a film that are used."""
-    return int(max(max(state.used[0, 0], state.used[0, 1]), max(state.used[1, 0], state.used[1, 1])))
-
-
 @inner
-def _panel(piece: Complex, t: float, left: float, rough: float) -> float:
-    """Time from t on over which both voltages are straight within a tolerance ``rough`` [V]."""
+def _panel(piece: Complex, films: int, t: float, left: float, rough: float) -> float:
+    """Time from t on over which the voltages of all films are straight within a tolerance ``rough`` [V]."""
     bound = 0.0
-    for film in range(2):
-        bound = max(bound, curvature_bound(piece, film, t))
+    for v in range(films):
+        bound = max(bound, curvature_bound(piece, v, t))
     return left if bound == 0.0 else min(left, math.sqrt(8.0 * rough / bound))
 
 
@@ -382,300 +266,394 @@ def _burning_panel(piece: Complex, t: float, left: float) -> float:
     return h
 
 
-@inlined
-def _burn(
-    course: PieceVoltages, films: Films, state: State, t: float, h: float, first: tuple[float, float]
-) -> None:
+@inner
+def _burn(film: Array, count: Integers, series: Complex, t: float, h: float, first: Array, volts: Array
+          ) -> None:  # fmt: skip
     """Add charge, energy and largest current of the arcs between t and t + h to their events."""
-    for b in range(2):
-        if not burns_in(state, b):
-            continue
-        linear, square, largest = 0.0, 0.0, abs(first[b])
-        for k in range(POINTS.size):
-            v = all_at(course, t + h * POINTS[k])[b]
-            linear += WEIGHTS[k] * v
-            square += WEIGHTS[k] * v * v
-            largest = max(largest, abs(v))
-        state.event[b, CHARGE] += h * linear / films.arc[b]
-        state.event[b, ENERGY] += h * square / films.arc[b]
-        state.event[b, PEAK] = max(state.event[b, PEAK], largest / films.arc[b])
+    for b in range(count.shape[0]):
+        if count[b, PHASE] == ARC or count[b, PHASE] == RECOVERING:
+            row, arc = count[b, ROW], film[b, ARC_RESISTANCE]
+            linear, square, largest = 0.0, 0.0, abs(first[row])
+            for k in range(POINTS.size):
+                all_at(series, t + h * POINTS[k], volts)
+                v = volts[row]
+                linear += GAUSS_WEIGHTS[k] * v
+                square += GAUSS_WEIGHTS[k] * v * v
+                largest = max(largest, abs(v))
+            film[b, EVENT + CHARGE] += h * linear / arc
+            film[b, EVENT + ENERGY] += h * square / arc
+            film[b, EVENT + PEAK] = max(film[b, EVENT + PEAK], largest / arc)
 
 
 @inner
-def _measure(meters: Meters, rough: float, piece: Complex, course: PieceVoltages, source: Source, now: float,
-             t: float, end: float, first: tuple[float, float], last: tuple[float, float]
-             ) -> None:  # fmt: skip
-    """Measure the voltages between t and end of a piece that began at ``now``, as parabolas.
+def _part(piece: Complex, series: Complex, films: int, rough: float, t: float, end: float, volts: Array
+          ) -> float:  # fmt: skip
+    """End of a part of a panel [s] in which the voltages of films are parabolas that do not turn back.
 
-    Those across the films differ from their straight lines by ``rough`` [V] at the most.
+    They differ from their straight lines by ``rough`` [V] at the most. Writes the voltages in its middle and
+    at its end.
     """
-    shaft = all_at(course, t)[2]
-    while t < end:
-        h = _panel(piece, t, end - t, rough)
-        # A parabola that turns back within its panel is parted, down to straight ones.
-        while True:
-            after, then = end, last
-            at_end = all_at(course, min(t + h, end))
-            if t + h < end:
-                after, then = t + h, (at_end[0], at_end[1])
-            # Height of the straight lines over the voltages in the middle.
-            middle = all_at(course, 0.5 * (t + after))
-            bend = 0.5 * (first[0] + then[0]) - middle[0], 0.5 * (first[1] + then[1]) - middle[1]
-            turns = max(_turn(bend[0], first[0], then[0]), _turn(bend[1], first[1], then[1]))
-            if turns <= _STRAIGHT * rough:
-                break
-            h = 0.5 * (after - t)
-        at_start, at_stop = source.level + source.slope * t, source.level + source.slope * after
-        measure(meters, now + t, after - t, at_start, first, then, bend)
-        _measure_shaft(meters, after - t, shaft, middle[2], at_end[2])
-        _stretch(meters.ranges[1], at_start, at_stop)
-        begin, lasts = (now + t - meters.spaced[0]) / meters.spaced[1], (after - t) / meters.spaced[1]
-        if begin > _MEASURED:
-            add_parabola(meters.shaft, begin, lasts, shaft, middle[2], at_end[2])
-        t, first, shaft = after, then, at_end[2]
-
-
-@inlined
-def _measure_shaft(meters: Meters, duration: float, first: float, middle: float, last: float) -> None:
-    """Measure a shaft voltage that goes on a parabola, from its begin, middle and end [V]."""
-    bend = 0.5 * (first + last) - middle
-    meters.of_shaft[0] += duration * (first + 4.0 * middle + last) / 6.0
-    square = (first * first + first * last + last * last - 2.0 * bend * (first + last)) / 3.0
-    meters.of_shaft[1] += duration * (square + 8.0 * bend * bend / 15.0)
-    _stretch(meters.ranges[0], first, last)
-    _stretch(meters.ranges[0], middle, middle)
+    after, middle = volts[AFTER], volts[MIDDLE]
+    h, turns, to = _panel(piece, films, t, end - t, rough), math.inf, end
+    while turns > _STRAIGHT * rough:
+        to, by_series = end, t + h < end
+        if by_series:
+            to = t + h
+        all_at(series, to, after)
+        all_at(series, 0.5 * (t + to), middle)
+        turns = 0.0
+        for b in range(films):
+            v, w = volts[FIRST, b], volts[LAST, b]
+            if by_series:
+                w = after[b]
+            volts[UNTIL, b] = w
+            # Height of the straight line over the voltage in the middle.
+            bend = abs(0.5 * (v + w) - middle[b])
+            if 4.0 * bend > abs(w - v):
+                turns = max(turns, bend)
+        h = 0.5 * (to - t)
+    return to
 
 
 @inner
-def _stretch(ends: Array, first: float, last: float) -> None:
-    """Let a range, its lowest and its highest value, hold two further values."""
-    ends[0], ends[1] = min(ends[0], first, last), max(ends[1], first, last)
-
-
-@inlined
-def _turn(bend: float, first: float, last: float) -> float:
-    """Bend [V] of a parabola that turns back between its ends, zero for another one."""
-    return abs(bend) if 4.0 * abs(bend) > abs(last - first) else 0.0
+def _fill(histogram: Array, b: int, now: Array, v: float, w: float, e: float, duration: float
+          ) -> None:  # fmt: skip
+    """Share a duration on a parabola from v to w among the bins between both."""
+    bins, left = histogram.shape[1], now[LEFT_EDGE]
+    width = (now[RIGHT_EDGE] - left) / bins
+    low, high = (min(v, w) - left) / width, (max(v, w) - left) / width
+    start, end = int(low), int(high)
+    start = 0 if start < 0 else bins - 1 if start >= bins else start
+    end = 0 if end < 0 else bins - 1 if end >= bins else end
+    if start == end:
+        histogram[b, start] += duration
+    elif e == 0.0:
+        each = duration / (high - low)
+        histogram[b, start] += each * (start + 1.0 - low)
+        for k in range(start + 1, end):
+            histogram[b, k] += each
+        histogram[b, end] += each * (high - end)
+    else:
+        before = 0.0 if w > v else 1.0
+        for k in range(start, end):
+            share = _share_before(v, w, e, left + (k + 1) * width)
+            histogram[b, k] += duration * abs(share - before)
+            before = share
+        histogram[b, end] += duration * abs((1.0 if w > v else 0.0) - before)
 
 
 @inner
-def _ended(piece: Complex, films: Films, state: State, t: float, end: float, first: tuple[float, float],
-           last: tuple[float, float]) -> tuple[float, int, int]:  # fmt: skip
-    """First time between t and end at which a film breaks down or an arc goes out, what it is, and where.
+def _measure_films(histogram: Array, limits: Array, above: Array, meter: Array, now: Array, volts: Array,
+                   duration: float) -> None:  # fmt: skip
+    """Measure the voltages of films, which go on parabolas in a duration [s].
+
+    They are taken as straight where the parabola turns back between its ends.
+    """
+    films, largest = histogram.shape[0], 0.0
+    for b in range(films):
+        largest = max(largest, max(abs(volts[FIRST, b]), abs(volts[UNTIL, b])))
+    while largest > now[RIGHT_EDGE]:
+        _widen(histogram)
+        now[LEFT_EDGE] *= 2.0
+        now[RIGHT_EDGE] *= 2.0
+    for b in range(films):
+        v, w = volts[FIRST, b], volts[UNTIL, b]
+        e = 0.5 * (v + w) - volts[MIDDLE, b]
+        if 4.0 * abs(e) > abs(w - v):
+            e = 0.0
+        highest = max(abs(v), abs(w))
+        meter[b, HIGH] = max(meter[b, HIGH], highest)
+        # Integral of (v + (w - v) s - 4 e s (1 - s))^2 over s from 0 to 1.
+        square = (v * v + v * w + w * w - 2.0 * e * (v + w)) / 3.0 + 8.0 * e * e / 15.0
+        meter[b, SQUARE] += duration * square
+        _fill(histogram, b, now, v, w, e, duration)
+        for k in range(limits.size):
+            if highest > limits[k]:
+                share = 1.0
+                if v != w:
+                    upper = _share_before(v, w, e, limits[k])
+                    share = 1.0 - abs(upper - _share_before(v, w, e, -limits[k]))
+                above[b, k] += duration * share
+
+
+@inner
+def _measure_all(meter: Array, volts: Array, duration: float) -> None:
+    """Measure all voltages, which go on parabolas in a duration [s], and go on to the end of this part."""
+    for b in range(meter.shape[0]):
+        v, w, middle = volts[BEFORE, b], volts[AFTER, b], volts[MIDDLE, b]
+        e = 0.5 * (v + w) - middle
+        meter[b, SUM] += duration * (v + 4.0 * middle + w) / 6.0
+        square = (v * v + v * w + w * w - 2.0 * e * (v + w)) / 3.0
+        meter[b, SUM_OF_SQUARES] += duration * (square + 8.0 * e * e / 15.0)
+        meter[b, LOWEST_VOLTAGE] = min(meter[b, LOWEST_VOLTAGE], min(min(v, w), middle))
+        meter[b, HIGHEST_VOLTAGE] = max(meter[b, HIGHEST_VOLTAGE], max(max(v, w), middle))
+        volts[FIRST, b], volts[BEFORE, b] = volts[UNTIL, b], w
+
+
+@inner
+def _ended(piece: Complex, film: Array, count: Integers, at: Integers, t: float, end: float, volts: Array
+           ) -> float:  # fmt: skip
+    """First time between t and end at which a film breaks down or an arc goes out.
 
     The voltage differs from the straight line between its first and last value by less than its curvature
-    allows, so that most panels need no search.
+    allows, so that most panels need no search. Of discharges that begin at once and take no time, the film
+    with the largest ratio of voltage to threshold is the first.
     """
-    what, film = _NOTHING, 0
-    for b in range(2):
-        bound = curvature_bound(piece, b, t) * (end - t) * (end - t) / 8.0
-        low, high = min(abs(first[b]), abs(last[b])), max(abs(first[b]), abs(last[b]))
-        if first[b] * last[b] < 0.0:
-            low = 0.0
-        # One call for both ways, and so one compilation.
-        way, level, near = FALLS, films.extinction[b], False
-        if state.phase[b] == INSULATING:
-            way, level = RISES, threshold(films, state, b)
-            near = high + bound >= level
-        elif state.phase[b] == ARC:
-            near = low - bound <= level
-        if near:
-            crossed = crossing(piece, b, t, end, level, way)
-            if 0.0 <= crossed <= end:
-                what, film, end = (_BROKEN if way == RISES else _OUT), b, crossed
-    return end, what, film
+    at[ENDED_BY], largest = NOTHING, 0.0
+    for b in range(count.shape[0]):
+        phase, row = count[b, PHASE], count[b, ROW]
+        rises = phase == INSULATING
+        if rises or phase == ARC:
+            v, w, level = volts[FIRST, row], volts[LAST, row], film[b, EXTINCTION]
+            bound = curvature_bound(piece, row, t) * (end - t) * (end - t) / 8.0
+            if rises:
+                level = max(film[b, SCALE + count[b, AT_PLACE]] * film[b, DRAW], level)
+                near = max(abs(v), abs(w)) + bound >= level
+            else:
+                near = v * w < 0.0 or min(abs(v), abs(w)) - bound <= level
+            if near:
+                crossed = crossing(piece, row, t, end, level, rises, volts[SEARCH])
+                ratio = abs(v) / level if film[b, ARC_RESISTANCE] == 0.0 else 0.0
+                if 0.0 <= crossed < end or (crossed == end and ratio >= largest):
+                    end, largest = crossed, ratio
+                    at[ENDED_BY], at[ENDED_AT] = (BROKEN if rises else OUT), b
+    return end
 
 
 @inner
-def _piece(circuits: Modes, films: Films, state: State, source: Source, left: float,
-           piece: Complex, course: PieceVoltages, meters: Meters, now: float,
-           volts: Array) -> tuple[float, int, int]:  # fmt: skip
-    """Go on for a time in which nothing is scheduled, or until a film breaks down or an arc goes out.
-
-    ``volts`` takes the voltages across both films at the end.
-
-    Returns time that has passed [s], what ended it, and at which film.
-    """
-    c = state_of(films, state)
-    begin(circuits, c, state.x, source, piece)
-    t, what, film = 0.0, _NOTHING, 0
-    burns = False
-    for b in range(2):
-        burns = burns or burns_in(state, b)
-    unfold(piece, left, course)
-    move(piece, 0.0)
-    first = voltages(piece)
-    while t < left and what == _NOTHING:
-        h = _burning_panel(piece, t, left - t) if burns else _panel(piece, t, left - t, meters.rough[0])
-        end = left if t + h >= left else t + h
-        move(piece, end)
-        last = voltages(piece)
-        end, what, film = _ended(piece, films, state, t, end, first, last)
-        if what != _NOTHING:
-            move(piece, end)
-            last = voltages(piece)
-        rough = meters.rough[0]
-        if burns:
-            _burn(course, films, state, t, end - t, first)
-            rough = max(_OF_ARC * max(abs(first[0]), abs(first[1])), _LEAST * rough)
-        _measure(meters, rough, piece, course, source, now, t, end, first, last)
-        for b in range(2):
-            if state.phase[b] == TOUCHING:
-                meters.touching[b] = max(meters.touching[b], abs(first[b]), abs(last[b]))
-        t, first = end, last
-    volts[0], volts[1] = first
-    move(piece, t)
-    states_at(circuits, c, piece, state.x)
-    return t, what, film
-
-
-@inlined
-def _replace(circuits: Modes, films: Films, state: State, b: int, volts: float, charges: Array
-             ) -> None:  # fmt: skip
-    """Move the elements of a bearing to their next position; the charges of all nodes stay."""
-    before = state_of(films, state)
-    state.place[b] = (state.place[b] + 1) % films.positions[b]
-    after = state_of(films, state)
-    n = state.x.size
+def _move_elements(rows: Complex, squares: Complex, before: int, after: int, x: Array, volts: float,
+                   charges: Array) -> None:  # fmt: skip
+    """Take the states of the circuit after elements have moved; the charges of all nodes stay."""
+    n = x.size
     for i in range(n):
         charges[i] = 0.0
         for j in range(n):
-            charges[i] += circuits.charge[before, i, j] * (state.x[j] - circuits.jump[before, j] * volts)
+            charges[i] += squares[before, CHARGES, i, j].real * (x[j] - rows[before, JUMP_ROW, j].real * volts)
     for i in range(n):
-        value = circuits.jump[after, i] * volts
+        value = rows[after, JUMP_ROW, i].real * volts
         for j in range(n):
-            value += circuits.uncharge[after, i, j] * charges[j]
-        state.x[i] = value
-
-
-@inlined
-def _ignite(state: State, b: int, now: float, volts: float) -> None:
-    """Let the film of a bearing break down."""
-    state.phase[b] = ARC
-    for column in range(COLUMNS):
-        state.event[b, column] = 0.0
-    state.event[b, ON], state.event[b, FILM], state.event[b, VOLTAGE] = now, b, volts
-    state.event[b, PLACE] = state.place[b]
+            value += squares[after, UNCHARGE, i, j].real * charges[j]
+        x[i] = value
 
 
 @inner
-def _insulate(films: Films, state: State, b: int, now: float, work: Work) -> None:
-    """Let the film insulate again: its event is over, and the next threshold is drawn."""
-    count = work.filled[0]
-    work.filled[0] = count + 1
-    state.phase[b] = INSULATING
-    state.clocks[b, RECOVERY] = math.inf
-    state.event[b, OFF] = now
+def _ignite(rows: Complex, c: int, x: Array, film: Array, count: Integers, b: int, time: float, volts: Array
+            ) -> None:  # fmt: skip
+    """Let a film break down: an arc begins. Without a resistance it takes no time, and ends at extinction.
+
+    With the capacitance C_th that is discharged, the charge is C_th (U - U_r), and the energy
+    C_th (U^2 - U_r^2)/2 of voltages before and after.
+    """
+    row = count[b, ROW]
+    v = volts[row]
     for column in range(COLUMNS):
-        work.events[count, column] = state.event[b, column]
-    next_film(films, state, b)
+        film[b, EVENT + column] = 0.0
+    film[b, EVENT + ON], film[b, EVENT + FILM], film[b, EVENT + VOLTAGE] = time, b, v
+    film[b, EVENT + PLACE] = count[b, AT_PLACE]
+    count[b, PHASE] = ARC
+    if film[b, ARC_RESISTANCE] == 0.0:
+        spark = VOLTAGE_ROWS + volts.size + row
+        rest = math.copysign(film[b, EXTINCTION], v)
+        capacitance = rows[c, spark, x.size].real
+        for i in range(x.size):
+            x[i] -= rows[c, spark, i].real * (v - rest)
+        film[b, EVENT + CHARGE] = capacitance * (v - rest)
+        film[b, EVENT + ENERGY] = 0.5 * capacitance * (v * v - rest * rest)
+        film[b, RECOVERY] = 0.0
 
 
-@inlined
-def _scheduled(circuits: Modes, films: Films, state: State, b: int, now: float, source: float,
-               work: Work) -> None:  # fmt: skip
-    """Do what the clocks of a bearing say."""
-    if state.clocks[b, POSITION] <= 0.0:
-        _replace(circuits, films, state, b, source, work.charges)
-        state.clocks[b, POSITION] = films.step[b]
-    if state.clocks[b, RENEWAL] <= 0.0:
-        if state.phase[b] == INSULATING or state.phase[b] == TOUCHING:
-            next_film(films, state, b)
-        state.clocks[b, RENEWAL] = waits(state, b, films.renewal[b])
-    if state.clocks[b, RECOVERY] <= 0.0:
-        if abs(work.volts[b]) > _FED * films.extinction[b]:
-            # The source has fed the arc again.
-            state.phase[b], state.clocks[b, RECOVERY] = ARC, math.inf
+@inner
+def _scheduled(film: Array, count: Integers, b: int, random: Array, events: Array, at: Integers, time: float,
+               volts: Array) -> None:  # fmt: skip
+    """Do what the clocks of a film say, except the clock of its elements."""
+    over, renewed, phase, used = False, False, count[b, PHASE], count[b, USED + TIMES]
+    if film[b, RENEWAL] <= 0.0:
+        renewed = phase == INSULATING or phase == TOUCHING
+        film[b, RENEWAL] = film[b, MEAN_RENEWAL] * random[b, TIMES, used]
+        used += 1
+    if film[b, RECOVERY] <= 0.0:
+        # The source may have fed the arc again.
+        over = film[b, ARC_RESISTANCE] == 0.0 or abs(volts[count[b, ROW]]) <= _FED * film[b, EXTINCTION]
+        phase = INSULATING if over else ARC
+        film[b, RECOVERY] = math.inf
+    if film[b, TOUCH] <= 0.0:
+        over = over or phase == ARC or phase == RECOVERING
+        if phase == TOUCHING:
+            phase, renewed = INSULATING, True
         else:
-            _insulate(films, state, b, now, work)
-    if state.clocks[b, TOUCH] <= 0.0:
-        _touch(films, state, b, now, work)
-        touching = state.phase[b] == TOUCHING
-        state.clocks[b, TOUCH] = waits(state, b, films.touch[b, 1 if touching else 0])
+            phase, film[b, RECOVERY] = TOUCHING, math.inf
+        film[b, TOUCH] = film[b, MEAN_TOUCH + phase // TOUCHING] * random[b, TIMES, used]
+        used += 1
+    if over:
+        filled = at[FILLED]
+        at[FILLED] = filled + 1
+        film[b, EVENT + OFF] = time
+        for column in range(COLUMNS):
+            events[filled, column] = film[b, EVENT + column]
+    if (over or renewed) and film[b, EXPONENT] > 0.0:
+        film[b, DRAW] = random[b, THRESHOLDS, count[b, USED]] ** film[b, EXPONENT]
+        count[b, USED] += 1
+    count[b, PHASE], count[b, USED + TIMES] = phase, used
 
 
-@inlined
-def _touch(films: Films, state: State, b: int, now: float, work: Work) -> None:
-    """Let asperities of a bearing touch, or part; an arc ends where they touch."""
-    if state.phase[b] == TOUCHING:
-        state.phase[b] = INSULATING
-        next_film(films, state, b)
-        return
-    if state.phase[b] != INSULATING:
-        _insulate(films, state, b, now, work)
-    state.phase[b] = TOUCHING
+@inner
+def _ready(links: Integers, count: Integers, at: Integers, events: int, reserve: int) -> bool:
+    """Whether there is room for events and random numbers, and the modes of the present state are made."""
+    ready = at[FILLED] + 2 * count.shape[0] <= events
+    for b in range(count.shape[0]):
+        does = (count[b, PHASE] + 1) // 2
+        ready = ready and count[b, USED] <= reserve and count[b, USED + TIMES] <= reserve
+        if ready and links[at[STATE], b, DOES] != does:
+            after = links[at[STATE], b, does]
+            if after < 0:
+                at[MISSING], at[CHANGE] = b, does
+                ready = False
+            else:
+                at[STATE] = after
+    return ready
 
 
-@inlined
-def _start_clocks(films: Films, state: State, b: int) -> None:
-    """Set the clocks of a bearing that are not set yet, and draw its first threshold."""
-    if not math.isnan(state.clocks[b, POSITION]):
-        return
-    state.clocks[b, POSITION] = films.step[b]
-    state.clocks[b, RENEWAL] = waits(state, b, films.renewal[b])
-    state.clocks[b, RECOVERY] = math.inf
-    state.clocks[b, TOUCH] = waits(state, b, films.touch[b, 0])
-    next_film(films, state, b)
+@inner
+def _until_next(film: Array, left: float) -> float:
+    """Time to the next change [s] in a segment of which some time is left."""
+    for b in range(film.shape[0]):
+        for clock in range(CLOCKS):
+            if film[b, clock] < left:
+                left = max(film[b, clock], 0.0)
+    return left
 
 
-@inlined
-def _until_next(state: State, left: float) -> tuple[float, bool]:
-    """Time to the next change [s], and whether it is the end of the segment, of which some time is left."""
-    ends = True
-    for b in range(2):
-        for clock in range(4):
-            if state.clocks[b, clock] < left:
-                left, ends = max(state.clocks[b, clock], 0.0), False
-    return left, ends
-
-
-@inlined
-def _pass_time(circuits: Modes, state: State, t: float, silent: float) -> None:
+@inner
+def _pass_time(film: Array, now: Array, ring: Complex, t: float) -> None:
     """Let a time pass on all clocks, and let the source ring on; below an amplitude it is silent."""
-    for b in range(2):
-        for clock in range(4):
-            state.clocks[b, clock] -= t
-    if state.ring[0] != 0.0:
-        state.ring[0] *= cmath.exp(circuits.ring[0] * t)
-        if abs(state.ring[0]) < silent:
-            state.ring[0] = 0.0
-    state.time[1] += t
+    for b in range(film.shape[0]):
+        for clock in range(CLOCKS):
+            film[b, clock] -= t
+    if ring[0] != 0.0:
+        ring[0] *= cmath.exp(ring[1] * t)
+        if abs(ring[0]) < now[SILENT]:
+            ring[0] = 0.0
+    now[SINCE] += t
+    now[PASSED] += t
+
+
+@inlined
+def _measure(march: March, rough: float, level: float, slope: float, t: float, end: float) -> None:
+    """Measure the voltages between t and end of the present piece, as parabolas.
+
+    The source is u0 [V] and s [V/s] at the start of the piece.
+    """
+    now, at, volts, trace, films = march.now, march.at, march.volts, march.trace, march.histogram.shape[0]
+    start, shown = now[TIME] + now[SINCE], at[SPECTRAL]
+    all_at(march.series, t, volts[BEFORE])
+    while t < end:
+        to = _part(march.piece, march.series, films, rough, t, end, volts)
+        source, row = level + slope * t, at[TRACED]
+        now[SOURCE_LOW] = min(now[SOURCE_LOW], min(source, level + slope * to))
+        now[SOURCE_HIGH] = max(now[SOURCE_HIGH], max(source, level + slope * to))
+        if row < trace.shape[0] and now[TRACE_FROM] <= start + t < now[TRACE_TO]:
+            trace[row, 0], trace[row, 1] = start + t, source
+            for b in range(films):
+                trace[row, 2 + b] = volts[FIRST, b]
+            at[TRACED] = row + 1
+        begins = (start + t - now[FIRST_MEAN]) / now[SPACING]
+        if begins > _MEASURED:
+            v, middle, w = volts[BEFORE, shown], volts[MIDDLE, shown], volts[AFTER, shown]
+            add_parabola(march.means, begins, (to - t) / now[SPACING], v, middle, w)
+        _measure_films(march.histogram, march.limits, march.above, march.meter, now, volts, to - t)
+        _measure_all(march.meter, volts, to - t)
+        t = to
+
+
+@inlined
+def _piece(march: March, level: float, slope: float, left: float) -> float:
+    """Go on for a time in which nothing is scheduled, or until a film breaks down or an arc goes out.
+
+    Returns time that has passed [s]. ``FIRST`` of the voltages is at its end.
+    """
+    piece, film, count, volts, at = march.piece, march.film, march.count, march.volts, march.at
+    films, rough, first, last = march.histogram.shape[0], march.now[ROUGH], volts[FIRST], volts[LAST]
+    begin(march.rows, march.squares, at[STATE], march.x, level, slope, march.ring, piece)
+    unfold(piece, left, march.series)
+    burns = False
+    for b in range(count.shape[0]):
+        burns = burns or count[b, PHASE] == ARC or count[b, PHASE] == RECOVERING
+    t, at[ENDED_BY] = 0.0, NOTHING
+    move(piece, 0.0, first)
+    while t < left and at[ENDED_BY] == NOTHING:
+        h = _burning_panel(piece, t, left - t) if burns else _panel(piece, films, t, left - t, rough)
+        end = left if t + h >= left else t + h
+        move(piece, end, last)
+        end = _ended(piece, film, count, at, t, end, volts)
+        if at[ENDED_BY] != NOTHING:
+            move(piece, end, last)
+        within = rough
+        if burns:
+            _burn(film, count, march.series, t, end - t, first, volts[MIDDLE])
+            largest = 0.0
+            for v in range(films):
+                largest = max(largest, abs(first[v]))
+            within = max(_OF_ARC * largest, _LEAST * rough)
+        for b in range(count.shape[0]):
+            if count[b, PHASE] == TOUCHING:
+                highest = max(abs(first[count[b, ROW]]), abs(last[count[b, ROW]]))
+                film[b, TOUCHED] = max(film[b, TOUCHED], highest)
+        _measure(march, within, level, slope, t, end)
+        t = end
+    move(piece, t, last)
+    states_at(march.rows, march.squares, at[STATE], piece, march.x)
+    return t
 
 
 @compiled
-def advance(circuits: Modes, films: Films, segments: Segments, state: State, meters: Meters,
-            work: Work) -> None:  # fmt: skip
-    """March through segments of the source, from where the state stands until their end."""
-    piece, course, volts = work.piece, work.course, work.volts
-    k, passed = int(state.cursor[0]), state.cursor[1]
-    work.filled[0] = 0
-    for b in range(2):
-        _start_clocks(films, state, b)
-    while k < segments.duration.size:
-        if state.cursor[2] == 0.0:
-            state.ring[0] += segments.ring[k]
-            state.cursor[2] = 1.0
-        while passed < segments.duration[k]:
-            used = _most_used(state)
-            if work.filled[0] + 4 > work.events.shape[0] or used > state.random.shape[2] - RESERVE:
-                state.cursor[0], state.cursor[1] = k, passed
-                return
-            left, ends = _until_next(state, segments.duration[k] - passed)
-            level = segments.level[k] + segments.slope[k] * passed
-            source = Source(level, segments.slope[k], state.ring[0])
-            now = state.time[0] + state.time[1]
-            t, what, film = _piece(circuits, films, state, source, left, piece, course, meters, now, volts)
-            _pass_time(circuits, state, t, meters.rough[1])
-            passed = segments.duration[k] if ends and what == _NOTHING else passed + t
-            now = state.time[0] + state.time[1]
-            if what == _BROKEN:
-                _ignite(state, film, now, volts[film])
-            elif what == _OUT:
-                state.phase[film] = RECOVERING
-                state.clocks[film, RECOVERY] = films.recovery[film]
-            at = level + segments.slope[k] * t + state.ring[0].real
-            for b in range(2):
-                _scheduled(circuits, films, state, b, now, at, work)
-        k, passed, state.cursor[2] = k + 1, 0.0, 0.0
-    state.time[0], state.time[1] = state.time[0] + state.time[1], 0.0
-    state.cursor[0], state.cursor[1] = -1.0, 0.0
+def advance(march: March) -> None:
+    """March through segments of the source, from where it stands until their end.
+
+    It stops earlier if the table of events is full, random numbers are used up, or a state is missing.
+    """
+    now, at, film, count = march.now, march.at, march.film, march.count
+    films, volts, reserve = count.shape[0], march.volts[FIRST], march.random.shape[2] - RESERVE
+    while at[SEGMENT] < march.segments.shape[1]:
+        k = at[SEGMENT]
+        duration, slope = march.segments[DURATION, k], march.segments[RISE, k]
+        if at[BEGUN] == 0:
+            march.ring[0] += march.rings[k]
+            at[BEGUN] = 1
+        while now[PASSED] < duration or at[NEXT] < films:
+            if at[NEXT] == films:
+                if not _ready(march.links, count, at, march.events.shape[0], reserve):
+                    return
+                left = _until_next(film, duration - now[PASSED])
+                ends = left == duration - now[PASSED]
+                level = march.segments[LEVEL, k] + slope * now[PASSED]
+                t = _piece(march, level, slope, left)
+                _pass_time(film, now, march.ring, t)
+                b = at[ENDED_AT]
+                if at[ENDED_BY] == BROKEN:
+                    time = now[TIME] + now[SINCE]
+                    _ignite(march.rows, at[STATE], march.x, film, count, b, time, volts)
+                elif at[ENDED_BY] == OUT:
+                    count[b, PHASE], film[b, RECOVERY] = RECOVERING, film[b, RECOVERS]
+                elif ends:
+                    now[PASSED] = duration
+                now[SOURCE] = level + slope * t + march.ring[0].real
+                at[NEXT] = 0
+            while at[NEXT] < films:
+                b, before = at[NEXT], at[STATE]
+                if film[b, POSITION] <= 0.0:
+                    after = march.links[before, b, MOVED]
+                    if after < 0:
+                        at[MISSING], at[CHANGE] = b, MOVED
+                        return
+                    _move_elements(
+                        march.rows, march.squares, before, after, march.x, now[SOURCE], march.charges
+                    )
+                    at[STATE], film[b, POSITION] = after, film[b, STEP]
+                    count[b, AT_PLACE] = (count[b, AT_PLACE] + 1) % count[b, PLACES]
+                _scheduled(
+                    film, count, b, march.random, march.events, at, now[TIME] + now[SINCE], volts
+                )
+                at[NEXT] = b + 1
+        at[SEGMENT], now[PASSED], at[BEGUN] = k + 1, 0.0, 0
+    now[TIME], now[SINCE] = now[TIME] + now[SINCE], 0.0
+    at[SEGMENT] = -1

@@ -1,4 +1,4 @@
-"""Films of the bearings and pieces of the source, as the compiled march through discharges reads them."""
+"""Films of bearings and meshes, and pieces of the source, as the march through discharges reads them."""
 
 from __future__ import annotations
 
@@ -18,20 +18,19 @@ Integers: TypeAlias = NDArray[np.int64]
 
 
 class Films(NamedTuple):
-    """Films of both bearings."""
+    """Films of n bearings and gear meshes, each with positions of its rolling elements or teeth."""
 
     # Breakdown voltage at which a draw is 1 [V]; infinite for films that do not break down,
-    # shape (2, positions).
+    # shape (n, positions).
     scale: Array
-    positions: Integers  # number of positions of the elements, shape (2,)
-    step: Array  # time from one position to the next [s], shape (2,)
-    shape: Array  # shape of Weibull's law; infinite without scatter, shape (2,)
-    renewal: Array  # mean time after which a new film with a new threshold is in the contacts [s], shape (2,)
-    arc: Array  # arc resistance [Ohm], shape (2,)
-    extinction: Array  # voltage across the arc below which it goes out [V], shape (2,)
-    recovery: Array  # time from there until the film insulates again [s], shape (2,)
-    touch: Array  # mean times without and with touching asperities [s], shape (2, 2)
-    states: Integers  # states of one film: 2, or 3 where films touch, shape (1,)
+    positions: Integers  # number of positions of each film, shape (n,)
+    step: Array  # time from one position to the next [s], shape (n,)
+    shape: Array  # shape of Weibull's law; infinite without scatter, shape (n,)
+    renewal: Array  # mean time after which a new film with a new threshold is in the contacts [s], shape (n,)
+    arc: Array  # arc resistance [Ohm]; 0 for discharges that take no time, shape (n,)
+    extinction: Array  # voltage across the arc below which it goes out [V], shape (n,)
+    recovery: Array  # time from there until the film insulates again [s], shape (n,)
+    touch: Array  # mean times without and with touching asperities [s], shape (n, 2)
 
 
 class Segments(NamedTuple):
@@ -44,14 +43,14 @@ class Segments(NamedTuple):
 
 
 def films_of(bearings: Sequence[BearingElement], breakdown: Breakdown) -> Films:
-    """Films of both bearings as the compiled march reads them.
+    """Films of bearings as the march reads them.
 
     Films are replaced in the time that the oil takes through the most loaded contact, unless the case gives
     another time. Asperities touch for that time, and part for as long as their share of time asks for.
     """
-    count = max(bearing.breakdown.size for bearing in bearings)
-    scale = np.full((2, count), math.inf)
-    touch = np.full((2, 2), math.inf)
+    number, count = len(bearings), max(bearing.breakdown.size for bearing in bearings)
+    scale = np.full((number, count), math.inf)
+    touch = np.full((number, 2), math.inf)
     renewal = np.array([breakdown.renewal_time or bearing.transit for bearing in bearings])
     for b, bearing in enumerate(bearings):
         scale[b, : bearing.breakdown.size] = bearing.breakdown
@@ -68,9 +67,8 @@ def films_of(bearings: Sequence[BearingElement], breakdown: Breakdown) -> Films:
         ),
         shape=np.array([bearing.shape for bearing in bearings]),
         renewal=np.where([math.isfinite(bearing.shape) for bearing in bearings], renewal, math.inf),
-        arc=np.full(2, breakdown.arc_resistance),
-        extinction=np.full(2, breakdown.lowest_voltage),
-        recovery=np.full(2, breakdown.recovery_time),
+        arc=np.full(number, breakdown.arc_resistance),
+        extinction=np.full(number, breakdown.lowest_voltage),
+        recovery=np.full(number, breakdown.recovery_time),
         touch=touch,
-        states=np.array([3 if np.any(np.isfinite(touch)) else 2]),
     )

@@ -6,24 +6,75 @@ import math
 from collections.abc import Callable, Iterator
 from copy import deepcopy
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from ehlectric.arrays import Array
+from ehlectric.drive.circuit_states import CircuitStates
 from ehlectric.drive.discharges.compiled import compile_for
 from ehlectric.drive.discharges.event_loop import (
     ARC,
+    ARC_RESISTANCE,
+    CHANGE,
+    COUNTS,
+    DRAW,
+    EVENT,
+    EXPONENT,
+    EXTINCTION,
+    FILLED,
+    FIRST_MEAN,
+    HIGH,
+    HIGHEST_VOLTAGE,
+    LEFT_EDGE,
+    LOWEST_VOLTAGE,
+    MEAN_RENEWAL,
+    MEAN_TOUCH,
+    MISSING,
+    NEXT,
+    NUMBERS,
+    PHASE,
+    PLACES,
+    PLACES_OF_MARCH,
+    POSITION,
     RECOVERING,
-    Meters,
-    State,
+    RECOVERS,
+    RECOVERY,
+    RENEWAL,
+    RIGHT_EDGE,
+    ROUGH,
+    ROW,
+    SCALE,
+    SEGMENT,
+    SILENT,
+    SOURCE_HIGH,
+    SOURCE_LOW,
+    SPACING,
+    SPECTRAL,
+    SQUARE,
+    STATE,
+    STEP,
+    SUM,
+    SUM_OF_SQUARES,
+    THRESHOLDS,
+    TIME,
+    TIMES,
+    TOUCH,
+    TOUCHED,
+    TRACE_FROM,
+    TRACE_TO,
+    TRACED,
+    USED,
+    VOLT_ROWS,
+    March,
     advance,
     empty_means,
     spectrum_of,
-    work_of,
 )
 from ehlectric.drive.discharges.films_and_source import Films, Segments
 from ehlectric.drive.drive_record import COLUMNS, FILM, KEPT, OFF, ON, VOLTAGE, Record
-from ehlectric.drive.motor_circuit import Modes
+from ehlectric.drive.discharges.voltages_in_time import empty_piece, empty_series
+from ehlectric.drive.motor_circuit import RATE_ROW
 
 # Events and random numbers that are held at once.
 _EVENTS, _RANDOM = 4096, 16384
@@ -61,44 +112,49 @@ class Measuring:
     at_event: bool = False
 
 
-class _Random:
-    """Random numbers of both films, for thresholds and for times, from four streams of one seed."""
+# Arrays of a march that contain its state.
+_STATE = ("film", "count", "random", "x", "ring", "now", "at")
 
-    def __init__(self, seed: int) -> None:
-        streams = np.random.SeedSequence(seed).spawn(4)
+
+class _Random:
+    """Random numbers of all films, for thresholds and for times, from two streams of each film."""
+
+    def __init__(self, seed: int, films: int) -> None:
+        streams = np.random.SeedSequence(seed).spawn(2 * films)
         self.streams = [np.random.Generator(np.random.PCG64(stream)) for stream in streams]
 
-    def fill(self, state: State) -> None:
+    def fill(self, march: March) -> None:
         """Replace used numbers by new ones; those that are left come first."""
-        for b in range(2):
+        for b in range(march.count.shape[0]):
             for stream in range(2):
-                used = int(state.used[b, stream])
-                left = state.random[b, stream, used:].copy()
-                state.random[b, stream, : left.size] = left
-                state.random[b, stream, left.size :] = self.streams[2 * b + stream].standard_exponential(used)
-                state.used[b, stream] = 0
+                used = int(march.count[b, USED + stream])
+                left = march.random[b, stream, used:].copy()
+                march.random[b, stream, : left.size] = left
+                march.random[b, stream, left.size :] = self.streams[2 * b + stream].standard_exponential(used)
+                march.count[b, USED + stream] = 0
 
 
 class _Log:
     """Events of a measured time: counts, sums, and the first of them one by one."""
 
-    def __init__(self, duration: float) -> None:
+    def __init__(self, duration: float, films: int) -> None:
         self.duration = duration
         self.kept: list[Array] = []
         self.number = 0
-        self.counts = np.zeros((2, BLOCKS), dtype=np.int64)
-        self.positive = np.zeros(2, dtype=np.int64)
-        self.sums, self.largest = np.zeros((2, COLUMNS)), np.zeros((2, COLUMNS))
-        self.burning = np.zeros(2)
+        self.counts = np.zeros((films, BLOCKS), dtype=np.int64)
+        self.positive = np.zeros(films, dtype=np.int64)
+        self.sums, self.largest = np.zeros((films, COLUMNS)), np.zeros((films, COLUMNS))
+        self.burning = np.zeros(films)
 
     def add(self, events: Array, start: float) -> None:
         """Add events that began after a time [s], and all of the time for which arcs burnt after it."""
+        films = self.burning.size
         lasting = events[:, OFF] - np.maximum(events[:, ON], start)
-        self.burning += np.bincount(events[:, FILM].astype(int), np.maximum(lasting, 0.0), minlength=2)
+        self.burning += np.bincount(events[:, FILM].astype(int), np.maximum(lasting, 0.0), minlength=films)
         events = events[events[:, ON] >= start].copy()
         events[:, [ON, OFF]] -= start
         block = np.minimum((events[:, ON] / self.duration * BLOCKS).astype(int), BLOCKS - 1)
-        for b in range(2):
+        for b in range(films):
             of_film = events[:, FILM] == b
             self.counts[b] += np.bincount(block[of_film], minlength=BLOCKS)
             self.positive[b] += np.count_nonzero(events[of_film, VOLTAGE] > 0.0)
@@ -108,16 +164,16 @@ class _Log:
             self.kept.append(events[: KEPT - self.number])
             self.number += self.kept[-1].shape[0]
 
-    def end(self, state: State, start: float) -> None:
+    def end(self, march: March, start: float) -> None:
         """Add the time for which arcs have burnt that still burn at the end."""
-        now = float(np.sum(state.time))
-        for b in range(2):
-            if state.phase[b] in (ARC, RECOVERING):
-                self.burning[b] += now - max(float(state.event[b, ON]), start)
+        now = float(march.now[TIME])
+        for b in range(self.burning.size):
+            if march.count[b, PHASE] in (ARC, RECOVERING):
+                self.burning[b] += now - max(float(march.film[b, EVENT + ON]), start)
 
 
 def simulate(
-    circuits: Modes,
+    circuits: CircuitStates,
     films: Films,
     chunks: Iterator[Segments],
     measuring: Measuring,
@@ -130,29 +186,50 @@ def simulate(
     A chunk of the source ends where measuring begins. ``progress`` is called with the simulated time [s], and
     ``compiling`` with a text where the march has to be compiled.
     """
-    state = _state(circuits.jump.shape[1])
-    random = _Random(seed)
-    random.fill(state)
-    meters, log = _meters(measuring), _Log(measuring.duration)
-    work, begun = work_of(state.x.size, _EVENTS), measuring.start == 0.0
+    random = _Random(seed, films.step.size)
+    march, begun = _at_rest(circuits, films, random, measuring), measuring.start == 0.0
+    log = _Log(measuring.duration, films.step.size)
     trace: Array | None = None
     for chunk in chunks:
-        if not begun and state.time[0] >= measuring.start * (1.0 - _SAME):
-            meters, begun = _meters(measuring), True
-        state.cursor[:] = 0.0
+        if not begun and march.now[TIME] >= measuring.start * (1.0 - _SAME):
+            march, begun = _measured_anew(march, circuits, measuring), True
         seeks = begun and measuring.at_event and trace is None
-        before = deepcopy((state, random)) if seeks else None
-        compile_for(advance, (circuits, films, chunk, state, meters, work), compiling)
-        while state.cursor[0] >= 0.0:
-            advance(circuits, films, chunk, state, meters, work)
-            random.fill(state)
-            if begun:
-                log.add(work.events[: work.filled[0]], measuring.start)
+        before = deepcopy(({name: getattr(march, name) for name in _STATE}, random)) if seeks else None
+        march = _through(chunk, march, circuits, random, log if begun else None, measuring.start, compiling)
         if before is not None and log.number:
-            trace = _around(circuits, films, chunk, measuring, before, _typical(log))
-        progress(float(state.time[0]))
-    log.end(state, measuring.start)
-    return _record(measuring, meters, log, trace)
+            trace = _around(circuits, chunk, march, measuring, before, _typical(log))
+        progress(float(march.now[TIME]))
+    log.end(march, measuring.start)
+    return _record(measuring, circuits, march, log, trace)
+
+
+def _through(
+    chunk: Segments,
+    march: March,
+    circuits: CircuitStates,
+    random: _Random,
+    log: _Log | None,
+    start: float,
+    compiling: Callable[[str], None] = lambda _: None,
+) -> March:
+    """March through a chunk of the source, and log the events after a time [s]."""
+    march = march._replace(
+        segments=np.array([chunk.duration, chunk.level, chunk.slope]), rings=np.ascontiguousarray(chunk.ring)
+    )
+    march.at[SEGMENT] = 0
+    compile_for(advance, (march,), compiling)
+    while march.at[SEGMENT] >= 0:
+        advance(march)
+        if march.at[MISSING] >= 0:
+            circuits.make(*march.at[[STATE, MISSING, CHANGE]].tolist())
+            march = march._replace(rows=circuits.rows, squares=circuits.squares, links=circuits.links)
+            march.at[MISSING] = -1
+            continue
+        random.fill(march)
+        if log is not None:
+            log.add(march.events[: march.at[FILLED]], start)
+        march.at[FILLED] = 0
+    return march
 
 
 def _typical(log: _Log) -> float:
@@ -163,78 +240,135 @@ def _typical(log: _Log) -> float:
 
 
 def _around(
-    circuits: Modes,
-    films: Films,
+    circuits: CircuitStates,
     chunk: Segments,
+    march: March,
     measuring: Measuring,
-    before: tuple[State, _Random],
+    before: tuple[dict[str, Any], _Random],
     event: float,
 ) -> Array:
     """Trace around the time of an event [s], by a second march from the start of its chunk."""
-    state, random = before
-    start = float(state.time[0])
+    march = march._replace(**before[0])
+    start = float(march.now[TIME])
     ends = start + np.cumsum(chunk.duration)
     begin = min(measuring.start + event - 0.5 * measuring.trace, float(ends[-1]) - measuring.trace)
     begin = max(begin, start)
     last = int(np.searchsorted(ends, begin + measuring.trace)) + 1
-    meters = _meters(measuring)._replace(until=np.array([begin, begin + measuring.trace]))
-    work, part = work_of(state.x.size, _EVENTS), Segments._make(values[:last] for values in chunk)
-    while state.cursor[0] >= 0.0:
-        advance(circuits, films, part, state, meters, work)
-        random.fill(state)
-    return _traced(measuring, meters)
+    march = _measured_anew(march, circuits, measuring)
+    march.now[[TRACE_FROM, TRACE_TO]] = begin, begin + measuring.trace
+    part = Segments._make(values[:last] for values in chunk)
+    return _traced(measuring, circuits, _through(part, march, circuits, before[1], None, 0.0))
 
 
-def _state(size: int) -> State:
-    """State at the start: only the source charges anything."""
-    return State(
+def _at_rest(circuits: CircuitStates, films: Films, random: _Random, measuring: Measuring) -> March:
+    """March at the start: only the source charges anything."""
+    size, number, voltages = circuits.size, films.step.size, len(circuits.voltages)
+    at = np.zeros(PLACES_OF_MARCH, dtype=np.int64)
+    at[[NEXT, MISSING, SPECTRAL]] = number, -1, circuits.row_of_shaft[0]
+    now = np.zeros(NUMBERS)
+    now[[LEFT_EDGE, RIGHT_EDGE]] = _NARROWEST * np.array([-measuring.highest, measuring.highest])
+    now[[ROUGH, SILENT]] = _ROUGH * measuring.highest, _SILENT * measuring.highest
+    march = March(
+        rows=circuits.rows,
+        squares=circuits.squares,
+        links=circuits.links,
+        segments=np.zeros((3, 0)),
+        rings=np.zeros(0, dtype=complex),
+        film=np.zeros((number, SCALE + films.scale.shape[1])),
+        count=np.zeros((number, COUNTS), dtype=np.int64),
+        random=np.zeros((number, 2, _RANDOM)),
         x=np.zeros(size),
-        ring=np.zeros(1, dtype=complex),
-        # The march sets the clocks.
-        clocks=np.full((2, 4), math.nan),
-        place=np.zeros(2, dtype=np.int64),
-        phase=np.zeros(2, dtype=np.int64),
-        draw=np.ones(2),
-        event=np.zeros((2, COLUMNS)),
-        time=np.zeros(2),
-        cursor=np.zeros(3),
-        random=np.zeros((2, 2, _RANDOM)),
-        used=np.full((2, 2), _RANDOM),
+        charges=np.zeros(size),
+        ring=np.array([0.0, circuits.rows[0, RATE_ROW, -1]]),
+        now=now,
+        at=at,
+        piece=empty_piece(size, voltages),
+        series=empty_series(size, voltages),
+        volts=np.zeros((VOLT_ROWS, voltages)),
+        meter=np.zeros((voltages, 6)),
+        histogram=np.zeros((circuits.film_voltages, BINS)),
+        limits=np.array(measuring.limits),
+        above=np.zeros((circuits.film_voltages, len(measuring.limits))),
+        means=np.zeros(0),
+        trace=np.zeros((TRACE, 2 + circuits.film_voltages)),
+        events=np.zeros((_EVENTS, COLUMNS)),
+    )
+    _start_films(march, circuits, films, random)
+    return _measured_anew(march, circuits, measuring)
+
+
+def _start_films(march: March, circuits: CircuitStates, films: Films, random: _Random) -> None:
+    """Write the properties of all films, set their clocks, and draw their first thresholds."""
+    film, count = march.film, march.count
+    columns = {
+        STEP: films.step,
+        MEAN_RENEWAL: films.renewal,
+        RECOVERS: films.recovery,
+        MEAN_TOUCH: films.touch[:, 0],
+        MEAN_TOUCH + 1: films.touch[:, 1],
+        ARC_RESISTANCE: films.arc,
+        EXTINCTION: films.extinction,
+        EXPONENT: 1.0 / films.shape,
+        POSITION: films.step,
+        RECOVERY: math.inf,
+    }
+    for column, values in columns.items():
+        film[:, column] = values
+    film[:, SCALE:] = films.scale
+    count[:, PLACES], count[:, ROW], count[:, USED : USED + 2] = films.positions, circuits.row_of_film, _RANDOM
+    random.fill(march)
+    for clock, mean in ((RENEWAL, MEAN_RENEWAL), (TOUCH, MEAN_TOUCH)):
+        for b in range(count.shape[0]):
+            film[b, clock] = math.inf
+            if math.isfinite(film[b, mean]):
+                used = count[b, USED + TIMES]
+                film[b, clock] = film[b, mean] * march.random[b, TIMES, used]
+                count[b, USED + TIMES] = used + 1
+    # One by one: powers of whole arrays are rounded otherwise than in the march.
+    film[:, DRAW] = [
+        float(number) ** float(exponent)
+        for number, exponent in zip(march.random[:, THRESHOLDS, 0], film[:, EXPONENT], strict=True)
+    ]
+    count[:, USED + THRESHOLDS] = film[:, EXPONENT] > 0.0
+
+
+def _measured_anew(march: March, circuits: CircuitStates, measuring: Measuring) -> March:
+    """March with meters at zero."""
+    means, meter, highest = empty_means(measuring.duration), np.zeros_like(march.meter), measuring.highest
+    meter[:, LOWEST_VOLTAGE], meter[:, HIGHEST_VOLTAGE] = math.inf, -math.inf
+    now, film = march.now.copy(), march.film.copy()
+    now[[LEFT_EDGE, RIGHT_EDGE]] = _NARROWEST * np.array([-highest, highest])
+    now[[SOURCE_LOW, SOURCE_HIGH]] = math.inf, -math.inf
+    now[[FIRST_MEAN, SPACING]] = measuring.start, measuring.duration / means.size
+    now[[TRACE_FROM, TRACE_TO]] = measuring.start * (1.0 - _SAME), measuring.start + measuring.trace
+    film[:, TOUCHED] = 0.0
+    at = march.at.copy()
+    at[TRACED] = 0
+    return march._replace(
+        now=now,
+        at=at,
+        film=film,
+        meter=meter,
+        histogram=np.zeros_like(march.histogram),
+        above=np.zeros_like(march.above),
+        means=means,
+        trace=np.zeros_like(march.trace),
     )
 
 
-def _meters(measuring: Measuring) -> Meters:
-    highest, limits = measuring.highest, np.array(measuring.limits)
-    shaft = empty_means(measuring.duration)
-    return Meters(
-        edges=_NARROWEST * np.array([-highest, highest]),
-        histogram=np.zeros((2, BINS)),
-        limits=limits,
-        above=np.zeros((2, limits.size)),
-        peak=np.zeros(2),
-        shaft=shaft,
-        spaced=np.array([measuring.start, measuring.duration / shaft.size]),
-        touching=np.zeros(2),
-        square=np.zeros(2),
-        of_shaft=np.zeros(2),
-        ranges=np.array([[math.inf, -math.inf], [math.inf, -math.inf]]),
-        trace=np.zeros((TRACE, 4)),
-        traced=np.zeros(1, dtype=np.int64),
-        until=np.array([measuring.start * (1.0 - _SAME), measuring.start + measuring.trace]),
-        rough=np.array([_ROUGH * highest, _SILENT * highest]),
-    )
-
-
-def _traced(measuring: Measuring, meters: Meters) -> Array:
+def _traced(measuring: Measuring, circuits: CircuitStates, march: March) -> Array:
     """Rows of the trace that are filled; times from the start of the measured time."""
-    trace: Array = meters.trace[: int(meters.traced[0])].copy()
+    rows = march.trace[: int(march.at[TRACED])]
+    trace: Array = rows[:, [0, 1, *(2 + row for row in circuits.row_of_film)]]
     trace[:, 0] -= measuring.start
     return trace
 
 
-def _record(measuring: Measuring, meters: Meters, log: _Log, trace: Array | None) -> Record:
-    mean, square = meters.of_shaft / measuring.duration
-    (lowest, highest), (source_lowest, source_highest) = meters.ranges.tolist()
+def _record(
+    measuring: Measuring, circuits: CircuitStates, march: March, log: _Log, trace: Array | None
+) -> Record:
+    films, now = circuits.row_of_film, march.now
+    shaft = march.meter[circuits.row_of_shaft[0]]
     return Record(
         duration=measuring.duration,
         events=np.vstack(log.kept) if log.kept else np.zeros((0, COLUMNS)),
@@ -242,20 +376,20 @@ def _record(measuring: Measuring, meters: Meters, log: _Log, trace: Array | None
         positive=log.positive.astype(float),
         sums=log.sums,
         largest=log.largest,
-        edges=np.linspace(meters.edges[0], meters.edges[1], BINS + 1),
-        histogram=meters.histogram,
-        limits=meters.limits,
-        above=meters.above,
-        peak=meters.peak,
-        spectrum=spectrum_of(meters.shaft),
-        shaft_mean=float(mean),
-        shaft_rms=math.sqrt(square),
-        shaft_lowest=lowest,
-        shaft_highest=highest,
-        source_lowest=source_lowest,
-        source_highest=source_highest,
-        touching=meters.touching,
-        rms=np.sqrt(meters.square / measuring.duration),
+        edges=np.linspace(now[LEFT_EDGE], now[RIGHT_EDGE], BINS + 1),
+        histogram=march.histogram[films],
+        limits=march.limits,
+        above=march.above[films],
+        peak=march.meter[films, HIGH],
+        spectrum=spectrum_of(march.means),
+        shaft_mean=float(shaft[SUM] / measuring.duration),
+        shaft_rms=math.sqrt(shaft[SUM_OF_SQUARES] / measuring.duration),
+        shaft_lowest=float(shaft[LOWEST_VOLTAGE]),
+        shaft_highest=float(shaft[HIGHEST_VOLTAGE]),
+        source_lowest=float(now[SOURCE_LOW]),
+        source_highest=float(now[SOURCE_HIGH]),
+        touching=march.film[:, TOUCHED].copy(),
+        rms=np.sqrt(march.meter[films, SQUARE] / measuring.duration),
         burning=log.burning,
-        trace=_traced(measuring, meters) if trace is None else trace,
+        trace=_traced(measuring, circuits, march) if trace is None else trace,
     )
