@@ -7,12 +7,12 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from ehlectric.cases.drive_inputs import Breakdown, Circuit
-from ehlectric.drive.discharges.films_and_source import Integers
 from ehlectric.drive.drive_bearings import BearingElement
 from ehlectric.drive.motor_circuit import (
     FRAME,
     ROTOR,
     Complex,
+    Integers,
     Modes,
     StateSpace,
     drive_system,
@@ -39,9 +39,9 @@ Nodes = tuple[str, str]
 class CircuitStates:
     """Modes of all states that a march has met.
 
-    ``rows`` and ``squares`` are the arrays of ``Modes`` of one state after the other. ``links`` of a state and
-    a film has the number of the state with this film in another condition, -1 if it is not made yet, and what
-    the film does now, shape (states, films, 5).
+    ``rows`` and ``squares`` are the arrays of ``Modes`` of one state after the other. ``links`` of a state
+    and a film has the number of the state with this film in another condition, -1 if it is not made yet, and
+    what the film does now, shape (states, films, 5).
     """
 
     def __init__(
@@ -52,8 +52,8 @@ class CircuitStates:
         shafts: Sequence[Nodes],
         ring: complex | None = None,
     ) -> None:
-        """States of a circuit from its state equations, ``positions`` of each film, the nodes of each film and
-        of each shaft voltage, and the rate of the ringing of the source [1/s].
+        """States of a circuit from its state equations, ``positions`` of each film, the nodes of each film
+        and of each shaft voltage, and the rate of the ringing of the source [1/s].
         """
         self._system_in, self._positions, self._ring = system_in, tuple(positions), ring
         # Films between the same nodes have one voltage.

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
-from ehlectric.cases.drive_inputs import Breakdown, Circuit
+from ehlectric.cases.drive_inputs import Circuit
 from ehlectric.drive.drive_bearings import BearingElement
 from ehlectric.quantities.inputs import ENDS
 
@@ -265,6 +265,7 @@ def oscillations(circuit: Circuit, bearings: Sequence[BearingElement]) -> list[t
 
 
 Complex = NDArray[np.complex128]
+Integers = NDArray[np.int64]
 
 # Condition number of the modes above which two of them are taken as one that has no diagonal form.
 _ALIKE = 1e9
@@ -293,8 +294,8 @@ class Modes(NamedTuple):
     - force of each mode per volt of the source;
     - states per volt of a source exp(mu t), and the vector k, in the first n columns;
     - each voltage per amplitude of each mode, per volt of the source, and per volt of its ringing;
-    - for each voltage U with U = a'p, what a discharge of U by 1 V takes from each state, C_th C^-1 a, and the
-      capacitance C_th = 1/(a'C^-1 a) that is discharged [F].
+    - for each voltage U with U = a'p, what a discharge of U by 1 V takes from each state, C_th C^-1 a, and
+      the capacitance C_th = 1/(a'C^-1 a) that is discharged [F].
 
     ``squares`` has the four matrices of a state, shape (4, n, n).
     """

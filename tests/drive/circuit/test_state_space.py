@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.linalg import expm
 
-from ehlectric.drive.motor_circuit import Element, modes_of, state_space
+from ehlectric.drive.motor_circuit import INVERSE, RATE_ROW, SHAPES, Element, modes_of, state_space
 
 
 def test_capacitive_divider():
@@ -63,10 +63,11 @@ def test_modes_are_the_exponential_of_the_rates(values, time):
         Element("inductor", "source", "winding", 1e-5 * length, loss),
     ]
     system = state_space(own, ("source", "frame"))
-    modes = modes_of([system], [("rotor", "ring"), ("rotor", "frame")])
+    modes = modes_of(system, [("rotor", "ring"), ("rotor", "frame")])
     # Scaled by the root of their energy, states are of the same size.
     scale = np.sqrt(np.diag(system.capacitance))
     exact = expm(system.rates * time * scale[:, None] / scale[None, :])
-    mine = (modes.shapes[0] * np.exp(modes.rates[0] * time)) @ modes.inverse[0]
+    rates = modes.rows[RATE_ROW, :-2]
+    mine = (modes.squares[SHAPES] * np.exp(rates * time)) @ modes.squares[INVERSE]
     np.testing.assert_allclose((mine * scale[:, None] / scale[None, :]).real, exact, atol=1e-7)
-    assert np.all(modes.rates.real <= 0.0)
+    assert np.all(rates.real <= 0.0)

@@ -7,8 +7,14 @@ import pytest
 
 from ehlectric.bearing.circuit import Path
 from ehlectric.drive.drive_record import CHARGE, ENERGY, FILM, ON, VOLTAGE
-from ehlectric.drive.motor_circuit import bearing_elements, film_nodes, motor_elements, source_nodes
-from tests.helpers.drives import arc, element, from_rest, march, motor, square, systems
+from ehlectric.drive.motor_circuit import (
+    bearing_elements,
+    drive_system,
+    film_nodes,
+    motor_elements,
+    source_nodes,
+)
+from tests.helpers.drives import arc, element, from_rest, march, motor, square
 from tests.helpers.ngspice import waveform
 
 # Ten periods of a 10 kHz carrier whose edges take 1 us: ngspice places their corners within 0.2 ns.
@@ -33,7 +39,7 @@ CIRCUITS = {
 }
 
 
-def netlist(circuit, bearings, breakdown, segments, *, switch=None):
+def netlist(circuit, bearings, segments, *, switch=None):
     """Lines of a netlist of the same elements, with the source as points in time."""
     nodes = film_nodes(bearings)
     own = [*motor_elements(circuit)]
@@ -53,7 +59,7 @@ def netlist(circuit, bearings, breakdown, segments, *, switch=None):
         else:
             lines += [f"L{k} {named(one.first)} inner{k} {one.value:.12e}",
                       f"RL{k} inner{k} {named(one.second)} {max(one.resistance, 1e-9):.12e}"]  # fmt: skip
-    first = systems(circuit, bearings, breakdown)[0]
+    first = drive_system(circuit, bearings)
     start = -first.jump * segments.level[0]
     starts = dict(zip(first.nodes, start, strict=False))
     starts[positive] = starts.get(negative, 0.0) + segments.level[0]
@@ -77,7 +83,7 @@ def test_voltage_without_breakdown_is_that_of_ngspice(name, tmp_path):
     circuit, bearings = CIRCUITS[name]
     segments = square(VOLTAGE_OF_LINK, PERIOD, RISE, PERIODS)
     record = march(circuit, bearings, arc(), segments, highest=60.0, trace=np.inf)
-    lines = netlist(circuit, bearings, arc(), segments)
+    lines = netlist(circuit, bearings, segments)
     lines.append(".options reltol=1e-7 abstol=1e-12 vntol=1e-9 method=gear maxord=2")
     length = PERIOD * PERIODS
     # Films without a coating have the same voltage.
@@ -109,7 +115,7 @@ def test_discharges_at_a_fixed_threshold_are_those_of_ngspice(name, tmp_path):
         f".model spark SW(vt={middle} vh={half} ron={resistance} roff=1e15)",
         ".options reltol=1e-5 abstol=1e-12 vntol=1e-7",
     ]
-    lines = netlist(circuit, bearings, breakdown, segments, switch=switch)
+    lines = netlist(circuit, bearings, segments, switch=switch)
     times, current = waveform(tmp_path, lines, f"tran 1n {4 * PERIOD} 0 1n uic", "i(vsense)")
     burning = np.abs(current) > 0.5 * extinction / resistance
     begins = np.flatnonzero(np.diff(burning.astype(int)) == 1)

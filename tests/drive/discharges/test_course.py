@@ -7,20 +7,22 @@ from hypothesis import strategies as st
 
 from ehlectric.drive.discharges.compiled import compiled
 from ehlectric.drive.discharges.voltages_in_time import (
-    FILMS,
     FORCE,
+    FURTHER,
     NOW,
     RATE,
-    ROWS,
     SLOPE,
     START,
-    VOLTAGES,
+    WEIGHTS,
     all_at,
-    empty_piece_voltages,
+    empty_piece,
+    empty_series,
     move,
     unfold,
-    voltages,
 )
+
+# Voltages of both films and of the shaft.
+VOLTAGES = 3
 
 SIZES = st.floats(-1.0, 1.0)
 # Rates times the duration of the piece, from modes that do not change to those that are over at once.
@@ -28,15 +30,14 @@ CHANGES = st.one_of(st.just(0.0), st.floats(-10.0, 3.0).map(lambda power: 10.0**
 
 
 @compiled
-def three_ways(piece, course, duration, times, found):
-    unfold(piece, duration, course)
+def three_ways(piece, series, duration, times, found):
+    unfold(piece, duration, series)
     for k in range(times.size):
-        move(piece, times[k])
+        move(piece, times[k], found[2, k])
         for b in range(VOLTAGES):
             for m in range(piece.shape[1]):
-                found[1, b, k] += (piece[FILMS + b, m] * piece[NOW, m]).real
-        found[0, 0, k], found[0, 1, k], found[0, 2, k] = all_at(course, times[k])
-        found[2, 0, k], found[2, 1, k] = voltages(piece)
+                found[1, k, b] += (piece[WEIGHTS + b, m] * piece[NOW, m]).real
+        all_at(series, times[k], found[0, k])
 
 
 @given(
@@ -51,15 +52,15 @@ def test_a_course_is_the_voltage_of_its_modes(modes, duration):
         if oscillates and change:
             rates = [(-0.3 + 1.0j) * change / duration, (-0.3 - 1.0j) * change / duration]
         for rate in rates:
-            column = np.zeros(ROWS, dtype=complex)
+            column = empty_piece(0, VOLTAGES)[:, 0]
             # The steady part of a fast mode is of volts too.
             size = max(change, 1.0) / duration
             column[[RATE, START, FORCE, SLOPE]] = rate, start, force * size, slope * size / duration
-            column[FILMS : FILMS + VOLTAGES] = weight, 0.5 * weight, -0.25 * weight
+            column[WEIGHTS : WEIGHTS + VOLTAGES] = weight, 0.5 * weight, -0.25 * weight
             columns.append(column)
     times = duration * np.linspace(0.0, 1.0, 7)
     piece = np.array(columns).T.copy()
-    found, moved, both_moved = all_ways = np.zeros((3, VOLTAGES, times.size))
-    three_ways(piece, empty_piece_voltages(piece.shape[1]), duration, times, all_ways)
+    found, moved, by_move = all_ways = np.zeros((3, times.size, VOLTAGES))
+    three_ways(piece, empty_series(piece.shape[1] - FURTHER, VOLTAGES), duration, times, all_ways)
     assert found == pytest.approx(moved, rel=0.0, abs=3e-12)
-    assert np.array_equal(both_moved[:2], moved[:2])
+    assert np.array_equal(by_move, moved)

@@ -135,15 +135,15 @@ def test_charge_and_energy_with_leak_and_inductance_balance():
     """Over the first event: what the arc takes is what the states say, by an independent integration."""
     from scipy.integrate import solve_ivp
 
-    from ehlectric.drive.motor_circuit import states_of
+    from ehlectric.drive.motor_circuit import drive_system
 
     circuit = motor(common_mode_inductance="1 uH", common_mode_resistance="3 ohm")
     bearings = [element(breakdown=4.0, conductance=1e-5), element(conductance=1e-5)]
     breakdown = arc(extinction_voltage=0.1, recovery_time=2e-8)
     record = march(circuit, bearings, breakdown, ramp(0.0, 1e8, 2e-6, 5))
     event = record.events[0]
-    systems = states_of(circuit, bearings, breakdown, touches=False)
-    rotor = systems[0].potential("rotor")
+    before, burning = (drive_system(circuit, bearings, (0, 0), (arc, 0.0)) for arc in (0.0, 0.1))
+    rotor = before.potential("rotor")
 
     def rates(system):
         return lambda t, x: system.rates @ x + system.force * 1e8 * t
@@ -151,7 +151,6 @@ def test_charge_and_energy_with_leak_and_inductance_balance():
     def film(system, t, x):
         return rotor @ (x - system.jump * 1e8 * t)
 
-    before, burning = systems[0], systems[2]
     first = solve_ivp(
         rates(before), (0.0, event[ON]), np.zeros(before.force.size), method="Radau", rtol=1e-10, atol=1e-13
     )

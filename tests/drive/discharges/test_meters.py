@@ -7,7 +7,7 @@ from scipy.linalg import expm
 from ehlectric.bearing.circuit import Path
 from ehlectric.drive.discharges.films_and_source import Segments
 from ehlectric.drive.drive_record import FILM, ON, VOLTAGE
-from ehlectric.drive.motor_circuit import capacitive_divider, states_of
+from ehlectric.drive.motor_circuit import capacitive_divider, drive_system
 from tests.helpers.drives import arc, element, march, motor, square
 
 PERIOD = 1e-4
@@ -161,7 +161,12 @@ class Steps:
     """Voltages of both films in small steps of time, and arcs that begin and end at them."""
 
     def __init__(self, circuit, bearings, breakdown, dt):
-        systems = states_of(circuit, bearings, breakdown, touches=False)
+        through_arc = 1.0 / breakdown.arc_resistance
+        systems = [
+            drive_system(circuit, bearings, (0, 0), (first, second))
+            for first in (0.0, through_arc)
+            for second in (0.0, through_arc)
+        ]
         self.rotor = systems[0].potential("rotor")
         self.jump = [system.jump for system in systems]
         self.breakdown, self.dt = breakdown, dt

@@ -17,11 +17,12 @@ from typing import NamedTuple
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.drive.circuit_states import DOES, MOVED
+from ehlectric.drive.circuit_states import BURNS, DOES, MOVED
 from ehlectric.drive.discharges.compiled import compiled, inlined, inner
-from ehlectric.drive.discharges.films_and_source import Integers
 from ehlectric.drive.discharges.voltages_in_time import (
+    FALLS,
     RATE,
+    RISES,
     START,
     all_at,
     begin,
@@ -33,7 +34,7 @@ from ehlectric.drive.discharges.voltages_in_time import (
 )
 from ehlectric.drive.drive_record import CHARGE, COLUMNS, ENERGY, FILM, OFF, ON, PEAK, PLACE, VOLTAGE
 from ehlectric.drive.motor_circuit import CHARGE as CHARGES
-from ehlectric.drive.motor_circuit import JUMP_ROW, UNCHARGE, VOLTAGE_ROWS, Complex
+from ehlectric.drive.motor_circuit import JUMP_ROW, UNCHARGE, VOLTAGE_ROWS, Complex, Integers
 
 # Largest number of lines of a spectrum, and the frequency above which it has none [Hz]: edges of 100 ns have
 # their corner at 1/(pi 100 ns) = 3 MHz.
@@ -119,7 +120,7 @@ ARC_RESISTANCE, EXTINCTION, EXPONENT, DRAW, TOUCHED = range(9, 14)
 # Present event, and scale of the threshold at each position [V].
 EVENT, SCALE = 14, 14 + COLUMNS
 
-# Whole numbers of a film in ``March.count``: phase, position and number of positions of its elements, its
+# Whole numbers of a film in ``March.phases``: phase, position and number of positions of its elements, its
 # voltage, and used random numbers of both streams.
 PHASE, AT_PLACE, PLACES, ROW, USED = range(5)
 COUNTS = 6
@@ -152,8 +153,8 @@ PLACES_OF_MARCH = 11
 # where a parabola turns back; and integral [V s], integral of the square [V^2 s], lowest and highest voltage.
 HIGH, SQUARE, SUM, SUM_OF_SQUARES, LOWEST_VOLTAGE, HIGHEST_VOLTAGE = range(6)
 
-# Rows of ``March.volts``: voltages at the start and at the end of a panel, and at the end of a part of it;
-# voltages at the start and at the end of this part, and in its middle, by the series; and voltages in a search.
+# Rows of ``March.volts``: voltages at the start and at the end of a panel, and at the end of a part of it; at
+# the start and at the end of this part and in its middle, by the series; and voltages in a search.
 FIRST, LAST, UNTIL, BEFORE, AFTER, MIDDLE, SEARCH = range(7)
 VOLT_ROWS = 7
 
@@ -170,7 +171,7 @@ class March(NamedTuple):
     segments: Array  # pieces of the source, shape (3, m)
     rings: Complex  # what rings from each piece on [V], shape (m,)
     film: Array  # shape (f, SCALE + positions)
-    count: Integers  # shape (f, COUNTS)
+    phases: Integers  # shape (f, COUNTS)
     # Random numbers of an exponential distribution of mean 1, of each film for thresholds and for times,
     # shape (f, 2, k).
     random: Array
@@ -267,12 +268,12 @@ def _burning_panel(piece: Complex, t: float, left: float) -> float:
 
 
 @inner
-def _burn(film: Array, count: Integers, series: Complex, t: float, h: float, first: Array, volts: Array
+def _burn(film: Array, phases: Integers, series: Complex, t: float, h: float, first: Array, volts: Array
           ) -> None:  # fmt: skip
     """Add charge, energy and largest current of the arcs between t and t + h to their events."""
-    for b in range(count.shape[0]):
-        if count[b, PHASE] == ARC or count[b, PHASE] == RECOVERING:
-            row, arc = count[b, ROW], film[b, ARC_RESISTANCE]
+    for b in range(phases.shape[0]):
+        if (phases[b, PHASE] + 1) // 2 == BURNS:
+            row, arc = phases[b, ROW], film[b, ARC_RESISTANCE]
             linear, square, largest = 0.0, 0.0, abs(first[row])
             for k in range(POINTS.size):
                 all_at(series, t + h * POINTS[k], volts)
@@ -391,7 +392,7 @@ def _measure_all(meter: Array, volts: Array, duration: float) -> None:
 
 
 @inner
-def _ended(piece: Complex, film: Array, count: Integers, at: Integers, t: float, end: float, volts: Array
+def _ended(piece: Complex, film: Array, phases: Integers, at: Integers, t: float, end: float, volts: Array
            ) -> float:  # fmt: skip
     """First time between t and end at which a film breaks down or an arc goes out.
 
@@ -400,57 +401,69 @@ def _ended(piece: Complex, film: Array, count: Integers, at: Integers, t: float,
     with the largest ratio of voltage to threshold is the first.
     """
     at[ENDED_BY], largest = NOTHING, 0.0
-    for b in range(count.shape[0]):
-        phase, row = count[b, PHASE], count[b, ROW]
-        rises = phase == INSULATING
-        if rises or phase == ARC:
+    for b in range(phases.shape[0]):
+        phase, row = phases[b, PHASE], phases[b, ROW]
+        way = RISES if phase == INSULATING else FALLS
+        if way == RISES or phase == ARC:
             v, w, level = volts[FIRST, row], volts[LAST, row], film[b, EXTINCTION]
             bound = curvature_bound(piece, row, t) * (end - t) * (end - t) / 8.0
-            if rises:
-                level = max(film[b, SCALE + count[b, AT_PLACE]] * film[b, DRAW], level)
+            if way == RISES:
+                level = max(film[b, SCALE + phases[b, AT_PLACE]] * film[b, DRAW], level)
                 near = max(abs(v), abs(w)) + bound >= level
             else:
                 near = v * w < 0.0 or min(abs(v), abs(w)) - bound <= level
             if near:
-                crossed = crossing(piece, row, t, end, level, rises, volts[SEARCH])
+                crossed = crossing(piece, row, t, end, level, way, volts[SEARCH])
                 ratio = abs(v) / level if film[b, ARC_RESISTANCE] == 0.0 else 0.0
                 if 0.0 <= crossed < end or (crossed == end and ratio >= largest):
                     end, largest = crossed, ratio
-                    at[ENDED_BY], at[ENDED_AT] = (BROKEN if rises else OUT), b
+                    at[ENDED_BY], at[ENDED_AT] = (BROKEN if way == RISES else OUT), b
     return end
 
 
 @inner
-def _move_elements(rows: Complex, squares: Complex, before: int, after: int, x: Array, volts: float,
-                   charges: Array) -> None:  # fmt: skip
-    """Take the states of the circuit after elements have moved; the charges of all nodes stay."""
-    n = x.size
-    for i in range(n):
-        charges[i] = 0.0
-        for j in range(n):
-            charges[i] += squares[before, CHARGES, i, j].real * (x[j] - rows[before, JUMP_ROW, j].real * volts)
-    for i in range(n):
-        value = rows[after, JUMP_ROW, i].real * volts
-        for j in range(n):
-            value += squares[after, UNCHARGE, i, j].real * charges[j]
-        x[i] = value
+def _move_elements(rows: Complex, squares: Complex, links: Integers, film: Array, phases: Integers,
+                   at: Integers, x: Array, volts: float, charges: Array) -> bool:  # fmt: skip
+    """Move the elements of a film if their time is over; the charges of all nodes stay.
+
+    False if the modes of the state with their next position are not made yet.
+    """
+    b, before, n = at[NEXT], at[STATE], x.size
+    if film[b, POSITION] <= 0.0:
+        after = links[before, b, MOVED]
+        if after < 0:
+            at[MISSING], at[CHANGE] = b, MOVED
+            return False
+        for i in range(n):
+            charges[i] = 0.0
+            for j in range(n):
+                plain = x[j] - rows[before, JUMP_ROW, j].real * volts
+                charges[i] += squares[before, CHARGES, i, j].real * plain
+        for i in range(n):
+            value = rows[after, JUMP_ROW, i].real * volts
+            for j in range(n):
+                value += squares[after, UNCHARGE, i, j].real * charges[j]
+            x[i] = value
+        at[STATE], film[b, POSITION] = after, film[b, STEP]
+        phases[b, AT_PLACE] = (phases[b, AT_PLACE] + 1) % phases[b, PLACES]
+    return True
 
 
 @inner
-def _ignite(rows: Complex, c: int, x: Array, film: Array, count: Integers, b: int, time: float, volts: Array
+def _ignite(rows: Complex, c: int, x: Array, film: Array, phases: Integers, b: int, time: float, volts: Array
             ) -> None:  # fmt: skip
     """Let a film break down: an arc begins. Without a resistance it takes no time, and ends at extinction.
 
     With the capacitance C_th that is discharged, the charge is C_th (U - U_r), and the energy
     C_th (U^2 - U_r^2)/2 of voltages before and after.
     """
-    row = count[b, ROW]
+    row = phases[b, ROW]
     v = volts[row]
     for column in range(COLUMNS):
         film[b, EVENT + column] = 0.0
     film[b, EVENT + ON], film[b, EVENT + FILM], film[b, EVENT + VOLTAGE] = time, b, v
-    film[b, EVENT + PLACE] = count[b, AT_PLACE]
-    count[b, PHASE] = ARC
+    film[b, EVENT + PLACE] = phases[b, AT_PLACE]
+    phases[b, PHASE] = ARC
     if film[b, ARC_RESISTANCE] == 0.0:
         spark = VOLTAGE_ROWS + volts.size + row
         rest = math.copysign(film[b, EXTINCTION], v)
@@ -463,21 +476,21 @@ def _ignite(rows: Complex, c: int, x: Array, film: Array, count: Integers, b: in
 
 
 @inner
-def _scheduled(film: Array, count: Integers, b: int, random: Array, events: Array, at: Integers, time: float,
+def _scheduled(film: Array, phases: Integers, b: int, random: Array, events: Array, at: Integers, time: float,
                volts: Array) -> None:  # fmt: skip
     """Do what the clocks of a film say, except the clock of its elements."""
-    over, renewed, phase, used = False, False, count[b, PHASE], count[b, USED + TIMES]
+    over, renewed, phase, used = False, False, phases[b, PHASE], phases[b, USED + TIMES]
     if film[b, RENEWAL] <= 0.0:
-        renewed = phase == INSULATING or phase == TOUCHING
+        renewed = (phase + 1) // 2 != BURNS
         film[b, RENEWAL] = film[b, MEAN_RENEWAL] * random[b, TIMES, used]
         used += 1
     if film[b, RECOVERY] <= 0.0:
         # The source may have fed the arc again.
-        over = film[b, ARC_RESISTANCE] == 0.0 or abs(volts[count[b, ROW]]) <= _FED * film[b, EXTINCTION]
+        over = film[b, ARC_RESISTANCE] == 0.0 or abs(volts[phases[b, ROW]]) <= _FED * film[b, EXTINCTION]
         phase = INSULATING if over else ARC
         film[b, RECOVERY] = math.inf
     if film[b, TOUCH] <= 0.0:
-        over = over or phase == ARC or phase == RECOVERING
+        over = over or (phase + 1) // 2 == BURNS
         if phase == TOUCHING:
             phase, renewed = INSULATING, True
         else:
@@ -491,18 +504,18 @@ def _scheduled(film: Array, count: Integers, b: int, random: Array, events: Arra
         for column in range(COLUMNS):
             events[filled, column] = film[b, EVENT + column]
     if (over or renewed) and film[b, EXPONENT] > 0.0:
-        film[b, DRAW] = random[b, THRESHOLDS, count[b, USED]] ** film[b, EXPONENT]
-        count[b, USED] += 1
-    count[b, PHASE], count[b, USED + TIMES] = phase, used
+        film[b, DRAW] = random[b, THRESHOLDS, phases[b, USED]] ** film[b, EXPONENT]
+        phases[b, USED] += 1
+    phases[b, PHASE], phases[b, USED + TIMES] = phase, used
 
 
 @inner
-def _ready(links: Integers, count: Integers, at: Integers, events: int, reserve: int) -> bool:
+def _ready(links: Integers, phases: Integers, at: Integers, events: int, reserve: int) -> bool:
     """Whether there is room for events and random numbers, and the modes of the present state are made."""
-    ready = at[FILLED] + 2 * count.shape[0] <= events
-    for b in range(count.shape[0]):
-        does = (count[b, PHASE] + 1) // 2
-        ready = ready and count[b, USED] <= reserve and count[b, USED + TIMES] <= reserve
+    ready: bool = at[FILLED] + 2 * phases.shape[0] <= events
+    for b in range(phases.shape[0]):
+        does = (phases[b, PHASE] + 1) // 2
+        ready = ready and phases[b, USED] <= reserve and phases[b, USED + TIMES] <= reserve
         if ready and links[at[STATE], b, DOES] != does:
             after = links[at[STATE], b, does]
             if after < 0:
@@ -571,32 +584,32 @@ def _piece(march: March, level: float, slope: float, left: float) -> float:
 
     Returns time that has passed [s]. ``FIRST`` of the voltages is at its end.
     """
-    piece, film, count, volts, at = march.piece, march.film, march.count, march.volts, march.at
+    piece, film, phases, volts, at = march.piece, march.film, march.phases, march.volts, march.at
     films, rough, first, last = march.histogram.shape[0], march.now[ROUGH], volts[FIRST], volts[LAST]
     begin(march.rows, march.squares, at[STATE], march.x, level, slope, march.ring, piece)
     unfold(piece, left, march.series)
     burns = False
-    for b in range(count.shape[0]):
-        burns = burns or count[b, PHASE] == ARC or count[b, PHASE] == RECOVERING
+    for b in range(phases.shape[0]):
+        burns = burns or (phases[b, PHASE] + 1) // 2 == BURNS
     t, at[ENDED_BY] = 0.0, NOTHING
     move(piece, 0.0, first)
     while t < left and at[ENDED_BY] == NOTHING:
         h = _burning_panel(piece, t, left - t) if burns else _panel(piece, films, t, left - t, rough)
         end = left if t + h >= left else t + h
         move(piece, end, last)
-        end = _ended(piece, film, count, at, t, end, volts)
+        end = _ended(piece, film, phases, at, t, end, volts)
         if at[ENDED_BY] != NOTHING:
             move(piece, end, last)
         within = rough
         if burns:
-            _burn(film, count, march.series, t, end - t, first, volts[MIDDLE])
+            _burn(film, phases, march.series, t, end - t, first, volts[MIDDLE])
             largest = 0.0
             for v in range(films):
                 largest = max(largest, abs(first[v]))
             within = max(_OF_ARC * largest, _LEAST * rough)
-        for b in range(count.shape[0]):
-            if count[b, PHASE] == TOUCHING:
-                highest = max(abs(first[count[b, ROW]]), abs(last[count[b, ROW]]))
+        for b in range(phases.shape[0]):
+            if phases[b, PHASE] == TOUCHING:
+                highest = max(abs(first[phases[b, ROW]]), abs(last[phases[b, ROW]]))
                 film[b, TOUCHED] = max(film[b, TOUCHED], highest)
         _measure(march, within, level, slope, t, end)
         t = end
@@ -605,55 +618,54 @@ def _piece(march: March, level: float, slope: float, left: float) -> float:
     return t
 
 
+@inlined
+def _step(march: March, k: int) -> None:
+    """Go on in a segment to the next change, and let it happen."""
+    now, at, film, phases = march.now, march.at, march.film, march.phases
+    slope, rest = march.segments[RISE, k], march.segments[DURATION, k] - now[PASSED]
+    left = _until_next(film, rest)
+    level = march.segments[LEVEL, k] + slope * now[PASSED]
+    t = _piece(march, level, slope, left)
+    _pass_time(film, now, march.ring, t)
+    b = at[ENDED_AT]
+    if at[ENDED_BY] == BROKEN:
+        time = now[TIME] + now[SINCE]
+        _ignite(march.rows, at[STATE], march.x, film, phases, b, time, march.volts[FIRST])
+    elif at[ENDED_BY] == OUT:
+        phases[b, PHASE], film[b, RECOVERY] = RECOVERING, film[b, RECOVERS]
+    elif left == rest:
+        now[PASSED] = march.segments[DURATION, k]
+    now[SOURCE] = level + slope * t + march.ring[0].real
+    at[NEXT] = 0
+
+
 @compiled
 def advance(march: March) -> None:
-    """March through segments of the source, from where it stands until their end.
+    """March through segments of the source, from the present place until their end.
 
     It stops earlier if the table of events is full, random numbers are used up, or a state is missing.
     """
-    now, at, film, count = march.now, march.at, march.film, march.count
-    films, volts, reserve = count.shape[0], march.volts[FIRST], march.random.shape[2] - RESERVE
+    now, at, film, phases = march.now, march.at, march.film, march.phases
+    films, volts, reserve = phases.shape[0], march.volts[FIRST], march.random.shape[2] - RESERVE
     while at[SEGMENT] < march.segments.shape[1]:
         k = at[SEGMENT]
-        duration, slope = march.segments[DURATION, k], march.segments[RISE, k]
         if at[BEGUN] == 0:
             march.ring[0] += march.rings[k]
             at[BEGUN] = 1
-        while now[PASSED] < duration or at[NEXT] < films:
+        while now[PASSED] < march.segments[DURATION, k] or at[NEXT] < films:
             if at[NEXT] == films:
-                if not _ready(march.links, count, at, march.events.shape[0], reserve):
+                if not _ready(march.links, phases, at, march.events.shape[0], reserve):
                     return
-                left = _until_next(film, duration - now[PASSED])
-                ends = left == duration - now[PASSED]
-                level = march.segments[LEVEL, k] + slope * now[PASSED]
-                t = _piece(march, level, slope, left)
-                _pass_time(film, now, march.ring, t)
-                b = at[ENDED_AT]
-                if at[ENDED_BY] == BROKEN:
-                    time = now[TIME] + now[SINCE]
-                    _ignite(march.rows, at[STATE], march.x, film, count, b, time, volts)
-                elif at[ENDED_BY] == OUT:
-                    count[b, PHASE], film[b, RECOVERY] = RECOVERING, film[b, RECOVERS]
-                elif ends:
-                    now[PASSED] = duration
-                now[SOURCE] = level + slope * t + march.ring[0].real
-                at[NEXT] = 0
+                _step(march, k)
             while at[NEXT] < films:
-                b, before = at[NEXT], at[STATE]
-                if film[b, POSITION] <= 0.0:
-                    after = march.links[before, b, MOVED]
-                    if after < 0:
-                        at[MISSING], at[CHANGE] = b, MOVED
-                        return
-                    _move_elements(
-                        march.rows, march.squares, before, after, march.x, now[SOURCE], march.charges
-                    )
-                    at[STATE], film[b, POSITION] = after, film[b, STEP]
-                    count[b, AT_PLACE] = (count[b, AT_PLACE] + 1) % count[b, PLACES]
-                _scheduled(
-                    film, count, b, march.random, march.events, at, now[TIME] + now[SINCE], volts
-                )
-                at[NEXT] = b + 1
+                if not _move_elements(
+                    march.rows, march.squares, march.links, film, phases, at, march.x, now[SOURCE],
+                    march.charges,
+                ):  # fmt: skip
+                    return
+                time = now[TIME] + now[SINCE]
+                _scheduled(film, phases, at[NEXT], march.random, march.events, at, time, volts)
+                at[NEXT] += 1
         at[SEGMENT], now[PASSED], at[BEGUN] = k + 1, 0.0, 0
     now[TIME], now[SINCE] = now[TIME] + now[SINCE], 0.0
     at[SEGMENT] = -1

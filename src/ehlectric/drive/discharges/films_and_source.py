@@ -4,17 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
 from ehlectric.cases.drive_inputs import Breakdown
 from ehlectric.drive.drive_bearings import BearingElement
-from ehlectric.drive.motor_circuit import Complex
-
-Integers: TypeAlias = NDArray[np.int64]
+from ehlectric.drive.motor_circuit import Complex, Integers
 
 
 class Films(NamedTuple):

@@ -72,8 +72,8 @@ from ehlectric.drive.discharges.event_loop import (
     spectrum_of,
 )
 from ehlectric.drive.discharges.films_and_source import Films, Segments
-from ehlectric.drive.drive_record import COLUMNS, FILM, KEPT, OFF, ON, VOLTAGE, Record
 from ehlectric.drive.discharges.voltages_in_time import empty_piece, empty_series
+from ehlectric.drive.drive_record import COLUMNS, FILM, KEPT, OFF, ON, VOLTAGE, Record
 from ehlectric.drive.motor_circuit import RATE_ROW
 
 # Events and random numbers that are held at once.
@@ -113,7 +113,7 @@ class Measuring:
 
 
 # Arrays of a march that contain its state.
-_STATE = ("film", "count", "random", "x", "ring", "now", "at")
+_STATE = ("film", "phases", "random", "x", "ring", "now", "at")
 
 
 class _Random:
@@ -125,13 +125,13 @@ class _Random:
 
     def fill(self, march: March) -> None:
         """Replace used numbers by new ones; those that are left come first."""
-        for b in range(march.count.shape[0]):
+        for b in range(march.phases.shape[0]):
             for stream in range(2):
-                used = int(march.count[b, USED + stream])
+                used = int(march.phases[b, USED + stream])
                 left = march.random[b, stream, used:].copy()
                 march.random[b, stream, : left.size] = left
                 march.random[b, stream, left.size :] = self.streams[2 * b + stream].standard_exponential(used)
-                march.count[b, USED + stream] = 0
+                march.phases[b, USED + stream] = 0
 
 
 class _Log:
@@ -168,7 +168,7 @@ class _Log:
         """Add the time for which arcs have burnt that still burn at the end."""
         now = float(march.now[TIME])
         for b in range(self.burning.size):
-            if march.count[b, PHASE] in (ARC, RECOVERING):
+            if march.phases[b, PHASE] in (ARC, RECOVERING):
                 self.burning[b] += now - max(float(march.film[b, EVENT + ON]), start)
 
 
@@ -192,7 +192,7 @@ def simulate(
     trace: Array | None = None
     for chunk in chunks:
         if not begun and march.now[TIME] >= measuring.start * (1.0 - _SAME):
-            march, begun = _measured_anew(march, circuits, measuring), True
+            march, begun = _measured_anew(march, measuring), True
         seeks = begun and measuring.at_event and trace is None
         before = deepcopy(({name: getattr(march, name) for name in _STATE}, random)) if seeks else None
         march = _through(chunk, march, circuits, random, log if begun else None, measuring.start, compiling)
@@ -254,7 +254,7 @@ def _around(
     begin = min(measuring.start + event - 0.5 * measuring.trace, float(ends[-1]) - measuring.trace)
     begin = max(begin, start)
     last = int(np.searchsorted(ends, begin + measuring.trace)) + 1
-    march = _measured_anew(march, circuits, measuring)
+    march = _measured_anew(march, measuring)
     march.now[[TRACE_FROM, TRACE_TO]] = begin, begin + measuring.trace
     part = Segments._make(values[:last] for values in chunk)
     return _traced(measuring, circuits, _through(part, march, circuits, before[1], None, 0.0))
@@ -275,7 +275,7 @@ def _at_rest(circuits: CircuitStates, films: Films, random: _Random, measuring: 
         segments=np.zeros((3, 0)),
         rings=np.zeros(0, dtype=complex),
         film=np.zeros((number, SCALE + films.scale.shape[1])),
-        count=np.zeros((number, COUNTS), dtype=np.int64),
+        phases=np.zeros((number, COUNTS), dtype=np.int64),
         random=np.zeros((number, 2, _RANDOM)),
         x=np.zeros(size),
         charges=np.zeros(size),
@@ -294,13 +294,13 @@ def _at_rest(circuits: CircuitStates, films: Films, random: _Random, measuring: 
         events=np.zeros((_EVENTS, COLUMNS)),
     )
     _start_films(march, circuits, films, random)
-    return _measured_anew(march, circuits, measuring)
+    return _measured_anew(march, measuring)
 
 
 def _start_films(march: March, circuits: CircuitStates, films: Films, random: _Random) -> None:
     """Write the properties of all films, set their clocks, and draw their first thresholds."""
-    film, count = march.film, march.count
-    columns = {
+    film, phases = march.film, march.phases
+    columns: dict[int, Array | float] = {
         STEP: films.step,
         MEAN_RENEWAL: films.renewal,
         RECOVERS: films.recovery,
@@ -315,24 +315,28 @@ def _start_films(march: March, circuits: CircuitStates, films: Films, random: _R
     for column, values in columns.items():
         film[:, column] = values
     film[:, SCALE:] = films.scale
-    count[:, PLACES], count[:, ROW], count[:, USED : USED + 2] = films.positions, circuits.row_of_film, _RANDOM
+    phases[:, PLACES], phases[:, ROW], phases[:, USED : USED + 2] = (
+        films.positions,
+        circuits.row_of_film,
+        _RANDOM,
+    )
     random.fill(march)
     for clock, mean in ((RENEWAL, MEAN_RENEWAL), (TOUCH, MEAN_TOUCH)):
-        for b in range(count.shape[0]):
+        for b in range(phases.shape[0]):
             film[b, clock] = math.inf
             if math.isfinite(film[b, mean]):
-                used = count[b, USED + TIMES]
+                used = phases[b, USED + TIMES]
                 film[b, clock] = film[b, mean] * march.random[b, TIMES, used]
-                count[b, USED + TIMES] = used + 1
+                phases[b, USED + TIMES] = used + 1
     # One by one: powers of whole arrays are rounded otherwise than in the march.
     film[:, DRAW] = [
         float(number) ** float(exponent)
         for number, exponent in zip(march.random[:, THRESHOLDS, 0], film[:, EXPONENT], strict=True)
     ]
-    count[:, USED + THRESHOLDS] = film[:, EXPONENT] > 0.0
+    phases[:, USED + THRESHOLDS] = film[:, EXPONENT] > 0.0
 
 
-def _measured_anew(march: March, circuits: CircuitStates, measuring: Measuring) -> March:
+def _measured_anew(march: March, measuring: Measuring) -> March:
     """March with meters at zero."""
     means, meter, highest = empty_means(measuring.duration), np.zeros_like(march.meter), measuring.highest
     meter[:, LOWEST_VOLTAGE], meter[:, HIGHEST_VOLTAGE] = math.inf, -math.inf

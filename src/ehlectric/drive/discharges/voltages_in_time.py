@@ -19,7 +19,6 @@ from ehlectric.drive.discharges.compiled import inner
 from ehlectric.drive.motor_circuit import (
     FORCE_ROW,
     INVERSE,
-    JUMP_ROW,
     RATE_ROW,
     RING_ROW,
     SHAPES,
@@ -35,14 +34,17 @@ RECIPROCALS = tuple(1.0 / (k + 2.0) for k in range(_TERMS, 0, -1))
 # Exponents below which exp is taken as zero.
 LOWEST = -700.0
 
-# Rows of a piece: rates, amplitudes at its start, forces f0 and f1, and amplitudes at a time; from WEIGHTS on,
-# each voltage per amplitude, and then the size of the second derivative of each voltage at the start. Its
+# Rows of a piece: rates, amplitudes at its start, forces f0 and f1, and amplitudes at a time; from WEIGHTS
+# on, each voltage per amplitude, and then the size of the second derivative of each voltage at the start. Its
 # columns are the modes of the circuit, the source without its ringing, and the ringing.
 RATE, START, FORCE, SLOPE, NOW, WEIGHTS = range(6)
 FURTHER = 2
 
 # Steps of the search for a crossing, and the part of the level within which it is found.
 _STEPS, _CLOSE = 200, 1e-13
+
+# Ways of a crossing.
+RISES, FALLS = range(2)
 
 # Spacing of floating-point numbers at 1, relative: the least step in time that moves it.
 _EPSILON = float(np.finfo(float).eps)
@@ -148,9 +150,9 @@ def _safe_step(distance: float, rate: float, bound: float) -> float:
 
 
 @inner
-def crossing(piece: Complex, v: int, start: float, end: float, level: float, rises: bool, volts: Array
+def crossing(piece: Complex, v: int, start: float, end: float, level: float, way: int, volts: Array
              ) -> float:  # fmt: skip
-    """First time in (start, end) at which abs(voltage) rises to a level, or falls to it; -1 if at none.
+    """First time in (start, end) at which abs(voltage) RISES to a level, or FALLS to it; -1 if at none.
 
     No crossing is stepped over: each step is one in which the bound of the second derivative allows none.
     If the voltage is not turned away from the level, the steps converge as in Newton's method.
@@ -163,13 +165,13 @@ def crossing(piece: Complex, v: int, start: float, end: float, level: float, ris
             change = piece[RATE, m] * piece[NOW, m] + piece[FORCE, m] + t * piece[SLOPE, m]
             rate += (piece[WEIGHTS + v, m] * change).real
         bound, size = curvature_bound(piece, v, t), abs(now)
-        distance = level - size if rises else size - level
+        distance = level - size if way == RISES else size - level
         if distance <= _CLOSE * level:
             return t
         # Rate at which the distance changes.
-        rate *= math.copysign(1.0, now) * (-1.0 if rises else 1.0)
+        rate *= math.copysign(1.0, now) * (-1.0 if way == RISES else 1.0)
         step = _safe_step(distance, rate, bound)
-        if rises:
+        if way == RISES:
             step = min(step, _safe_step(level + size, -rate, bound))
         t += max(step, _EPSILON * t)
         if t >= end:
@@ -200,39 +202,29 @@ def unfold(piece: Complex, duration: float, series: Complex) -> None:
     another one the series has the steady part.
     """
     rows, count, most = series.shape[0], _POWERS, 2
-    for v in range(1, rows):
-        for k in range(_POWERS):
-            series[v, k] = 0.0
+    for k in range(rows * _POWERS):
+        series[k // _POWERS, k % _POWERS] = 0.0
     for m in range(piece.shape[1]):
         rate, start, force, slope = piece[RATE, m], piece[START, m], piece[FORCE, m], piece[SLOPE, m]
         if start == 0.0 and force == 0.0 and slope == 0.0:
             continue
         change = (abs(rate.real) + abs(rate.imag)) * duration
-        if change < SERIES:
-            terms, term = _POWERS, start
-            if change < _SLOWEST:
-                terms = _FEW
-            if terms > most:
-                most = terms
-            for k in range(terms):
-                if k == 1:
-                    term = rate * start + force
-                elif k == 2:
-                    term = 0.5 * (rate * term + slope)
-                elif k > 2:
-                    term = rate * term / k
-                for v in range(1, rows):
-                    series[v, k] += (piece[WEIGHTS - 1 + v, m] * term).real
-            continue
-        rising = slope / rate
-        steady = (force + rising) / rate
-        for v in range(1, rows):
-            weight = piece[WEIGHTS - 1 + v, m]
-            series[v, 0] -= (weight * steady).real
-            series[v, 1] -= (weight * rising).real
-            series[v, count] = weight * (start + steady)
-        series[0, count] = rate
-        count += 1
+        terms, first, second = _FEW if change < _SLOWEST else _POWERS, start, rate * start + force
+        if change >= SERIES:
+            rising = slope / rate
+            steady = (force + rising) / rate
+            for v in range(1, rows):
+                series[v, count] = piece[WEIGHTS - 1 + v, m] * (start + steady)
+            series[0, count] = rate
+            count += 1
+            terms, first, second = 2, -steady, -rising
+        most = terms if terms > most else most
+        term = first
+        for k in range(terms):
+            if k > 0:
+                term = second if k == 1 else (rate * term + (slope if k == 2 else 0j)) / k
+            for v in range(1, rows):
+                series[v, k] += (piece[WEIGHTS - 1 + v, m] * term).real
     series[0, 0], series[0, 1] = most, count
 
 
