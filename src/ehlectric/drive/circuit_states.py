@@ -52,8 +52,8 @@ class CircuitStates:
         shafts: Sequence[Nodes],
         ring: complex | None = None,
     ) -> None:
-        """States of a circuit from its state equations, ``positions`` of each film, the nodes of each film
-        and of each shaft voltage, and the rate of the ringing of the source [1/s].
+        """``positions``, how many each film has; ``films`` and ``shafts``, nodes between which their voltages
+        lie; ``ring``, rate at which the source rings [1/s].
         """
         self._system_in, self._positions, self._ring = system_in, tuple(positions), ring
         # Films between the same nodes have one voltage.
@@ -113,7 +113,7 @@ def _with(values: tuple[int, ...], place: int, value: int) -> tuple[int, ...]:
 def drive_states(
     circuit: Circuit, bearings: Sequence[BearingElement], breakdown: Breakdown, ring: complex | None = None
 ) -> CircuitStates:
-    """States of the circuit of a drive, with the rate of the ringing of its source [1/s]."""
+    """Circuit states of a drive; ``ring``, rate at which its source rings [1/s]."""
     arc = 1.0 / breakdown.arc_resistance
     conductances = [(0.0, arc, 1.0 / bearing.touch_resistance) for bearing in bearings]
 

@@ -160,7 +160,7 @@ VOLT_ROWS = 7
 
 
 class March(NamedTuple):
-    """Circuit, films, source, state and meters of a march; all but the first three and the source change.
+    """Circuit, films, source, state and meters of a march; the march changes films, state and meters.
 
     With f films, v voltages, of which the first w are voltages of films, and n states.
     """
