@@ -427,7 +427,7 @@ _GROUPS = {
     "Reports": ("write_report", "export"),
     "Drives": ("solve_drive", "DriveCase", "DriveResult", "write_netlist", "write_drive_netlist"),
     "Gears": ("solve_gear", "GearCase", "GearResult"),
-    "Axles": ("solve_axle", "AxleCase", "AxleResult"),
+    "Axles": ("solve_axle", "AxleCase", "AxleResult", "write_axle_netlist"),
     "Errors": ("InputError", "ConvergenceError", "LostError"),
 }
 

@@ -2,6 +2,7 @@
 
 from .axle import AxleResult as AxleResult
 from .axle import solve_axle as solve_axle
+from .axle import write_axle_netlist as write_axle_netlist
 from .bearing import BearingResult as BearingResult
 from .bearing import solve_bearing as solve_bearing
 from .cases.axle_case import AxleCase as AxleCase

@@ -90,6 +90,18 @@ def test_results_in_notebooks_and_files(result, tmp_path):
     assert {path.name for path in save(result, tmp_path)} == {"summary.json", "elements.csv", "shafts.csv"}
 
 
+def test_a_netlist_is_written(typed, tmp_path):
+    done = typed("spice", EXAMPLE, "-o", "axle.lib", "--bench", "bench.cir", "--contacts", "formula")
+    assert done.returncode == 0
+    assert "C_bearing_1_of_rotor" in done.stdout
+    assert "no switches" in done.stderr
+    assert "formulas" in done.stderr
+    assert '.include "axle.lib"' in (tmp_path / "bench.cir").read_text("ascii")
+    done = typed("spice", EXAMPLE, "-o", "axle.lib", "--arc-resistance", "1 ohm")
+    assert done.returncode == 2
+    assert "--arc-resistance" in done.stderr
+
+
 @each("what", ["export", "plot", "laws"])
 def test_what_axles_do_not_have_is_refused(what, result, tmp_path):
     save(result, tmp_path / "out")

@@ -1,5 +1,7 @@
 """Names of axle that other packages may import."""
 
+from .axle_netlist import axle_netlist as axle_netlist
+from .axle_netlist import write_axle_netlist as write_axle_netlist
 from .many_axles import solve_axles as solve_axles
 from .network import HOUSING as HOUSING
 from .network import WINDING as WINDING

@@ -1,4 +1,4 @@
-"""The command that writes a bearing, or the bearings of a drive, as a netlist for circuit simulators."""
+"""The command that writes a bearing, a drive or an axle as a netlist for circuit simulators."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from ehlectric.errors import InputError
 from ehlectric.readable import readable
 
 if TYPE_CHECKING:
-    from ehlectric.drive import Arc, Netlist, Subcircuit
+    from ehlectric.drive import Arc, Netlist, Parameter, Subcircuit
     from ehlectric.quantities.rows import Row
     from ehlectric.runs.file_kinds import InputFile
     from ehlectric.runtime.progress import Progress
@@ -48,7 +48,8 @@ def spice(
     It has the capacitance of the films and the leak through their oil, the coating of a ring and the parallel
     capacitance, and with both of its options a switch that closes where the films break down. Every parameter
     has a line with its unit. The table [motor] is only needed for --bench. Of a drive file both bearings are
-    written, with the arc of its table [breakdown]; the bench has its inverter and its circuit.
+    written, with the arc of its table [breakdown]; the bench has its inverter and its circuit. Of an axle all
+    bearings, meshes and links are written, with switches if the file contains [breakdown].
 
     Exit status 0: written. 2: the input is wrong, or there is another file of this name. 3: a contact is not
     converged, the files are still written; or memory ran out.
@@ -58,12 +59,15 @@ def spice(
         from ehlectric.runs.file_kinds import expect
         from ehlectric.runtime.files import clear_left_behind
 
-        file = expect(input_file, "bearing", "drive")
+        file = expect(input_file, "bearing", "drive", "axle")
         given = {"--arc-resistance": arc_resistance, "--extinction-voltage": extinction_voltage}
-        if file.kind == "drive":
+        if file.kind != "bearing":
             _refuse_with_drive({**given, "--speeds": speeds})
         arc = arc_of(arc_resistance, extinction_voltage)
         check_targets(output, bench)
+        if file.kind == "axle":
+            _write_axle(file, output, bench, contacts, quiet=quiet)
+            return
         with progress_bar(shown=not quiet) as progress:
             if file.kind == "drive":
                 netlist = _drive(file, contacts, progress)
@@ -118,6 +122,27 @@ def _drive(file: InputFile, contacts: str, progress: Progress) -> Netlist:
     return drive_netlist(case, progress)
 
 
+def _write_axle(file: InputFile, output: Path, bench: Path | None, contacts: str, *, quiet: bool) -> None:
+    """Write the netlist of an axle, and print its parameters, notes and warnings."""
+    from ehlectric.axle import axle_netlist
+    from ehlectric.drive import write_files
+    from ehlectric.runs import by_kind
+    from ehlectric.runtime.files import clear_left_behind
+
+    case = by_kind.read_axle(file)
+    case = case.replace({"drive.contacts": contacts}) if contacts else case
+    with progress_bar(shown=not quiet) as progress:
+        netlist = axle_netlist(case, progress)
+    clear_left_behind(output.parent)
+    files = write_files(netlist, output, bench)
+    if not quiet:
+        print_rows(map(_row, netlist.parameters()), case.title)
+        echo_files(files)
+        warn(netlist.solution.warnings)
+        for note in netlist.notes:
+            say(f"note: {note}", err=True)
+
+
 @contextmanager
 def _named_as_options() -> Iterator[None]:
     """Context in which an input of the arc is named by its option."""
@@ -127,16 +152,23 @@ def _named_as_options() -> Iterator[None]:
         raise error.with_text(_OPTIONS.get(error.key or "", error.key), error.text) from None
 
 
+def _row(parameter: Parameter) -> Row:
+    """Row of a parameter."""
+    from ehlectric.quantities.formats import amount
+    from ehlectric.quantities.rows import Row
+
+    unit = parameter.unit.replace("Ohm", "Ω")
+    shown = f"{readable(parameter.value, 4)} rpm" if unit == "rpm" else amount(parameter.value, unit)
+    return Row(parameter.name, shown, "", f", {parameter.meaning}")
+
+
 def _rows(subcircuit: Subcircuit) -> Iterator[Row]:
     """Rows of the table: the subcircuit and its parameters, and what it has at each speed of a table."""
     from ehlectric.quantities.formats import amount, speed_text
     from ehlectric.quantities.rows import Row
 
     yield Row("subcircuit", f"{subcircuit.name} shaft housing")
-    for parameter in subcircuit.parameters():
-        unit = parameter.unit.replace("Ohm", "Ω")
-        shown = f"{readable(parameter.value, 4)} rpm" if unit == "rpm" else amount(parameter.value, unit)
-        yield Row(parameter.name, shown, "", f", {parameter.meaning}")
+    yield from map(_row, subcircuit.parameters())
     for point in subcircuit.circuits if subcircuit.tabulated else ():
         breaks = "" if point.threshold is None else f", breakdown at {readable(point.threshold, 4)} V"
         yield Row(f"at {speed_text(point.speed)}", amount(point.capacitance, "F"), "", breaks)

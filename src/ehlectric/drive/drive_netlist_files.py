@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -84,13 +84,12 @@ class DriveNetlist:
         """Lines of the test bench, which includes the file of the subcircuits."""
         case, bench = self.case, TEXTS["drive_bench"]
         circuit, source = case.running_circuit, case.running_source
-        points, step = _points(source, self.waveform)
+        points, step = source_points(source, self.waveform)
         elements = tuple(_named(motor_elements(circuit)))
         positive, negative = (_NODES[node] for node in source_nodes(circuit))
-        texts = [f"{time:.12g} {number(value)}" for time, value in points]
         about = (
             f"title: {case.title or '(none)'}",
-            f"common-mode voltage: {_about(source)}, as points over time",
+            f"common-mode voltage: {about_source(source)}, as points over time",
             *([] if case.circuit.grounding_ring_table is None else [_about_ring(case)]),
             bench["left_out"],
         )
@@ -102,7 +101,7 @@ class DriveNetlist:
             parameters=[line for name, element in elements for line in _parameters(name, element)],
             positive=positive,
             negative=negative,
-            points=["+ " + " ".join(texts[k : k + _POINTS]) for k in range(0, len(texts), _POINTS)],
+            points=list(point_lines(points)),
             elements=[line for name, element in elements for line in _element(name, element)],
             step=number(step),
             duration=f"{points[-1][0]:.12g}",
@@ -185,7 +184,7 @@ def _subcircuit(case: DriveCase, end: str, result: BearingResult) -> Subcircuit:
         raise error.under(end) from None
 
 
-def _about(source: Source) -> str:
+def about_source(source: Source) -> str:
     """Words for the source."""
     if source.measured:
         return f"measured, {source.file}"
@@ -202,7 +201,7 @@ def _about_ring(case: DriveCase) -> str:
     return f"grounding ring: {resistance:.4g} Ohm at {speed}, from its table over the speed"
 
 
-def _points(source: Source, waveform: Waveform | None) -> tuple[list[tuple[float, float]], float]:
+def source_points(source: Source, waveform: Waveform | None) -> tuple[list[tuple[float, float]], float]:
     """Times [s] and voltages [V] of the source, and the largest step of the simulation [s]."""
     if waveform is not None:
         values = waveform.values[: _SAMPLES + 1]
@@ -220,6 +219,13 @@ def _points(source: Source, waveform: Waveform | None) -> tuple[list[tuple[float
     kept = np.append(np.diff(times) > 0.0, True)
     points = list(zip(times[kept].tolist(), levels[kept].tolist(), strict=True))
     return points, max((rise or _JUMP) / _IN_EDGE, duration / _IN_ALL)
+
+
+def point_lines(points: Sequence[tuple[float, float]]) -> Iterator[str]:
+    """Lines of a source with points over time [s, V]."""
+    texts = [f"{time:.12g} {number(value)}" for time, value in points]
+    for k in range(0, len(texts), _POINTS):
+        yield "+ " + " ".join(texts[k : k + _POINTS])
 
 
 def _named(elements: Iterator[Element]) -> Iterator[tuple[str, Element]]:

@@ -131,12 +131,8 @@ def check_targets(path: Path, bench: Path | None) -> None:
                 )
 
 
-class Netlist(Protocol):
-    """Netlist of a bearing, or of both bearings of a drive."""
-
-    @property
-    def subcircuits(self) -> tuple[Subcircuit, ...]:
-        """Different subcircuits."""
+class Written(Protocol):
+    """Netlist that is written."""
 
     def lines(self) -> Iterator[str]:
         """Lines of the file of the subcircuits."""
@@ -145,7 +141,15 @@ class Netlist(Protocol):
         """Lines of a test bench, which includes this file."""
 
 
-def write_files(netlist: Netlist, path: Path, bench: Path | None) -> list[Path]:
+class Netlist(Written, Protocol):
+    """Netlist of a bearing, or of both bearings of a drive."""
+
+    @property
+    def subcircuits(self) -> tuple[Subcircuit, ...]:
+        """Different subcircuits."""
+
+
+def write_files(netlist: Written, path: Path, bench: Path | None) -> list[Path]:
     """Write the file of the subcircuits, and the file of the test bench if there is one. Raises InputError if
     the test bench lacks an input, or a file cannot be written.
     """

@@ -1,0 +1,253 @@
+"""Netlist of an axle for circuit simulators: all bearings, meshes and links between winding and housing."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from ehlectric.axle.network import HOUSING, WINDING, Film
+from ehlectric.axle.solution import AxleSolution, Element, solve_elements
+from ehlectric.cases.axle_case import AxleCase
+from ehlectric.cases.drive_inputs import Breakdown
+from ehlectric.drive import (
+    OPEN,
+    SIGNATURE,
+    Parameter,
+    about_source,
+    check_targets,
+    comment,
+    filled,
+    name_of,
+    number,
+    point_lines,
+    source_points,
+    write_files,
+)
+from ehlectric.errors import InputError
+from ehlectric.quantities.formats import amount, operating_point
+from ehlectric.quantities.quantity import data_file
+from ehlectric.runtime.progress import Progress, silent
+from ehlectric.version import __version__
+
+# Resistance of an element that conducts [Ohm]: much smaller than all others, with which it is in series.
+_METAL = 1e-3
+
+# Resistance of an open switch [Ohm].
+_OFF = 1e15
+
+# Notes, subcircuits of films, and the test bench.
+_TEXTS = data_file("ehlectric.axle", "axle_netlist_texts.toml")
+
+
+@dataclass(frozen=True, eq=False)
+class AxleNetlist:
+    """Netlist of an axle with solved films."""
+
+    solution: AxleSolution
+
+    @property
+    def case(self) -> AxleCase:
+        """Case of the axle."""
+        return self.solution.case
+
+    @property
+    def nodes(self) -> dict[str, str]:
+        """Names of the nodes in the netlist by the names of shafts, winding and housing."""
+        shafts = [shaft.name for shaft in self.case.shaft]
+        return {
+            WINDING: "winding",
+            HOUSING: "housing",
+            **dict(zip(shafts, _distinct(shafts, "shaft", ("winding", "housing", "0")), strict=True)),
+        }
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Notes about the limits of the circuit."""
+        conducting = [film.name for film in self._films.values() if film.conducts]
+        touching = [each.name for each in self.solution.elements if each.touching]
+        touching = [name for name in touching if name not in conducting]
+        return (
+            _TEXTS["no_switch"] if self.case.breakdown is None else _TEXTS["switch"],
+            *([filled(_TEXTS["conducting"], names=", ".join(conducting))] if conducting else []),
+            *([filled(_TEXTS["touching"], names=", ".join(touching))] if touching else []),
+            _TEXTS["left_out"],
+        )
+
+    @property
+    def _films(self) -> dict[str, Film]:
+        """Elements of the network by names that are distinct in a netlist."""
+        films = self.solution.network().elements
+        return dict(zip(_distinct([film.name for film in films], "element", ()), films, strict=True))
+
+    def parameters(self) -> Iterator[Parameter]:
+        """Parameters of the axle: values of all elements, and of the arc."""
+        breakdown = self.case.breakdown
+        for name, film in self._films.items():
+            limit = self._limit(film)
+            if film.conducts:
+                continue
+            if film.capacitance:
+                yield Parameter(f"C_{name}", film.capacitance, "F", film.name)
+            if film.conductance:
+                yield Parameter(f"R_{name}", 1.0 / film.conductance, "Ohm", film.name)
+            if limit is not None:
+                yield Parameter(f"V_{name}", limit, "V", f"breakdown voltage, {film.name}")
+        yield Parameter("R_metal", _METAL, "Ohm", "stands for contacts of metal")
+        if breakdown is not None:
+            yield Parameter(
+                "V_ext", breakdown.lowest_voltage, "V", "voltage of a film below which an arc ends"
+            )
+            yield Parameter("R_arc", breakdown.arc_resistance, "Ohm", "resistance of an arc")
+
+    def _limit(self, film: Film) -> float | None:
+        """Breakdown voltage of an element with a switch [V]; None for elements without one."""
+        element = self._element(film)
+        if element is None or film.conducts or self.case.breakdown is None:
+            return None
+        return element.breakdown_voltage
+
+    def _element(self, film: Film) -> Element | None:
+        return next((each for each in self.solution.elements if each.name == film.name), None)
+
+    def lines(self) -> Iterator[str]:
+        """Lines of the file with the subcircuits."""
+        yield f"{SIGNATURE}netlist of an axle; ehlectric {__version__}"
+        for text in self._header():
+            yield from comment(text)
+        yield "*"
+        yield from filled(_TEXTS["film"], open=number(OPEN), off=number(_OFF)).split("\n")
+        yield from filled(_TEXTS["insulator"], open=number(OPEN)).split("\n")
+        yield f".subckt axle {' '.join(self.nodes.values())}"
+        for parameter in self.parameters():
+            yield f"+ {parameter.line}"
+        for name, film in self._films.items():
+            yield from self._instances(name, film)
+        yield ".ends axle"
+
+    def _header(self) -> Iterator[str]:
+        """Comments: title, operating point, notes and warnings."""
+        drive = self.case.drive
+        yield f"title: {self.case.title or '(none)'}"
+        at = ", ".join(operating_point(drive.speed, drive.temperature, "degC"))
+        yield f"operating point: {amount(drive.torque, 'N m')} and {at}"
+        yield _TEXTS["circuit"]
+        yield from (f"note: {text}" for text in self.notes)
+        yield from (f"{warning.severity}: {warning}" for warning in self.solution.warnings)
+
+    def _instances(self, name: str, film: Film) -> Iterator[str]:
+        """Lines of an element between its nodes."""
+        ends = f"{self.nodes[film.first]} {self.nodes[film.second]}"
+        if film.conducts:
+            yield f"R_{name} {ends} {{R_metal}}"
+            return
+        if film.conductance:
+            yield f"R_{name} {ends} {{R_{name}}}"
+        if not film.capacitance:
+            return
+        if self._limit(film) is None:
+            yield f"X_{name} {ends} insulator C_films={{C_{name}}}"
+        else:
+            yield f"X_{name} {ends} film C_films={{C_{name}}} V_break={{V_{name}}}"
+            yield "+ V_ext={V_ext} R_arc={R_arc}"
+
+    def bench(self, library: str) -> Iterator[str]:
+        """Lines of a test bench, which includes the file of the subcircuits: the inverter at the winding."""
+        source = self.case.source.at_speed(self.case.drive.speed)
+        points, step = source_points(source, None)
+        shafts = [node for name, node in self.nodes.items() if name not in (WINDING, HOUSING)]
+        about = (
+            f"title: {self.case.title or '(none)'}",
+            f"common-mode voltage: {about_source(source)}, as points over time",
+        )
+        measures = (
+            f".meas tran {shaft}_{word} {kind} V({shaft})"
+            for shaft in shafts
+            for word, kind in (("peak_to_peak", "PP"), ("highest", "MAX"), ("lowest", "MIN"))
+        )
+        text = filled(
+            _TEXTS["bench"],
+            signature=f"{SIGNATURE}test bench of an axle; ehlectric {__version__}",
+            comments=[line for part in about for line in comment(part)],
+            library=library,
+            points=list(point_lines(points)),
+            shafts=" ".join(shafts),
+            step=number(step),
+            duration=f"{points[-1][0]:.12g}",
+            measures=list(measures),
+        )
+        yield from text.split("\n")
+
+
+def _distinct(texts: Iterable[str], other: str, taken: Iterable[str]) -> list[str]:
+    """Names of a netlist for some texts, which differ from each other and from names that are taken.
+
+    Examples
+    --------
+    >>> _distinct(["Rotor", "rotor", "轴"], "shaft", ())
+    ['rotor', 'rotor_2', 'shaft']
+    """
+    names: list[str] = []
+    for text in texts:
+        plain = name_of(text) if text.isascii() else ""
+        name = base = plain or other
+        number_of_name = 1
+        while name in names or name in taken:
+            number_of_name += 1
+            name = f"{base}_{number_of_name}"
+        names.append(name)
+    return names
+
+
+def axle_netlist(case: AxleCase, progress: Progress = silent) -> AxleNetlist:
+    """Solve the films of an axle, and make its netlist.
+
+    Raises InputError if an element cannot be solved, or an arc would go out above a breakdown voltage.
+    """
+    solution = solve_elements(case, progress)
+    if case.breakdown is not None:
+        _check_arc(case.breakdown, solution)
+    return AxleNetlist(solution)
+
+
+def _check_arc(breakdown: Breakdown, solution: AxleSolution) -> None:
+    """Refuse an arc that would go out above the breakdown voltage of an element."""
+    for name, limit in solution.breakdown_voltages.items():
+        if breakdown.lowest_voltage >= limit:
+            raise InputError(
+                f"breakdown.{breakdown.extinction_key}",
+                got=f"an arc that goes out at {breakdown.lowest_voltage:.4g} V",
+                takes=f"less than {limit:.4g} V, the breakdown voltage of {name}",
+            )
+
+
+def write_axle_netlist(
+    case: AxleCase, path: str | Path, *, bench: str | Path | None = None, progress: Progress = silent
+) -> list[Path]:
+    """Write the netlist of an axle for ngspice and LTspice: all elements, and a bench with the inverter.
+
+    Parameters
+    ----------
+    case : AxleCase
+        Axle. With its table ``breakdown``, films have switches that close at their breakdown voltages.
+    path : str or Path
+        File of the subcircuits, such as axle.lib. An existing file is replaced if ehlectric wrote it.
+    bench : str or Path, optional
+        File of a test bench: the voltage of the inverter over four periods of its carrier at the winding.
+    progress : callable, optional
+        Called with the number of solved bearings and meshes, the number of all, and a text.
+
+    Returns
+    -------
+    list of Path
+        Files written.
+
+    Raises
+    ------
+    InputError
+        If a bearing or a mesh cannot be solved, an arc would go out above a breakdown voltage, or a file
+        cannot be written.
+    """
+    path, bench = Path(path), None if bench is None else Path(bench)
+    check_targets(path, bench)
+    return write_files(axle_netlist(case, progress), path, bench)

@@ -1,0 +1,92 @@
+"""Netlist of an axle, simulated by ngspice: the static divider, and voltages after a breakdown."""
+
+from dataclasses import replace
+
+import pytest
+
+from ehlectric import AxleCase, InputError, write_axle_netlist
+from ehlectric.axle.axle_netlist import AxleNetlist, _distinct, axle_netlist
+from ehlectric.drive import write_files
+from tests.axle.axles import two_stages
+from tests.axle.test_solution import by_hand
+from tests.helpers.ngspice import run_netlist, simulate
+from tests.helpers.places import DATA
+
+SHAFTS = ("rotor", "intermediate", "output")
+ARC = {"arc_resistance": 2.0, "extinction_voltage": "0.1 V", "recovery_time": "100 ns"}
+
+# Time in which the source rises to 300 V; an arc of 2 ohm ends within a thousandth of it.
+RISE = 100e-6
+
+
+def simulated(solution, folder):
+    """Voltages of the shafts after a source has risen to 300 V."""
+    write_files(AxleNetlist(solution), folder / "axle.lib", None)
+    lines = [
+        '.include "axle.lib"',
+        f"V_source winding 0 PWL(0 0 {RISE} 300 {2.0 * RISE} 300)",
+        f"X_axle winding 0 {' '.join(SHAFTS)} axle",
+    ]
+    points = [f"meas tran {shaft} find v({shaft}) at={1.5 * RISE}" for shaft in SHAFTS]
+    return simulate(folder, lines, f"tran 1n {2.0 * RISE} 0 1n", *points)
+
+
+@pytest.mark.slow
+@pytest.mark.reference
+def test_without_breakdown_the_shafts_have_the_voltages_of_the_divider(tmp_path):
+    """By hand: 30 (134, 15, 4)/333.4 V."""
+    found = simulated(by_hand(), tmp_path)
+    assert [found[shaft] for shaft in SHAFTS] == pytest.approx(
+        [30.0 * part / 333.4 for part in (134.0, 15.0, 4.0)], rel=1e-3
+    )
+
+
+@pytest.mark.slow
+@pytest.mark.gate
+@pytest.mark.reference
+@pytest.mark.parametrize(("first", "limit"), [("m12", 10.0), ("b1", 11.0)])
+def test_voltages_after_a_breakdown(first, limit, tmp_path):
+    """The formula of a breakdown at its voltage, and the divider for the rest of the edge."""
+    axle = by_hand(breakdown=ARC)
+    limits = {"m12": 1e3, "b1": 1e3, "b2": 1e3, "m23": 1e3, "b3": 1e3, first: limit}
+    axle = replace(
+        axle,
+        elements=tuple(replace(each, breakdown_voltage=limits[each.name]) for each in axle.elements),
+    )
+    network, per_volt = axle.network(), axle.network().potentials(1.0)
+    film = next(film for film in axle.films() if film.name == first)
+    edge = limit / network.voltage(film, per_volt)
+    before = {name: edge * value for name, value in per_volt.items()}
+    after = network.breakdown(film, before, rest=0.1).potentials
+    found = simulated(axle, tmp_path)
+    for shaft in SHAFTS:
+        assert found[shaft] == pytest.approx(after[shaft] + (300.0 - edge) * per_volt[shaft], rel=0.01)
+
+
+@pytest.mark.slow
+def test_the_bench_of_an_axle_with_a_ring_and_conducting_meshes(tmp_path):
+    """The highest voltage of the rotor is that of the static answer at the edge of the inverter."""
+    case = AxleCase.from_toml(DATA / "axles" / "e_axle.toml")
+    files = write_axle_netlist(case, tmp_path / "axle.lib", bench=tmp_path / "bench.cir")
+    assert [file.name for file in files] == ["axle.lib", "bench.cir"]
+    found = run_netlist(tmp_path / "bench.cir")
+    assert found["winding_peak_to_peak"] == pytest.approx(800.0, rel=1e-6)
+    potentials = axle_netlist(case).solution.potentials()
+    for shaft in SHAFTS:
+        assert found[f"{shaft}_highest"] == pytest.approx(potentials[shaft], rel=0.01)
+
+
+def test_elements_of_the_netlist(tmp_path):
+    """Switches need the table [breakdown]; elements that conduct are resistances."""
+    alone, with_arc = (
+        "\n".join(AxleNetlist(by_hand(**changes)).lines()) for changes in ({}, {"breakdown": ARC})
+    )
+    assert ".subckt axle winding housing rotor intermediate output" in alone
+    assert "X_b1 rotor housing insulator C_films={C_b1}" in alone
+    assert "X_m12 rotor intermediate film C_films={C_m12} V_break={V_m12}" in with_arc
+    closed = replace(by_hand(), elements=(replace(by_hand().elements[1], contact_time_share=1.0),))
+    assert "R_m12 rotor intermediate {R_metal}" in "\n".join(AxleNetlist(closed).lines())
+    assert _distinct(["housing", "a b", "a-b"], "shaft", ("housing",)) == ["housing_2", "a_b", "a_b_2"]
+    with pytest.raises(InputError, match="breakdown voltage of"):
+        write_axle_netlist(two_stages(breakdown={**ARC, "extinction_voltage": "5 V"}), tmp_path / "axle.lib")
+    assert not (tmp_path / "axle.lib").exists()
