@@ -52,6 +52,27 @@ def test_numbers_are_those_of_the_command(example):
     assert not example.solved
 
 
+@each(
+    ("changes", "key"),
+    [
+        ({"gear.tip_diameter": ["82 mm"]}, "gear.tip_diameter.2"),
+        ({"gear.tip_diameter": ["", "118 mm"]}, "gear.tip_diameter.1"),
+        ({"gear.profile_shift": [0.2], "gear.centre_distance": None}, "gear.profile_shift.2"),
+        ({"gear.profile_shift": ["", 0.2]}, "gear.profile_shift.1"),
+    ],
+)
+def test_a_value_for_one_gear_only_is_refused_at_the_empty_field(changes, key):
+    with pytest.raises(InputError) as refused:
+        answer(SPUR.changed(changes))
+    assert refused.value.key == key
+
+
+def test_one_shift_and_one_roughness_are_enough():
+    """The other shift follows from the centre distance, and one roughness holds for both gears."""
+    inputs = SPUR.changed({"gear.profile_shift": [0.1817], "gear.flank_ra": ["0.2 um"]})
+    assert number(answer(inputs), "mesh.lambda_ratio").text
+
+
 def test_what_follows_from_a_drawing_is_that_of_its_equations():
     """By hand: without centre distance and shifts, both shifts are 0, a = m_n (z1 + z2)/(2 cos beta), and
     d_a = d + 2 m_n.

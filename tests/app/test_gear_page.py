@@ -80,6 +80,32 @@ def test_a_refusal_stands_next_to_its_field(gears):
 
 
 @pytest.mark.slow
+def test_a_spur_drawing_is_typed_without_errors(gears):
+    page = gears
+    kinds = page.get_by_test_id("gears")
+    kinds.get_by_text("Spur pair").click()
+    assert wait_until(lambda: field(page, "gear.teeth.1").input_value() == "16")
+    assert field(page, "gear.helix_angle").input_value() == ""
+    type_into(page, "gear.normal_module", "2.5 mm")
+    page.get_by_test_id("form-note").filter(
+        has_text="removed: Centre distance, Profile shift coefficients, Tip diameters"
+    ).wait_for()
+    type_into(page, "gear.teeth.1", "20")
+    type_into(page, "gear.teeth.2", "61")
+    # m (z1 + z2)/2
+    follows = field(page, "gear.centre_distance")
+    assert wait_until(lambda: follows.get_attribute("placeholder") == "101.25 mm")
+    assert page.get_by_role("alert").filter(visible=True).all_inner_texts() == []
+    # A helix angle makes it a helical pair, and the other kind has the inputs with which it was left.
+    type_into(page, "gear.helix_angle", "20 deg")
+    kinds.get_by_role("radio", name="Helical pair", checked=True).wait_for()
+    kinds.get_by_text("Spur pair").click()
+    assert wait_until(lambda: field(page, "gear.teeth.1").input_value() == "16")
+    kinds.get_by_text("Helical pair").click()
+    assert wait_until(lambda: field(page, "gear.teeth.1").input_value() == "20")
+
+
+@pytest.mark.slow
 def test_a_gear_file_opens_on_its_page(page):
     page.get_by_test_id("upload-case").locator("input[type=file]").set_input_files(
         EXAMPLES / "gear_spur.toml"

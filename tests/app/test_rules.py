@@ -8,9 +8,12 @@ from ehlectric.app.catalogue import choices
 from ehlectric.app.form_fields import BEARING_GROUPS
 from ehlectric.app.form_fields.field import form_data, kind_of
 from ehlectric.app.form_fields.field_rules import Memory, changed, custom_values
-from ehlectric.app.page_inputs import Inputs
+from ehlectric.app.form_fields.gear_fields import gears_of, of_gears
+from ehlectric.app.page_inputs import Inputs, example_inputs
 from ehlectric.cases.drive_case import case_of_dict
+from ehlectric.cases.gear_case import GearCase
 from ehlectric.errors import InputError
+from ehlectric.gear.solution import OperatingPair
 from ehlectric.quantities.alternatives import ONLY
 from ehlectric.runs.example_files import example_text
 from tests.helpers.each import each
@@ -257,3 +260,55 @@ def test_wrong_texts_stay_for_the_checks():
     wrong = changed(EXAMPLE, {"bearing.base": "no such bearing"})
     with pytest.raises(InputError, match=r"bearing\.base"):
         case(wrong)
+
+
+# A spur pair as its drawing is typed, from top to bottom.
+SPUR_DRAWING = {
+    "gear.normal_module": "2.5 mm",
+    "gear.teeth.1": 20,
+    "gear.teeth.2": 61,
+    "gear.normal_pressure_angle": "25 deg",
+    "gear.helix_angle": None,
+    "gear.face_width": "18 mm",
+    "gear.profile_shift.1": 0.3,
+    "gear.profile_shift.2": -0.1,
+    "gear.tip_diameter.1": "56.4 mm",
+    "gear.tip_diameter.2": "156.9 mm",
+}
+
+
+@pytest.mark.parametrize("example", ["gear_pair", "gear_spur"])
+def test_a_typed_drawing_of_gears_can_run_after_each_number(example):
+    """But after a value for one gear only, which the page refuses at the empty field of the other gear."""
+    inputs, given = example_inputs(example), frozenset()
+    for key, value in SPUR_DRAWING.items():
+        inputs = changed(inputs, {key: value}, given)
+        given |= {key}
+        if key not in ("gear.profile_shift.1", "gear.tip_diameter.1"):
+            OperatingPair.of(GearCase.from_dict(inputs.table))
+    assert gears_of(inputs) == "spur"
+    assert inputs.value("gear.profile_shift") == [0.3, -0.1]
+
+
+def test_values_that_the_user_has_set_stay_in_a_new_drawing():
+    inputs = changed(example_inputs("gear_pair"), {"gear.profile_shift.1": 0.25})
+    after = changed(inputs, {"gear.teeth.1": 24}, frozenset({"gear.profile_shift.1", "gear.centre_distance"}))
+    assert after.value("gear.profile_shift") == [0.25]
+    assert after.value("gear.centre_distance") == "87 mm"
+    assert after.value("gear.tip_diameter") is None
+    # What is no number yet removes nothing.
+    assert changed(inputs, {"gear.teeth.1": "many"}).value("gear.centre_distance") == "87 mm"
+
+
+def test_the_other_kind_of_gears_keeps_oil_strength_and_operating_point():
+    helical = changed(example_inputs("gear_pair"), {"discharge.dielectric_strength": "20 V/um"})
+    spur = of_gears("spur", helical)
+    assert gears_of(spur) == "spur"
+    assert spur.value("gear.teeth") == [16, 24]
+    assert spur.value("gear.contact.voltage") == "5 V"
+    assert spur.value("lubricant") == helical.value("lubricant")
+    assert GearCase.from_dict(spur.table).gear.helix_angle == 0.0
+    for key in ("discharge", "gear.operation"):
+        assert spur.value(key) == helical.value(key)
+    relieved = changed(spur, {"gear.operation.load_sharing": "tip-relief"})
+    assert of_gears("helical", relieved).value("gear.operation.load_sharing") is None

@@ -18,6 +18,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from copy import deepcopy
 from dataclasses import dataclass, field
+from functools import cache
 from typing import Any, Self
 from urllib.parse import parse_qsl, urlencode, urlsplit
 
@@ -25,6 +26,7 @@ import tomli
 
 from ehlectric.cases.key_names import MOST_DEEP, refuse_deep, refuse_long_keys
 from ehlectric.errors import InputError, shown
+from ehlectric.runs.example_files import example_text
 
 # Longest query of an address that is read or written [characters]: far above the length of any case, and
 # below what servers and browsers take.
@@ -126,6 +128,12 @@ class Inputs:
         except InputError as error:
             return start, error
         return (inputs if inputs.table else start), None
+
+
+@cache
+def example_inputs(name: str) -> Inputs:
+    """Inputs of an example."""
+    return Inputs(tomli.loads(example_text(name)))
 
 
 @dataclass

@@ -61,7 +61,23 @@ def gear_case(table: Mapping[str, Any], session: Path | None = None) -> GearCase
     """Gear pair of the tables of a page. Raises InputError if they are no valid gear pair."""
     if "gear" not in table:
         raise InputError("gear", "missing", takes="the table [gear] of a gear pair")
+    _check_both(table["gear"])
     return gear_of(table, session)
+
+
+def _check_both(gear: Any) -> None:
+    """Refuse a list whose value for one gear is still to be typed, by the key of the empty field."""
+    table = gear if isinstance(gear, Mapping) else {}
+    # A profile shift follows from the other one and the centre distance.
+    whole = {"tip_diameter"} | (set() if "centre_distance" in table else {"profile_shift"})
+    for name, values in table.items():
+        if not isinstance(values, list) or not values:
+            continue
+        empty = next((n for n, value in enumerate(values, 1) if value == ""), None)
+        if empty is None and name in whole and len(values) == 1:
+            empty = 2
+        if empty is not None:
+            raise InputError(f"gear.{name}.{empty}", "is empty;", takes="a value, as for the other gear")
 
 
 def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> GearAnswer:

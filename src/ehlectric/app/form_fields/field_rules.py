@@ -15,7 +15,7 @@ from ehlectric.app.form_fields.axle_fields import fitted_axle, without_first_val
 from ehlectric.app.form_fields.drive_fields import DRIVE_ALTERNATIVES, fitted_to_source, with_fitted_remedies
 from ehlectric.app.form_fields.field import Field, Group, first_of_kind, fitted_to_kind, form_data, kind_of
 from ehlectric.app.form_fields.field_defaults import at_end, bearing_at, end_and_key, with_bearing_at
-from ehlectric.app.form_fields.gear_fields import with_lists
+from ehlectric.app.form_fields.gear_fields import of_the_example, with_lists
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.defaults import DEFAULT_FILM, FILM_FACTORS
 from ehlectric.quantities import alternatives
@@ -134,7 +134,8 @@ def changed(inputs: Inputs, changes: Mapping[str, Any], given: frozenset[str] = 
     """Inputs with new values by dotted key, and without those that they replace.
 
     None removes a key, and a mapping sets a table. With another kind of bearing, the first values of the old
-    kind become the first values of the new kind, except of the keys ``given``, which the user has set.
+    kind become the first values of the new kind, except of the keys ``given``, which the user has set. With
+    another drawing of gears, the values of the example that would contradict it are removed.
 
     Examples
     --------
@@ -171,7 +172,8 @@ def _changed(inputs: Inputs, changes: Mapping[str, Any], set_by_user: frozenset[
         typed = {"designation": None} | designated(named)
         changes = {**changes, **{f"bearing.{key}": value for key, value in typed.items()}}
     given = _flat(changes)
-    dropped = {key: None for key in _displaced(inputs, given) if key not in given}
+    displaced = (*_displaced(inputs, given), *of_the_example(inputs, given, set_by_user))
+    dropped = {key: None for key in displaced if key not in given}
     result = inputs.changed(dropped).changed(changes)
     if {"bearing.base", "bearing.kind"} & set(given):
         result = result.changed(dict.fromkeys(_first_values(inputs, result, {*given, *set_by_user})))

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Collection, Iterator, Mapping
+from typing import Any, Literal
 
 from ehlectric.app.form_fields.field import equal, given, group_of, unequal
 from ehlectric.app.form_fields.oil_fields import oil
-from ehlectric.app.page_inputs import Inputs
+from ehlectric.app.page_inputs import Inputs, example_inputs
 from ehlectric.quantities.inputs import form, key_of_list
+from ehlectric.quantities.units import split
 
 _BULK = "gear.operation.bulk_temperature"
 _sheet = given("lubricant.temperature")
@@ -53,3 +54,70 @@ def with_lists(inputs: Inputs, changes: Mapping[str, Any]) -> dict[str, Any]:
             pair.pop()
         result[name] = pair or None
     return result
+
+
+Gears = Literal["helical", "spur"]
+
+# Examples with which the form of each kind of gear pair begins.
+GEAR_EXAMPLES: Mapping[Gears, str] = {"helical": "gear_pair", "spur": "gear_spur"}
+
+
+def gears_of(inputs: Inputs) -> Gears:
+    """Kind of a gear pair by its helix angle.
+
+    Examples
+    --------
+    >>> gears_of(Inputs({"gear": {"helix_angle": "25 deg"}})), gears_of(Inputs({"gear": {"helix_angle": 0}}))
+    ('helical', 'spur')
+    """
+    amount = split(str(inputs.value(_HELIX) or 0))
+    return "helical" if amount is None or amount[0] else "spur"
+
+
+# Inputs that stay if the kind of the gear pair changes.
+_STAY = ("lubricant", "discharge", "gear.contact", "gear.operation")
+
+
+def of_gears(kind: Gears, inputs: Inputs) -> Inputs:
+    """Inputs with the drawing and the flanks of the example of a kind of gear pair.
+
+    Oil, strength, voltage and operating point are the present ones. The load shares of relieved spur pairs
+    are removed, because helical pairs have none.
+    """
+    result = example_inputs(GEAR_EXAMPLES[kind]).changed({key: inputs.value(key) for key in _STAY})
+    return result.changed({_SHARING: None}) if result.value(_SHARING) == "tip-relief" else result
+
+
+_SHARING = "gear.operation.load_sharing"
+_HELIX = "gear.helix_angle"
+
+# Inputs that a new drawing changes first, and inputs that follow from the others if they are not given.
+_NEW = ("gear.normal_module", "gear.teeth", "gear.normal_pressure_angle", _HELIX)
+_FOLLOWING = ("gear.centre_distance", "gear.profile_shift", "gear.tip_diameter")
+
+
+def of_the_example(before: Inputs, changes: Mapping[str, Any], set_by_user: Collection[str]) -> Iterator[str]:
+    """Keys of the drawing of an example that a new drawing does not have, so that their values follow.
+
+    ``changes``, new values by dotted key; ``set_by_user``, keys that the user has set, whose values stay.
+
+    Examples
+    --------
+    >>> spur = example_inputs("gear_spur")
+    >>> list(of_the_example(spur, {"gear.normal_module": "2 mm"}, {"gear.tip_diameter.1"}))
+    ['gear.centre_distance', 'gear.profile_shift']
+    """
+    new = {key: value for key, value in changes.items() if key in _NEW and _is_drawn(key, value)}
+    for example in map(example_inputs, GEAR_EXAMPLES.values()):
+        if new and all(before.value(key) == example.value(key) for key in _NEW):
+            stay = {*changes, *map(key_of_list, set_by_user)}
+            yield from (
+                key for key in _FOLLOWING if key not in stay and before.value(key) == example.value(key)
+            )
+
+
+def _is_drawn(key: str, value: Any) -> bool:
+    """Whether a value is a number or a list of numbers; a drawing of spur gears has no helix angle."""
+    if value is None:
+        return key == _HELIX
+    return all(split(str(each)) is not None for each in (value if isinstance(value, list) else [value]))

@@ -21,7 +21,9 @@ from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.frame import session_here
 from ehlectric.app.pages.page_parts import Control, GroupBox, brief, kind_of_list, removable, say
 from ehlectric.errors import InputError
+from ehlectric.quantities.inputs import input_at
 from ehlectric.quantities.units import printed
+from ehlectric.readable import capital
 
 Change = Callable[[str, Any], Awaitable[None]]
 
@@ -242,6 +244,9 @@ class Form:
         """Sentence on the further inputs that changed."""
         fields = {field.key: field for field, _ in self._controls}
         labels = {key: field.label for key, field in fields.items()}
+        lists = {list_of(key) for key in fields} - labels.keys()
+        entries = {key: input_at(end_and_key(key)[1]) for key in lists}
+        labels |= {key: capital(entry.label) for key, entry in entries.items() if entry is not None}
         old, new = self._flat(before), self._flat(after)
 
         def other(key: str) -> bool:

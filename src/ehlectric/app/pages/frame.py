@@ -12,14 +12,13 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
-import tomli
 from nicegui import Client, events, ui
 
 from ehlectric.app.calls import FILES_UPLOADED
 from ehlectric.app.form_fields.drive_fields import times
 from ehlectric.app.form_fields.field import form_data
 from ehlectric.app.form_fields.field_rules import changed
-from ehlectric.app.page_inputs import LONGEST_QUERY, Inputs
+from ehlectric.app.page_inputs import LONGEST_QUERY, Inputs, example_inputs
 from ehlectric.app.pages.page_parts import ThemeButton, brief, heading, page_texts, script, tool, weakly
 from ehlectric.app.session import Session
 from ehlectric.app.view_models import MOST_CASE, MOST_FILES, MOST_SURFACE, Uploaded
@@ -27,29 +26,21 @@ from ehlectric.app.work import Work
 from ehlectric.errors import InputError, LostError
 from ehlectric.quantities.inputs import REPLACED, SPEED, TEMPERATURE
 from ehlectric.quantities.units import in_unit
-from ehlectric.runs.example_files import example_text
 
-
-@cache
-def start(name: str) -> Inputs:
-    """Inputs of an example."""
-    return Inputs(tomli.loads(example_text(name)))
-
-
-BEARING = start("bearing_6208")
+BEARING = example_inputs("bearing_6208")
 
 # The way to the films stands in the table of the drive, where the form offers it for both bearings.
-DRIVE = start("drive").changed({"drive_end.contacts": None, "drive.contacts": "atlas"})
+DRIVE = example_inputs("drive").changed({"drive_end.contacts": None, "drive.contacts": "atlas"})
 
-GEAR = start("gear_pair")
+GEAR = example_inputs("gear_pair")
 
 
 def _axle() -> Inputs:
     """Axle of the example, whose meshes contain the tables of their gear files."""
-    axle = start("e_axle")
+    axle = example_inputs("e_axle")
     meshes = [
         {key: value for key, value in mesh.items() if key != "file"}
-        | {"pair": dict(start(Path(mesh["file"]).stem).table)}
+        | {"pair": dict(example_inputs(Path(mesh["file"]).stem).table)}
         for mesh in axle.value("mesh")
     ]
     return axle.changed({"mesh": meshes})
@@ -95,8 +86,8 @@ def drive_with(bearing: Inputs) -> Inputs:
 def contact_start(geometry: str) -> Inputs:
     """Inputs with which the page of a line contact or of a point contact begins, with an assumed strength."""
     if geometry == "point":
-        return start("ball_contact").changed({**_FIRST["strength"], **_FIRST["point_domain"]})
-    return start("line_contact").changed(_FIRST["strength"])
+        return example_inputs("ball_contact").changed({**_FIRST["strength"], **_FIRST["point_domain"]})
+    return example_inputs("line_contact").changed(_FIRST["strength"])
 
 
 SWEEP = Inputs({"case": dict(BEARING.changed({"contacts": "atlas"}).table), "vary": _FIRST["vary"]})

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from nicegui import ui
 
 from ehlectric.app.calls import GEAR_QUICK, GEAR_SOLVED, GEAR_WHOLE
 from ehlectric.app.form_fields import GEAR_GROUPS
+from ehlectric.app.form_fields.gear_fields import Gears, gears_of, of_gears
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.answer_page import AnswerPage, AnswerView
 from ehlectric.app.pages.frame import GEAR, PATHS
 from ehlectric.app.pages.result_parts import behind, table_html
+from ehlectric.app.session import Session
 from ehlectric.app.view_models import PENDING, WITHOUT_PROBABILITY, GearAnswer
 from ehlectric.quantities.sheets import GEAR_CARDS
 
@@ -69,6 +71,28 @@ class GearPage(AnswerPage[GearAnswer]):
     wait = 0.4
     quick, later, solved = GEAR_QUICK, (GEAR_WHOLE,), GEAR_SOLVED
 
+    def __init__(self, session: Session) -> None:
+        super().__init__(session)
+        # Inputs of each kind of gear pair when it was left.
+        self._left: dict[Gears, Inputs] = {}
+
+    def build_form(self) -> None:
+        """Build the choice of the kind of gear pair, and the form."""
+        self._kind = ui.radio(_KINDS, value=gears_of(self.session.inputs), on_change=self._switch)
+        self._kind.props('inline aria-label="Kind of gear pair" data-testid="gears"')
+        super().build_form()
+
+    async def _switch(self, event: Any) -> None:
+        """Change to the last inputs of the other kind of gear pair, or to its example."""
+        now, kind = self.session.inputs, event.value
+        if kind != gears_of(now):
+            self._left[gears_of(now)] = now
+            self.go_to(self._left.get(kind) or of_gears(kind, now))
+
+    def show_boxes(self) -> None:
+        """Show the kind of the present gear pair."""
+        self._kind.set_value(gears_of(self.session.inputs))
+
     def build_view(self) -> None:
         """Build the place of the answer."""
         self.view = GearView()
@@ -80,3 +104,6 @@ class GearPage(AnswerPage[GearAnswer]):
     def _refuse(self, error: Exception) -> None:
         super()._refuse(error)
         self.form.follow({})
+
+
+_KINDS: dict[Gears, str] = {"helical": "Helical pair", "spur": "Spur pair"}

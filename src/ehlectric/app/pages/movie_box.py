@@ -10,7 +10,7 @@ from typing import Any
 from nicegui import ui
 
 from ehlectric.app.calls import MOTION_RUN, MOTION_STORED
-from ehlectric.app.pages.frame import start
+from ehlectric.app.page_inputs import example_inputs
 from ehlectric.app.pages.page_parts import (
     JobBox,
     Plot,
@@ -31,7 +31,7 @@ from ehlectric.errors import InputError, LostError
 
 # Motion with which the page begins: the motion of the example, with fewer instants, at each of which a field
 # is solved.
-_FIRST = {**start("moving_roughness").value("motion"), "record": 60}
+_FIRST = {**example_inputs("moving_roughness").value("motion"), "record": 60}
 
 
 class MovieBox:

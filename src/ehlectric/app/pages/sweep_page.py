@@ -30,6 +30,7 @@ from ehlectric.app.page_inputs import (
     Inputs,
     Range,
     case_of_link,
+    example_inputs,
     lists_of,
     ranges_of,
     same_sweep,
@@ -52,7 +53,6 @@ from ehlectric.app.pages.frame import (
     framed,
     session_of,
     show_address,
-    start,
 )
 from ehlectric.app.pages.page_parts import Control, GroupBox, card, control, page_texts
 from ehlectric.app.pages.result_parts import NoteList, Panel
@@ -202,7 +202,7 @@ class RangesForm:
     async def _example(self, name: str) -> None:
         if not name:
             return
-        table = dict((DRIVE if name == "drive" else start(name)).table)
+        table = dict((DRIVE if name == "drive" else example_inputs(name)).table)
         self._example_box.turn(text="")
         await self._change(Inputs({"case": table | ({"contacts": "atlas"} if "bearing" in table else {})}))
 
