@@ -33,10 +33,10 @@ OILS = flank_oils(GearCase.from_dict(FZG_C_CASE).lubricant, np.array([363.15]))
 
 def line_films(flanks, places, load):
     """Films of the atlas at places under loads, and their numbers."""
-    contact = contacts_of(flanks, places, load)
+    contact = contacts_of(flanks, places, load).contact
     ends = [float(end(values)) for values in (contact.moes_m, contact.moes_l) for end in (np.min, np.max)]
     (table,) = film_tables(OILS.oil, OILS.groups, [tuple(ends)])
-    return flank_films(flanks, places, load, table)
+    return flank_films(flanks, contacts_of(flanks, places, load), table)
 
 
 def contact_at_pitch_point(drawing, torque, modulus=STEEL_206):
@@ -241,7 +241,7 @@ def test_the_table_has_the_films_of_the_atlas(drawing):
         np.linspace(path.start, path.end, 41), np.geomspace(5e3, 5e5, 80)))  # fmt: skip
     films, shape = line_films(flanks, place, load)
     oil = Lubricant.from_dict(FZG_C_CASE["lubricant"]).at(363.15)
-    direct = contact_film(contacts_of(flanks, place, load), oil, beyond=True)
+    direct = contact_film(contacts_of(flanks, place, load).contact, oil, beyond=True)
     for values, expected in (
         (films.central, direct.central_thickness),
         (films.minimum, direct.minimum_thickness),

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Self
 
 from pydantic import field_serializer, field_validator, model_validator
 
+from ehlectric.cases.amounts import Amounts
 from ehlectric.cases.case_oil import Lubricant
 from ehlectric.cases.defaults import Contacts
 from ehlectric.cases.discharge_inputs import Discharge
@@ -27,9 +28,9 @@ from ehlectric.cases.key_names import refuse_deep
 from ehlectric.cases.oil_inputs import displace_oil
 from ehlectric.cases.roughness_inputs import find_files
 from ehlectric.cases.stated_ranges import with_stated_ranges
-from ehlectric.cases.table import CaseFile, Title, number_of, with_name_keys
+from ehlectric.cases.table import CaseFile, Title, annotation_of, with_name_keys
 from ehlectric.cases.table_edits import displace, nested, set_keys
-from ehlectric.errors import InputError
+from ehlectric.errors import InputError, within
 from ehlectric.quantities.alternatives import ALTERNATIVES
 from ehlectric.quantities.formats import amount, operating_point
 from ehlectric.runtime.display import headline
@@ -171,19 +172,23 @@ def changed_pair(case: GearCase, changes: Mapping[str, Any]) -> GearCase:
     point change. Raises InputError as ``replace`` does.
     """
     names = {key.removeprefix(_OPERATION): value for key, value in changes.items() if key in _NUMBERS}
-    if len(names) < len(changes) or case.ranges:
+    if len(names) < len(changes) or case.ranges or None in names.values():
         return case.replace(changes)
-    operation = case.gear.operation.model_dump(mode="json", exclude_none=True)
-    try:
-        table = GearOperation.from_dict(operation | names)
-    except InputError as error:
-        raise error.under(_OPERATION[:-1]) from None
+    with within(_OPERATION[:-1]):
+        values = {name: _parsed(name, value) for name, value in names.items()}
+        table = case.gear.operation.model_copy(update=values).checked()
     return case.model_copy(update={"gear": case.gear.model_copy(update={"operation": table})})
 
 
-# Numbers of the operating point.
+def _parsed(name: str, value: Any) -> Any:
+    """Value of a number of the operating point in SI units."""
+    with within(name):
+        return _NUMBERS[f"{_OPERATION}{name}"].parse(value)
+
+
+# Annotations of the numbers of the operating point, by dotted key.
 _NUMBERS = {
-    f"{_OPERATION}{name}"
+    f"{_OPERATION}{name}": annotation
     for name, field in GearOperation.known_keys().items()
-    if number_of(field) is not None
+    if (annotation := annotation_of(field)) is not None and not isinstance(annotation, Amounts)
 }

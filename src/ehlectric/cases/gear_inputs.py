@@ -116,6 +116,10 @@ class GearOperation(Table, book="gear.operation"):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
+        return self.checked()
+
+    def checked(self) -> Self:
+        """Table itself. Raises InputError for a missing temperature of the flanks, and without a torque."""
         if self.bulk_temperature == "iso" and self.friction_coefficient is None:
             raise InputError.worded(
                 "bulk_temperature",

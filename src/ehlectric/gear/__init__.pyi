@@ -4,6 +4,7 @@ from .discharge_places import discharge_places as discharge_places
 from .gear_verdict import state_at as state_at
 from .gear_verdict import state_of as state_of
 from .gear_warnings import gear_warnings as gear_warnings
+from .gear_warnings import warning_codes as warning_codes
 from .geometry import GearPair as GearPair
 from .geometry import gear_pair as gear_pair
 from .mesh_duty import MeshDuty as MeshDuty

@@ -94,12 +94,20 @@ def _names() -> tuple[str, ...]:
     return tuple(each.name for each in fields(FlankFilms))
 
 
-def contacts_of(flanks: Flanks, places: Array, load: Array) -> LineContact:
-    """Line contacts at places g [m] under line loads [N/m], arrays of one shape (...), with the coefficient
-    of the atlas.
-    """
+@dataclass(frozen=True, eq=False)
+class PlacedContacts:
+    """Line contacts at places of the path of contact, with the coefficient of the atlas; shape (n,)."""
+
+    places: Array  # g [m]
+    load: Array  # line loads [N/m]
+    contact: LineContact
+    groups: Groups  # M and L
+
+
+def contacts_of(flanks: Flanks, places: Array, load: Array) -> PlacedContacts:
+    """Line contacts at places g [m] under line loads [N/m], shape (n,)."""
     first, second = flanks.path.speeds(places, flanks.pinion_speed, flanks.ratio)
-    return LineContact(
+    contact = LineContact(
         reduced_radius=np.asarray(flanks.path.reduced_radius(places)),
         reduced_modulus=flanks.modulus,
         load_per_length=load,
@@ -107,23 +115,23 @@ def contacts_of(flanks: Flanks, places: Array, load: Array) -> LineContact:
         viscosity=flanks.oil.viscosity,
         pressure_viscosity_coefficient=flanks.oil.film_coefficient,
     )
+    return PlacedContacts(places, load, contact, Groups(contact.moes_m, contact.moes_l))
 
 
 def flank_films(
-    flanks: Flanks, places: Array, load: Array, table: FilmTable, *, by_formula: bool = False
+    flanks: Flanks, placed: PlacedContacts, table: FilmTable, *, by_formula: bool = False
 ) -> tuple[FlankFilms, FilmShape]:
-    """Films at places g on the path of contact [m] under line loads [N/m], arrays of shape (n,), and their
-    numbers of the atlas.
+    """Films of n line contacts, and their numbers of the atlas.
 
     Places without a load have no film: NaN. ``by_formula``, films of Pan and Hamrock instead of the atlas;
     their shape, on which the capacitance depends, is from the atlas.
     """
+    places, load, contact = placed.places, placed.load, placed.contact
     carried = np.where(load > 0.0, load, np.nan)
-    contact = contacts_of(flanks, places, load)
     radius, speed = np.asarray(contact.reduced_radius), np.asarray(contact.entrainment_speed)
     scale = np.sqrt(2.0 * contact._u)
     # A place without a load has the numbers of the lightest load of the table.
-    shape = table(Groups(contact.moes_m, contact.moes_l))
+    shape = table(placed.groups)
     central, minimum, error = radius * scale * shape.central, radius * scale * shape.minimum, shape.error
     if by_formula:
         star = flanks.oil.alpha_star

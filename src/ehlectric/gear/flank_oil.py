@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -50,6 +51,19 @@ class FlankOils:
     oil: Oil  # oil of n points
     groups: OilGroups
     each: list[FlankOil]
+
+
+def by_lubricant(lubricants: Iterable[Lubricant]) -> Iterator[tuple[Lubricant, list[int]]]:
+    """Places of equal lubricants among many."""
+    groups: list[tuple[Lubricant, list[int]]] = []
+    for place, oil in enumerate(lubricants):
+        for lubricant, places in groups:
+            if lubricant is oil or lubricant == oil:
+                places.append(place)
+                break
+        else:
+            groups.append((oil, [place]))
+    yield from groups
 
 
 def check_oils(lubricant: Lubricant, temperatures: Array) -> list[InputError | None]:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from ehlectric.gear.flank_films import without_heat
+from ehlectric.gear.flank_oil import by_lubricant
 from ehlectric.gear.solution import GearSolution
 from ehlectric.quantities.result_warnings import ResultWarning
 
@@ -16,6 +17,28 @@ _OUTSIDE = 0.1
 
 def gear_warnings(solution: GearSolution) -> Iterator[ResultWarning]:
     """Warnings about a gear pair, each once."""
+    yield from _of_pair(solution)
+    oil = solution.case.lubricant.at(solution.bulk_temperature, _KEY)
+    yield from oil.warnings(float(np.nanmax(solution.films.max_pressure)))
+
+
+def warning_codes(solutions: Sequence[GearSolution]) -> list[list[str]]:
+    """Codes of the warnings about each of many gear pairs, in any order; each lubricant is bound once."""
+    codes = [[warning.code for warning in _of_pair(solution)] for solution in solutions]
+    for lubricant, places in by_lubricant(solution.case.lubricant for solution in solutions):
+        temperatures = np.array([solutions[k].bulk_temperature for k in places])
+        pressures = np.array([float(np.nanmax(solutions[k].films.max_pressure)) for k in places])
+        for code, mask in lubricant.at(temperatures, _KEY).codes(pressures):
+            for k in np.flatnonzero(np.broadcast_to(mask, pressures.shape)).tolist():
+                codes[places[k]].append(code)
+    return codes
+
+
+_KEY = "gear.operation.bulk_temperature"
+
+
+def _of_pair(solution: GearSolution) -> Iterator[ResultWarning]:
+    """Warnings that do not depend on the laws of the oil."""
     gear, operation = solution.case.gear, solution.case.gear.operation
     ratio = float(solution.films.minimum[solution.thinnest]) / solution.rq
     if isinstance(operation.bulk_temperature, str):
@@ -33,8 +56,6 @@ def gear_warnings(solution: GearSolution) -> Iterator[ResultWarning]:
         yield ResultWarning.of("backlash-unknown")
     yield from _in_fillets(solution)
     yield from _outside_atlas(solution)
-    oil = solution.case.lubricant.at(solution.bulk_temperature, "gear.operation.bulk_temperature")
-    yield from oil.warnings(float(np.nanmax(solution.films.max_pressure)))
 
 
 def _in_fillets(solution: GearSolution) -> Iterator[ResultWarning]:

@@ -27,7 +27,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -150,12 +150,82 @@ class OpenPieces:
     last_gap: Array
 
 
+@dataclass(frozen=True, eq=False)
+class Slices:
+    """Parts of the lines of contact with springs for a stiffness c_gamma of 1 per face width [N/m^2].
+
+    Only the geometry determines them, so that many operating points share them.
+    """
+
+    plane: PlaneOfAction
+    parts: LineParts
+    # Coefficients of the distance f of the flanks [m], a polynomial of the place 0 to 1 in a part.
+    opening: tuple[Array, Array, Array]
+    number: int  # nodes of a part of a line
+
+    def at(self, at: Array, share: Array) -> tuple[Array, Array, Array]:
+        """Distance f [m], relative stiffness c and length of the line [m] at nodes within the parts, each of
+        shape (m, n).
+        """
+        constant, slope, square = (values[:, np.newaxis] for values in self.opening)
+        width = self.parts.width[:, np.newaxis]
+        c = single_stiffness(self.plane, self.parts.places(self.parts.low[:, np.newaxis] + width * at), 1.0)
+        length = width * share / math.cos(self.plane.path.base_helix_angle)
+        return constant + at * (slope + at * square), c, length
+
+    def springs(self, at: Array, share: Array) -> tuple[Array, Array]:
+        """Sums of c l [m] and of c l f [m^2] over the nodes at each phase, each of shape (p,)."""
+        opening, c, length = self.at(at, share)
+        spring = c * length
+        of_parts = np.sum(spring, axis=1), np.sum(spring * opening, axis=1)
+        phase, number = self.parts.phase, self.parts.phases.size
+        springs, moments = (np.bincount(phase, each, number).astype(float) for each in of_parts)
+        return springs, moments
+
+    @cached_property
+    def whole(self) -> tuple[Array, Array]:
+        """Sums of ``springs`` over the whole lines."""
+        size = self.parts.width.size
+        nodes = nodes_within(max(self.number, _NODES), (np.zeros(size), np.ones(size)))
+        return self.springs(*nodes)
+
+
+@lru_cache(maxsize=64)
+def slices_of(plane: PlaneOfAction, law: str, modification: Modification, accuracy: int) -> Slices:
+    """Slices of the teeth for a law of the load; arguments of ``line_loads``."""
+    path, spur = plane.path, plane.overlap_ratio == 0.0
+    bends, further = modification.bends(path), [path.pitch_point]
+    if spur:
+        bends = [*bends, *path.points.values()]
+    elif law == "iso":
+        over = _BUTTRESSED * math.sin(path.base_helix_angle)
+        further += [path.points["B"], path.points["D"], path.start + over, path.end - over]
+    parts = line_parts(plane, bends, further, accuracy)
+    # The load of a spur pair without crowning is the same on the whole face.
+    number = 1 if spur else (_NODES - 1) * accuracy + 1
+    if modification.crowning > 0.0:
+        number = (_CROWNED - 1) * accuracy + 1
+    return Slices(plane, parts, _opening(plane, parts, modification), number)
+
+
+def _opening(
+    plane: PlaneOfAction, parts: LineParts, modification: Modification
+) -> tuple[Array, Array, Array]:
+    """Coefficients of the distance f of the flanks [m], a polynomial of the place 0 to 1 in a part."""
+    width, crowning = plane.face_width, modification.crowning
+    across = np.stack([parts.low, parts.low + parts.width], axis=1)
+    relief = modification.relief(plane.path, parts.places(across))
+    first, step = 2.0 * parts.low / width - 1.0, 2.0 * parts.width / width
+    constant, slope = relief[:, 0], relief[:, 1] - relief[:, 0]
+    return constant + crowning * first**2, slope + 2.0 * crowning * first * step, crowning * step**2
+
+
 @dataclass(frozen=True)
 class Sharing:
     """Law of the load of a gear pair, with the state of the mesh at each phase."""
 
     plane: PlaneOfAction
-    parts: LineParts
+    slices: Slices
     force: float  # K F_bn [N]
     law: str
     stiffness: float  # c_gamma per face width [N/m^2]
@@ -176,37 +246,22 @@ class Sharing:
         """Law of the load; arguments of ``line_loads``."""
         if law not in ("stiffness", *LAWS):
             raise ValueError(law)
-        path, spur = plane.path, plane.overlap_ratio == 0.0
-        bends, further = modification.bends(path), [path.pitch_point]
-        if spur:
-            bends = [*bends, *path.points.values()]
-        elif law == "iso":
-            over = _BUTTRESSED * math.sin(path.base_helix_angle)
-            further += [path.points["B"], path.points["D"], path.start + over, path.end - over]
-        parts = line_parts(plane, bends, further, accuracy)
-        return cls(plane, parts, force, law, stiffness, modification, accuracy)
+        slices = slices_of(plane, law, modification, accuracy)
+        return cls(plane, slices, force, law, stiffness, modification, accuracy)
+
+    @property
+    def parts(self) -> LineParts:
+        """Parts of the lines of contact."""
+        return self.slices.parts
 
     @property
     def number(self) -> int:
         """Nodes of a part of a line."""
-        if self.modification.crowning > 0.0:
-            return (_CROWNED - 1) * self.accuracy + 1
-        # The load of a spur pair without crowning is the same on the whole face.
-        return 1 if self.plane.overlap_ratio == 0.0 else (_NODES - 1) * self.accuracy + 1
-
-    @cached_property
-    def _opening(self) -> tuple[Array, Array, Array]:
-        """Coefficients of the distance f of the flanks [m], a polynomial of the place 0 to 1 in a part."""
-        parts, width, crowning = self.parts, self.plane.face_width, self.modification.crowning
-        across = np.stack([parts.low, parts.low + parts.width], axis=1)
-        relief = self.modification.relief(self.plane.path, parts.places(across))
-        first, step = 2.0 * parts.low / width - 1.0, 2.0 * parts.width / width
-        constant, slope = relief[:, 0], relief[:, 1] - relief[:, 0]
-        return constant + crowning * first**2, slope + 2.0 * crowning * first * step, crowning * step**2
+        return self.slices.number
 
     def _loaded(self, delta: Array) -> tuple[Array, Array]:
         """Start and end of the piece of each part in which f is below delta, 0 to 1; equal ones for none."""
-        constant, slope, square = self._opening
+        constant, slope, square = self.slices.opening
         constant = constant - delta[self.parts.phase]
         with np.errstate(divide="ignore", invalid="ignore"):
             half = -0.5 * (slope + np.copysign(np.sqrt(slope**2 - 4.0 * square * constant), slope))
@@ -223,21 +278,16 @@ class Sharing:
         """Distance f [m], stiffness c [N/m^2] and length of the line [m] at nodes within the parts, each of
         shape (m, n).
         """
-        constant, slope, square = (values[:, np.newaxis] for values in self._opening)
-        width = self.parts.width[:, np.newaxis]
-        c = single_stiffness(
-            self.plane, self.parts.places(self.parts.low[:, np.newaxis] + width * at), self.stiffness
-        )
-        length = width * share / math.cos(self.plane.path.base_helix_angle)
-        return constant + at * (slope + at * square), c, length
+        opening, c, length = self.slices.at(at, share)
+        return opening, self.stiffness * c, length
 
     def _delta(self, at: Array, share: Array) -> Array:
         """Approach delta at each phase [m], shape (p,), of nodes that all carry load."""
-        opening, c, length = self._at(at, share)
-        spring = c * length
-        sums = (np.sum(values, axis=1) for values in (spring, spring * opening))
-        springs, moments = (np.bincount(self.parts.phase, each, self.parts.phases.size) for each in sums)
-        return np.asarray((self.force + moments) / springs)
+        return self._approach(*self.slices.springs(at, share))
+
+    def _approach(self, springs: Array, moments: Array) -> Array:
+        """Approach delta at each phase [m], shape (p,), from sums of ``Slices.springs``."""
+        return np.asarray((self.force / self.stiffness + moments) / springs)
 
     @cached_property
     def _solved(self) -> tuple[Array, Array, tuple[Array, Array], Array]:
@@ -254,7 +304,7 @@ class Sharing:
             return *nodes, whole, length
         if self.modification.none:
             return *nodes, whole, self._delta(*nodes)
-        delta, loaded = self._delta(*nodes_within(max(self.number, _NODES), whole)), whole
+        delta, loaded = self._approach(*self.slices.whole), whole
         for _ in range(_STEPS):
             loaded = self._loaded(delta)
             nodes = nodes_within(self.number, loaded)
@@ -427,13 +477,20 @@ def loads_at_points(sharing: Sharing, *, other: bool = False) -> Array:
     """Mean over the face of the line load at A, B, C, D and E [N/m], shape (5,); ``other``, on the other side
     of B and D.
     """
-    plane, parts = sharing.plane, sharing.parts
+    places, across, phase = _around_points(sharing.plane, other=other)
+    state = np.interp(phase, sharing.parts.phases, sharing.state, period=1.0)
+    return np.asarray(np.mean(sharing.load(places, across, state), axis=1))
+
+
+@lru_cache(maxsize=64)
+def _around_points(plane: PlaneOfAction, *, other: bool) -> tuple[Array, Array, Array]:
+    """Places g next to A to E, shape (5, 1), places y on the face, shape (y,), and phases at which lines of
+    contact pass both, shape (5, y).
+    """
     path = plane.path
     sides = {**SIDES, "B": -SIDES["B"], "D": -SIDES["D"]} if other else SIDES
     places = np.array([place + sides[name] * _ASIDE * path.base_pitch for name, place in path.points.items()])
     across = plane.face_width * np.arange(0.5, _ON_FACE) / _ON_FACE
     # Lines of a helical pair pass the place one after the other along the face.
     begin = (places - path.start)[:, np.newaxis] - math.tan(path.base_helix_angle) * across
-    phase = begin / path.base_pitch % 1.0
-    state = np.interp(phase, parts.phases, sharing.state, period=1.0)
-    return np.asarray(np.mean(sharing.load(places[:, np.newaxis], across, state), axis=1))
+    return places[:, np.newaxis], across, begin / path.base_pitch % 1.0

@@ -222,14 +222,13 @@ class OperatingPair:
     def of(cls, case: GearCase) -> OperatingPair:
         """Gear pair of a case. Raises InputError for drawings that cannot run."""
         gear, operation = case.gear, case.gear.operation
-        pair = gear_pair(drawing_of(gear))
-        path = contact_path(pair)
+        pair, plane = _geometry(drawing_of(gear))
         load_per_width = 2.0 * abs(operation.pinion_torque) / pair.reference_diameter[0] / pair.face_width
         steel = pair_stiffness(pair, load_per_width * operation.application_factor)
         return cls(
             pair,
-            PlaneOfAction(path, pair.face_width),
-            _bulk_temperature(gear, pair, path),
+            plane,
+            _bulk_temperature(gear, pair, plane.path),
             steel * _solid(gear.material).youngs_modulus / _solid("steel").youngs_modulus,
         )
 
@@ -254,6 +253,13 @@ class OperatingPair:
             stiffness=mesh_stiffness(self.stiffness, self.plane.path.contact_ratio),
             modification=modification_of(gear),
         )
+
+
+@lru_cache(maxsize=64)
+def _geometry(drawing: Drawing) -> tuple[GearPair, PlaneOfAction]:
+    """Gear pair and plane of action of a drawing, which many operating points share."""
+    pair = gear_pair(drawing)
+    return pair, PlaneOfAction(contact_path(pair), pair.face_width)
 
 
 # Solids of the library, which are read once.

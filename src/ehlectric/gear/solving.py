@@ -13,9 +13,10 @@ from ehlectric.arrays import Array
 from ehlectric.cases.case_oil import Lubricant
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.errors import ConvergenceError, InputError
+from ehlectric.film import Groups
 from ehlectric.gear.film_table import FilmTable, film_tables
-from ehlectric.gear.flank_films import FlankFilms, Flanks, contacts_of, flank_films
-from ehlectric.gear.flank_oil import check_oils, flank_oils
+from ehlectric.gear.flank_films import FlankFilms, Flanks, PlacedContacts, contacts_of, flank_films
+from ehlectric.gear.flank_oil import by_lubricant, check_oils, flank_oils
 from ehlectric.gear.load_sharing import SIDES, LineLoads, OpenPieces, loads_at_points
 from ehlectric.gear.mesh_capacitance import capacitance_per_length, open_capacitance
 from ehlectric.gear.solution import GearSolution, OperatingPair
@@ -84,23 +85,9 @@ def _solved_together(cases: Sequence[GearCase], *, unloaded: bool) -> list[Outco
             pairs.append(_LoadedPair(number, case, at, loads, loads_at_points(sharing), sharing.opened))
         except InputError as error:
             outcomes[number] = error
-    for lubricant, of_oil in _by_lubricant(pairs):
-        outcomes |= _solved(lubricant, of_oil)
+    for lubricant, places in by_lubricant(pair.case.lubricant for pair in pairs):
+        outcomes |= _solved(lubricant, [pairs[place] for place in places])
     return [outcomes[number] for number in range(len(cases))]
-
-
-def _by_lubricant(pairs: Iterable[_LoadedPair]) -> Iterator[tuple[Lubricant, list[_LoadedPair]]]:
-    """Pairs with the same lubricant."""
-    groups: list[tuple[Lubricant, list[_LoadedPair]]] = []
-    for pair in pairs:
-        oil = pair.case.lubricant
-        for lubricant, of_oil in groups:
-            if lubricant is oil or lubricant == oil:
-                of_oil.append(pair)
-                break
-        else:
-            groups.append((oil, [pair]))
-    yield from groups
 
 
 def _solved(lubricant: Lubricant, pairs: Sequence[_LoadedPair]) -> dict[int, Outcome]:
@@ -118,27 +105,27 @@ def _solved(lubricant: Lubricant, pairs: Sequence[_LoadedPair]) -> dict[int, Out
     except InputError as error:
         return outcomes | {pair.number: error for pair in pairs}
     flanks = [pair.at.flanks(pair.case, oil) for pair, oil in zip(pairs, oils.each, strict=True)]
-    ranges = [_groups(each, pair) for pair, each in zip(pairs, flanks, strict=True)]
-    for pair, each, table in zip(pairs, flanks, film_tables(oils.oil, oils.groups, ranges), strict=True):
+    placed = [contacts_of(each, *pair.contacts) for pair, each in zip(pairs, flanks, strict=True)]
+    tables = film_tables(oils.oil, oils.groups, [_ranges(each.groups) for each in placed])
+    for pair, each, contacts, table in zip(pairs, flanks, placed, tables, strict=True):
         try:
-            outcomes[pair.number] = _solution(pair, each, table)
+            outcomes[pair.number] = _solution(pair, each, contacts, table)
         except ConvergenceError as error:
             outcomes[pair.number] = error
     return outcomes
 
 
-def _groups(flanks: Flanks, pair: _LoadedPair) -> tuple[float, float, float, float]:
+def _ranges(groups: Groups) -> tuple[float, float, float, float]:
     """Smallest and greatest M of the loaded contacts of a pair, and smallest and greatest L."""
-    contact = contacts_of(flanks, *pair.contacts)
-    load, lubricant = np.asarray(contact.moes_m), np.asarray(contact.moes_l)
+    load, lubricant = np.asarray(groups.moes_m), np.asarray(groups.moes_l)
     least = np.min(load, where=load > 0.0, initial=math.inf)
     return float(least), float(np.max(load)), float(np.min(lubricant)), float(np.max(lubricant))
 
 
-def _solution(pair: _LoadedPair, flanks: Flanks, table: FilmTable) -> GearSolution:
+def _solution(pair: _LoadedPair, flanks: Flanks, contacts: PlacedContacts, table: FilmTable) -> GearSolution:
     """Films and capacitance of a pair."""
     case, loads, number = pair.case, pair.loads, pair.loads.load.size
-    both, shape = flank_films(flanks, *pair.contacts, table, by_formula=case.contacts == "formula")
+    both, shape = flank_films(flanks, contacts, table, by_formula=case.contacts == "formula")
     films, at_points = both.some(slice(number)), both.some(slice(number, None))
     capacitance = capacitance_per_length(flanks, both, shape)[:number]
     if case.contacts == "solved":
@@ -168,7 +155,8 @@ def _with_solved(
     from ehlectric.gear.solved_points import solved_correction  # late: the atlas needs no solver
 
     places, load = _to_solve(pair, films)
-    atlas, _ = flank_films(flanks, places[load > 0.0], load[load > 0.0], table)
+    loaded = load > 0.0
+    atlas, _ = flank_films(flanks, contacts_of(flanks, places[loaded], load[loaded]), table)
     correction = solved_correction(pair.case, flanks, atlas)
     return correction.applied(films), correction.applied(at_points)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -18,8 +19,7 @@ from ehlectric.cases.gear_case import GearCase, changed_pair
 from ehlectric.cases.input_keys import input_field
 from ehlectric.cases.solved_case import SolvedCase
 from ehlectric.errors import InputError
-from ehlectric.gear import gear_summary, gear_warnings, solve_gear_pairs
-from ehlectric.quantities.result_warnings import ResultWarning
+from ehlectric.gear import gear_summary, solve_gear_pairs, warning_codes
 from ehlectric.quantities.results import is_text_of_points
 from ehlectric.sweep.points import flat
 from ehlectric.sweep.result import array_of
@@ -36,11 +36,11 @@ def gear_columns(case: GearCase, given: Mapping[str, Any], number: int) -> tuple
     quick = case if case.contacts != "solved" else case.replace({"contacts": "atlas"})
 
     def solved(cases: Iterable[GearCase]) -> Iterator[_Solved]:
-        for solution in solve_gear_pairs(cases, unloaded=False):
-            if isinstance(solution, Exception):
-                yield solution
-            else:
-                yield gear_summary(solution), gear_warnings(solution)
+        solutions = iter(solve_gear_pairs(cases, unloaded=False))
+        while some := list(islice(solutions, _TOGETHER)):
+            codes = iter(warning_codes([each for each in some if not isinstance(each, Exception)]))
+            for solution in some:
+                yield solution if isinstance(solution, Exception) else (gear_summary(solution), next(codes))
 
     return _evaluated(case, given, number, partial(changed_pair, quick), solved)
 
@@ -55,13 +55,16 @@ def axle_columns(case: AxleCase, given: Mapping[str, Any], number: int) -> tuple
             if isinstance(solution, Exception):
                 yield solution
             else:
-                yield tables_of_point(solution), solution.warnings
+                yield tables_of_point(solution), [warning.code for warning in solution.warnings]
 
     return _evaluated(case, given, number, partial(changed_axle, alone), solved)
 
 
-# Tables and warnings of a point, or why it has no result.
-_Solved = tuple[Mapping[str, Any], Iterable[ResultWarning]] | Exception
+# Tables and codes of the warnings of a point, or why it has no result.
+_Solved = tuple[Mapping[str, Any], Iterable[str]] | Exception
+
+# Gear pairs whose warnings are computed together.
+_TOGETHER = 256
 
 
 def _evaluated(
@@ -84,10 +87,10 @@ def _evaluated(
         if isinstance(outcome, Exception):
             columns.reasons[point] = str(outcome)
             continue
-        tables, warnings = outcome
+        tables, of_point = outcome
         rows[point] = flat(tables)
-        for warning in warnings:
-            codes.setdefault(warning.code, []).append(point)
+        for code in of_point:
+            codes.setdefault(code, []).append(point)
     points = np.array(list(rows), dtype=int)
     masks = ((code, np.isin(points, some)) for code, some in codes.items())
     columns.add(points, _columns(list(rows.values())), masks)
