@@ -44,6 +44,7 @@ class DomainLaw:
     side: Callable[[Numbers], Numbers]
     rule: DomainRule  # further ends
     coarseness: float = 1.0  # factor on the errors of polynomials instead of integrals
+    least: int = 200  # least number of contacts for which polynomials are made
     nodes: Nodes = FINE  # nodes of the integrals around films
 
     def ends(self, state: tuple[int, ...], length: Numbers, unit: UnitContact) -> Ends:

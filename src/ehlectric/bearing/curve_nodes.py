@@ -6,13 +6,14 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ehlectric.arrays import Array, Mask
+from ehlectric.arrays import Array, IntArray
 
 # Values at positions, shape (m,) -> (k, m); NaN where a curve has no value.
 Values = Callable[[Array], Array]
 
-# Largest number of times that each interval is halved.
-_HALVINGS = 16
+# Largest number of times that nodes are added, largest number of parts into which an interval is divided at
+# once, and number of parts of an interval in which a curve ends.
+_ROUNDS, _MOST, _OPEN = 16, 8, 8
 
 
 def where_it_bends(
@@ -20,9 +21,11 @@ def where_it_bends(
 ) -> tuple[Array, Array]:
     """Add nodes to curves until straight lines between the nodes are as accurate as wanted.
 
-    Every interval is halved some times in any case, so that no middle is on a straight line by chance. Then
-    both halves are halved again if a value in the middle differs from the straight line. The halves with
-    values are also halved again if a curve ends in an interval.
+    Every interval is first divided into ``2**always`` equal parts, so that no node is on a straight line by
+    chance. Then an interval of length h is divided again if h^2/2 times the second divided difference at one
+    of its ends exceeds the tolerance. This product is the difference from a straight line of length 2 h, four
+    times the error of the line in the interval. The number of parts is the root of product over tolerance. An
+    interval in which a curve ends is also divided.
 
     Parameters
     ----------
@@ -35,9 +38,9 @@ def where_it_bends(
     tolerance : float
         Largest difference between a value and the straight line, in the unit of the values.
     closest : float
-        Smallest length of an interval that is halved, in the unit of the positions.
+        Smallest length of an interval that is divided, in the unit of the positions.
     always : int
-        Number of times that every interval is halved in any case.
+        Binary logarithm of the number of parts into which every interval is divided in any case.
 
     Returns
     -------
@@ -54,34 +57,37 @@ def where_it_bends(
     >>> start = np.array([0.0, 0.5, 1.0])
     >>> x, y = where_it_bends(root, start, root(start), tolerance=0.02, closest=0.01)
     >>> len(x[x < 0.25]), len(x[x > 0.75])
-    (10, 1)
+    (11, 1)
     """
-    low, high = np.arange(x.size - 1), np.arange(1, x.size)
-    for number in range(_HALVINGS):
-        wide = x[high] - x[low] > closest
-        low, high = low[wide], high[wide]
-        if not low.size:
+    parts = np.full(x.size - 1, 2**always) if always else _parts(x, values, tolerance)
+    for _ in range(_ROUNDS):
+        added = _between(x, np.minimum(parts, np.ceil(np.diff(x) / closest).astype(int)))
+        if not added.size:
             break
-        middle = x.size + np.arange(low.size)
-        x = np.append(x, 0.5 * (x[low] + x[high]))
-        values = np.append(values, values_of(x[middle]), axis=1)
-        first, between, last = (values[:, places] for places in (low, middle, high))
-        left, right = _halved(first, between, last, tolerance if number + 1 >= always else -1.0)
-        low, high = (
-            np.concatenate([low[left], middle[right]]),
-            np.concatenate([middle[left], high[right]]),
-        )
-    order = np.argsort(x)
-    return x[order], values[:, order]
+        order = np.argsort(np.concatenate([x, added]), kind="stable")
+        values = np.concatenate([values, values_of(added)], axis=1)[:, order]
+        x = np.concatenate([x, added])[order]
+        parts = _parts(x, values, tolerance)
+    return x, values
 
 
-def _halved(first: Array, middle: Array, last: Array, tolerance: float) -> tuple[Mask, Mask]:
-    """Whether the left and the right half of each interval are halved again, shape (n,), from the values at
-    its ends and in its middle, shape (k, n). A negative tolerance halves every interval with values.
-    """
-    bent = np.abs(middle - 0.5 * (first + last)) > tolerance
-    known = [np.isfinite(values) for values in (first, middle, last)]
+def _between(x: Array, parts: IntArray) -> Array:
+    """Positions that divide each interval into equal parts, without its ends."""
+    number = np.repeat(np.arange(parts.size), parts - 1)
+    place = np.arange(number.size) - np.repeat(np.cumsum(parts - 1) - (parts - 1), parts - 1) + 1
+    return np.asarray(x[number] + place / parts[number] * np.diff(x)[number])
+
+
+def _parts(x: Array, values: Array, tolerance: float) -> IntArray:
+    """Number of parts into which each interval is divided, shape (n - 1,), from values of shape (k, n)."""
+    length = np.diff(x)
+    bend = np.zeros(x.size)
+    slope = np.diff(values, axis=1) / length
+    second = np.abs(np.diff(slope, axis=1)) / (0.5 * (x[2:] - x[:-2]))
     # A line is compared only if all three values are known.
-    open_end = ~np.logical_and.reduce(known)
-    left, right = (open_end & (known[1] | end) for end in (known[0], known[2]))
-    return np.any(bent | left, axis=0), np.any(bent | right, axis=0)
+    bend[1:-1] = np.max(np.where(np.isfinite(second), second, 0.0), axis=0)
+    off = 0.5 * length**2 * np.maximum(bend[:-1], bend[1:])
+    parts = np.clip(np.ceil(np.sqrt(off / tolerance)), 1, _MOST).astype(int)
+    known = np.isfinite(values)
+    ends = np.any(known[:, :-1] != known[:, 1:], axis=0)
+    return np.where(ends, _OPEN, parts)

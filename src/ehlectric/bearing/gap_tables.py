@@ -40,8 +40,8 @@ from ehlectric.formulas.hertz import line_gap, reduced_radius
 from ehlectric.formulas.smooth_tables import Function, SmoothTable, smooth_table
 from ehlectric.runtime.display import read_only_property
 
-# Least number of contacts for which polynomials of three or more variables are made, which need the
-# integrals of a hundred contacts.
+# Least number of rollers and of unloaded balls for which polynomials of three or more variables are made,
+# which need the integrals of a hundred contacts.
 LEAST = 200
 
 # Largest error of polynomials over the value in the middle of their box: for capacitances around short and
@@ -222,7 +222,7 @@ def around_of_balls(race: Raceway, b: Numbers, ends: Ends, films: Numbers, law: 
     reach, at = edge / contacts.of_point(contacts.race.groove_radius), angles[contacts.point]
     inside = left & (at + reach < contacts.of_point(contacts.race.shoulder_angle))
     inside &= at - reach > contacts.of_point(contacts.race.begins)
-    for state, rows in _states(law.states((inlet, outlet, side), unit), inside):
+    for state, rows in _states(law.states((inlet, outlet, side), unit), inside, law.least):
         if size is None:
             break
         length = law.length(state, (inlet[rows], outlet[rows], side[rows]), unit.at(rows))
@@ -252,7 +252,7 @@ def between_domains(race: Raceway, ends: Ends, middle: Numbers, law: DomainLaw) 
     integral, left = np.full(middle.shape, np.nan), np.isfinite(middle * inlet * outlet * side)
     states = law.states((inlet, outlet, side), unit)
     integral[left & (states == 0)], left = 0.0, left & (states > 0)
-    for state, rows in _states(states, left):
+    for state, rows in _states(states, left, law.least):
         length = law.length(state, (inlet[rows], outlet[rows], side[rows]), unit.at(rows))
         variables = radius_ratio, *_logarithms(state, length, middle[rows])
         table = _between(law, state, _box(variables))
@@ -320,10 +320,10 @@ def rigid_balls(race: Raceway, gap: Numbers) -> Array:
     return capacitance.reshape(contacts.shape)
 
 
-def _states(states: IntArray, valid: Mask) -> Iterator[tuple[tuple[int, ...], IntArray]]:
-    """States of ends that many contacts have, with the rows of these contacts."""
+def _states(states: IntArray, valid: Mask, least: int) -> Iterator[tuple[tuple[int, ...], IntArray]]:
+    """States of ends that ``least`` contacts or more have, with the rows of these contacts."""
     for number, count in enumerate(np.bincount(states[valid], minlength=1)):
-        if count >= LEAST:
+        if count >= least:
             yield (number // 9, number // 3 % 3, number % 3), np.flatnonzero(valid & (states == number))
 
 

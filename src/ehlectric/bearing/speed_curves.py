@@ -104,7 +104,8 @@ def over_speed(
         left_out.append(warning)
     points = dict(_points(changed, several))
     if count is None and len(points) > 1:
-        _add_bends(points, lambda speeds: _points(changed, at_speeds(scaled, speeds)))
+        limit = float(contact_limit(scaled.bearing.summit_height))
+        _add_bends(points, lambda speeds: _points(changed, at_speeds(scaled, speeds)), limit)
     return sorted(points.items()), left_out
 
 
@@ -127,8 +128,13 @@ def _points(case: BearingCase, several: Several) -> list[Speed]:
     return points
 
 
-def _add_bends(points: dict[float, dict[str, Any]], solved: Callable[[Array], list[Speed]]) -> None:
-    """Add speeds where a curve bends, and where it begins or ends, to points by their speeds [rad/s]."""
+def _add_bends(
+    points: dict[float, dict[str, Any]], solved: Callable[[Array], list[Speed]], limit: float
+) -> None:
+    """Add speeds where a curve bends, and where it begins or ends, to points by their speeds [rad/s].
+
+    ``limit``, lambda ratio at which the surfaces part.
+    """
 
     def logs(log: Array) -> Array:
         """Logarithms of the values at logarithms of speeds, shape (n,) -> (k, n)."""
@@ -136,9 +142,40 @@ def _add_bends(points: dict[float, dict[str, Any]], solved: Callable[[Array], li
         points.update(computed)
         return log_of(_columns([computed.get(speed) for speed in np.exp(log).tolist()]))
 
-    speeds = sorted(points)
-    known = log_of(_columns([points[speed] for speed in speeds]))
-    where_it_bends(logs, np.log(speeds), known, tolerance=_BEND, closest=_CLOSEST, always=2)
+    log = np.log(sorted(points))
+    known = log_of(_columns([points[speed] for speed in sorted(points)]))
+    further = _foreseen(log, known[_KEYS.index("lambda_ratio")], limit)
+    values = np.concatenate([known, logs(further)], axis=1)
+    log = np.concatenate([log, further])
+    order = np.argsort(log)
+    where_it_bends(logs, log[order], values[:, order], tolerance=_BEND, closest=_CLOSEST, always=0)
+
+
+# Number of parts of each interval of ``PARTS``. Distances of two adjacent speeds from the speed at
+# which the surfaces part have this ratio; straight lines are then within ``_BEND`` of the logarithm of a
+# distance.
+_EVEN, _GRADED = 4, 1.07
+
+
+def _foreseen(log: Array, log_ratio: Array, limit: float) -> Array:
+    """Return logarithms of further speeds where curves are expected to bend, shape (m,).
+
+    At the speed at which the surfaces part, the first breakdown is 0 and its logarithm has a pole.
+
+    ``log_ratio``, logarithms of the lambda ratio at logarithms of speeds, shape (n,); ``limit``, lambda ratio
+    at which the surfaces part.
+    """
+    parts = np.interp(np.arange(_EVEN * (log.size - 1) + 1) / _EVEN, np.arange(log.size), log)
+    added = [np.delete(parts, np.s_[::_EVEN])]
+    # Distances over the least length of an interval: one more for each speed, and then in a geometric series.
+    near, far = 1.0 / (_GRADED - 1.0), float(np.max(np.diff(log))) / (_EVEN * _CLOSEST * (_GRADED - 1.0))
+    away = near * _GRADED ** np.arange(math.log(far / near) / math.log(_GRADED))
+    away = _CLOSEST * np.concatenate([[-0.49], np.arange(0.49, near), away])
+    for at in Sampled(lambda _: log_ratio, log, (log_ratio - math.log(limit))[np.newaxis]).crossings(0):
+        added.append(at + away)
+    every = np.unique(np.concatenate(added))
+    apart = np.min(np.abs(every[:, np.newaxis] - log), axis=1) > 0.5 * _CLOSEST
+    return np.asarray(every[apart & (every > log[0]) & (every < log[-1])])
 
 
 def _columns(summaries: Sequence[Mapping[str, Any] | None]) -> Array:

@@ -97,6 +97,22 @@ def test_curves_over_the_speed_are_the_bearing_at_every_speed(case):
         assert np.all(error < 0.01 * expected[known] + 2e-3 * np.max(expected[known])), key
 
 
+@pytest.mark.parametrize("case", [rollers(), balls()], ids=["rollers", "balls"])
+def test_curves_are_within_their_stated_error_of_a_fine_series(case):
+    """The bearing with as few loads as the curves at 500 speeds: 0.3 %, except up to 0.1 % above the speed at
+    which the surfaces part, where the first breakdown is 0.
+    """
+    curves = curves_of(over_speed(case)[0])
+    fine = curves_of(over_speed(case, count=500)[0])
+    for key in DRAWN:
+        off = np.abs(np.log(curves.at(key, fine.speed) / fine[key]))
+        known = np.isfinite(off)
+        assert np.count_nonzero(known != np.isfinite(fine[key])) <= 1, key
+        beyond = known & (fine.speed > 1.001 * fine.speed[known][0])
+        assert np.count_nonzero(beyond) > 100, key
+        assert np.all(off[beyond] < 3e-3), key
+
+
 def test_the_ring_to_ring_curve_of_rollers_has_no_hump():
     """0.58 V at 1000 rpm: a curve that rises with the speed is nowhere above its value at a higher one."""
     points, _ = over_speed(rollers())
