@@ -13,11 +13,16 @@ f is the distance by which relief and crowning move the flanks apart, and delta 
 shape of c is the one of least elastic energy (J. I. Pedrero, M. Pleguezuelos, M. Munoz, Mech. Mach. Theory
 2013, doi:10.1016/j.mechmachtheory.2013.01.010); with c_0 the mean of the stiffness over a phase is c_gamma b.
 
-"rigid": w = K F_bn/l, the same load on all lines of the present length l.
+All other laws are shares X over the path of contact. Equilibrium scales them at each phase:
 
-"iso": shares X of ISO/TS 6336-22, w = K X F_bn/b: of spur pairs 1/3 at A and E, 2/3 at B and D outside the
-single contact, and 1 within; of helical pairs with eps_beta of at least 1 the mean load, with 1.3 times this
-at A and E that falls over 0.2 sin beta_b mm; interpolated linearly in eps_beta below 1.
+    w = K F_bn X/(integral of X over all lines)
+
+"rigid": X = 1, the same load on all lines.
+
+"iso": shares of ISO/TS 6336-22: of spur pairs 1/3 at A and E, 2/3 at B and D outside the single contact, and
+1 within; of helical pairs with eps_beta of at least 1 the share 1/eps_alpha, with 1.3 times this at A and E
+that falls over 0.2 sin beta_b mm; interpolated linearly in eps_beta below 1. Shares of spur pairs add up
+to 1, so that w = K X F_bn/b; the sum of the shares of a helical pair varies over the phase.
 
 "tip-relief": shares of a spur pair whose relief equals its deflection: 0 at A and E, 1 at B and D.
 """
@@ -158,29 +163,40 @@ class Slices:
     """
 
     plane: PlaneOfAction
+    law: str
     parts: LineParts
     # Coefficients of the distance f of the flanks [m], a polynomial of the place 0 to 1 in a part.
     opening: tuple[Array, Array, Array]
     number: int  # nodes of a part of a line
 
-    def at(self, at: Array, share: Array) -> tuple[Array, Array, Array]:
-        """Distance f [m], relative stiffness c and length of the line [m] at nodes within the parts, each of
-        shape (m, n).
-        """
-        constant, slope, square = (values[:, np.newaxis] for values in self.opening)
+    def along(self, at: Array, share: Array) -> tuple[Array, Array]:
+        """Places g and lengths of the line [m] at nodes within the parts, each of shape (m, n)."""
         width = self.parts.width[:, np.newaxis]
-        c = single_stiffness(self.plane, self.parts.places(self.parts.low[:, np.newaxis] + width * at), 1.0)
-        length = width * share / math.cos(self.plane.path.base_helix_angle)
-        return constant + at * (slope + at * square), c, length
+        places = self.parts.places(self.parts.low[:, np.newaxis] + width * at)
+        return places, width * share / math.cos(self.plane.path.base_helix_angle)
+
+    def distance(self, at: Array) -> Array:
+        """Distance f of the flanks [m] at places within the parts, shape (m, n)."""
+        constant, slope, square = (values[:, np.newaxis] for values in self.opening)
+        return np.asarray(constant + at * (slope + at * square))
 
     def springs(self, at: Array, share: Array) -> tuple[Array, Array]:
         """Sums of c l [m] and of c l f [m^2] over the nodes at each phase, each of shape (p,)."""
-        opening, c, length = self.at(at, share)
-        spring = c * length
-        of_parts = np.sum(spring, axis=1), np.sum(spring * opening, axis=1)
-        phase, number = self.parts.phase, self.parts.phases.size
-        springs, moments = (np.bincount(phase, each, number).astype(float) for each in of_parts)
-        return springs, moments
+        places, length = self.along(at, share)
+        spring = single_stiffness(self.plane, places, 1.0) * length
+        return self._sum(spring), self._sum(spring * self.distance(at))
+
+    def _sum(self, values: Array) -> Array:
+        """Sums of values of shape (m, n) over the nodes at each phase, shape (p,)."""
+        number = self.parts.phases.size
+        return np.bincount(self.parts.phase, np.sum(values, axis=1), number).astype(float)
+
+    @cached_property
+    def shares(self) -> Array:
+        """Integrals of the shares X over all lines at each phase, shape (p,) [m]."""
+        size = self.parts.width.size
+        places, length = self.along(*nodes_within(self.number, (np.zeros(size), np.ones(size))))
+        return self._sum(LAWS[self.law](self.plane, places) * length)
 
     @cached_property
     def whole(self) -> tuple[Array, Array]:
@@ -205,7 +221,7 @@ def slices_of(plane: PlaneOfAction, law: str, modification: Modification, accura
     number = 1 if spur else (_NODES - 1) * accuracy + 1
     if modification.crowning > 0.0:
         number = (_CROWNED - 1) * accuracy + 1
-    return Slices(plane, parts, _opening(plane, parts, modification), number)
+    return Slices(plane, law, parts, _opening(plane, parts, modification), number)
 
 
 def _opening(
@@ -274,13 +290,6 @@ class Sharing:
         first, last = np.minimum(np.maximum(first, 0.0), 1.0), np.minimum(np.maximum(last, 0.0), 1.0)
         return np.where(none, 1.0, first), np.where(none, 1.0, last)
 
-    def _at(self, at: Array, share: Array) -> tuple[Array, Array, Array]:
-        """Distance f [m], stiffness c [N/m^2] and length of the line [m] at nodes within the parts, each of
-        shape (m, n).
-        """
-        opening, c, length = self.slices.at(at, share)
-        return opening, self.stiffness * c, length
-
     def _delta(self, at: Array, share: Array) -> Array:
         """Approach delta at each phase [m], shape (p,), of nodes that all carry load."""
         return self._approach(*self.slices.springs(at, share))
@@ -292,16 +301,14 @@ class Sharing:
     @cached_property
     def _solved(self) -> tuple[Array, Array, tuple[Array, Array], Array]:
         """Nodes within the parts, places and shares of shape (m, n), the loaded pieces, and delta at each
-        phase; without the law "stiffness", the length of all lines at each phase instead of delta.
+        phase; without the law "stiffness", the integral of X over all lines at each phase instead of delta.
 
         The force is a convex function of delta, so that the steps of Newton fall towards its root.
         """
         whole = np.zeros(self.parts.width.size), np.ones(self.parts.width.size)
         nodes = nodes_within(self.number, whole)
         if self.law != "stiffness":
-            each = self.parts.width / math.cos(self.plane.path.base_helix_angle)
-            length: Array = np.bincount(self.parts.phase, each, self.parts.phases.size).astype(float)
-            return *nodes, whole, length
+            return *nodes, whole, self.slices.shares
         if self.modification.none:
             return *nodes, whole, self._delta(*nodes)
         delta, loaded = self._approach(*self.slices.whole), whole
@@ -315,7 +322,7 @@ class Sharing:
 
     @property
     def state(self) -> Array:
-        """Approach delta of the flanks [m], or length of all lines [m], at each phase, shape (p,)."""
+        """Approach delta of the flanks, or integral of the shares over all lines, at each phase [m]."""
         return self._solved[-1]
 
     @property
@@ -328,7 +335,7 @@ class Sharing:
         # Both ends of the pieces before and behind the loaded one; a part without a load is the first piece.
         last = np.where(start >= 1.0, 1.0, end)
         at = np.stack([np.zeros_like(start), start, last, np.ones_like(end)], axis=1)
-        gap = np.maximum(self._at(at, np.ones_like(at))[0] - state[self.parts.phase][:, np.newaxis], 0.0)
+        gap = np.maximum(self.slices.distance(at) - state[self.parts.phase][:, np.newaxis], 0.0)
         low, width = self.parts.low[:, np.newaxis], self.parts.width[:, np.newaxis]
         middle = low + 0.5 * width * (at[:, 0::2] + at[:, 1::2])
         length = width * (at[:, 1::2] - at[:, 0::2]) / math.cos(self.plane.path.base_helix_angle)
@@ -344,7 +351,7 @@ class Sharing:
     def load(self, places: Array, across: Array, state: Array) -> Array:
         """Line loads [N/m] at places g and y [m] and states of the mesh, which broadcast to a shape (...)."""
         if self.law != "stiffness":
-            return LAWS[self.law](self, places, state)
+            return np.asarray(self.force * LAWS[self.law](self.plane, places) / state)
         opening = self.modification.opening(self.plane, places, across)
         spring = single_stiffness(self.plane, places, self.stiffness)
         return np.asarray(spring * np.maximum(state - opening, 0.0))
@@ -397,37 +404,31 @@ def single_stiffness(plane: PlaneOfAction, places: Array, stiffness: float) -> A
     return 0.5 * stiffness * b0 / math.sin(0.5 * b0 * ratio) * np.cos(b0 * (xi - 0.5 * ratio))
 
 
-def _rigid(sharing: Sharing, _places: Array, length: Array) -> Array:
-    """Equal loads on all lines, of a length [m] at the phase [N/m]."""
-    return np.asarray(sharing.force / length)
+def _rigid(_plane: PlaneOfAction, places: Array) -> Array:
+    """Equal loads on all lines."""
+    return np.ones_like(places)
 
 
-def _shares(sharing: Sharing, places: Array, _length: Array) -> Array:
-    """Line loads of the shares of ISO/TS 6336-22 without relief [N/m]."""
-    plane = sharing.plane
+def _shares(plane: PlaneOfAction, places: Array) -> Array:
+    """Shares of ISO/TS 6336-22 without relief."""
     beta = min(1.0, plane.overlap_ratio)
     share = _trapezoid(plane, places, at_end=1.0 / 3.0)
     if beta > 0.0:
         sine = math.sin(plane.path.base_helix_angle)
         helical = _buttressing(plane, places, 1.0 + (_BUTTRESSING - 1.0) * beta, _BUTTRESSED * sine)
         share = (1.0 - beta) * share + beta * helical / plane.path.contact_ratio
-    return share * _per_face(plane, sharing.force)
+    return share
 
 
-def _tip_relief(sharing: Sharing, places: Array, _length: Array) -> Array:
-    """Line loads of a spur pair with as much relief as deflection [N/m]."""
-    if sharing.plane.overlap_ratio > 0.0:
+def _tip_relief(plane: PlaneOfAction, places: Array) -> Array:
+    """Shares of a spur pair with as much relief as deflection."""
+    if plane.overlap_ratio > 0.0:
         raise InputError(
             "gear.operation.load_sharing",
             got="'tip-relief' for helical gears",
             takes="'stiffness' with gear.tip_relief and gear.tip_relief_length",
         )
-    return _trapezoid(sharing.plane, places, at_end=0.0) * _per_face(sharing.plane, sharing.force)
-
-
-def _per_face(plane: PlaneOfAction, force: float) -> float:
-    """Load of a single line that is as long as the face [N/m]."""
-    return force * math.cos(plane.path.base_helix_angle) / plane.face_width
+    return _trapezoid(plane, places, at_end=0.0)
 
 
 def _trapezoid(plane: PlaneOfAction, places: Array, *, at_end: float) -> Array:
@@ -457,7 +458,7 @@ def _buttressing(plane: PlaneOfAction, places: Array, most: float, over: float) 
     return 1.0 + (most - 1.0) * np.maximum(0.0, 1.0 - nearest / over)
 
 
-# Laws without the stiffness of the teeth.
+# Shares X at places g of shape (...), of the laws without the stiffness of the teeth.
 LAWS: Mapping[str, Callable[..., Array]] = {
     "rigid": _rigid,
     "iso": _shares,
