@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import repeat
 from typing import Any
 
 import numpy as np
@@ -19,14 +20,14 @@ from ehlectric.axle.solution import (
     mesh_element,
     named_warnings,
 )
-from ehlectric.bearing import codes_of, is_quick, many_of, solve_bearing, solved_parts
+from ehlectric.bearing import Detail, codes_of, is_quick, many_of, solve_bearing, solved_parts
 from ehlectric.cases.axle_case import AxleCase, Turning
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.gear_case import GearCase, changed_pair
 from ehlectric.cases.input_keys import is_quantity
 from ehlectric.cases.table_edits import flattened
 from ehlectric.errors import ConvergenceError, InputError, within
-from ehlectric.gear import gear_warnings, solve_gear_pairs
+from ehlectric.gear import GearSolution, gear_warnings, open_area, reference_area_of, solve_gear_pairs
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.runtime.display import is_number
 
@@ -38,12 +39,23 @@ _Solved = tuple[Element, tuple[ResultWarning, ...]] | InputError | ConvergenceEr
 
 
 @dataclass(frozen=True)
+class FilmScales:
+    """Factors on the films of an axle within their error, and on what the state of its flanks depends."""
+
+    bearings: float = 1.0  # factor on all films of bearings
+    meshes: float = 1.0  # factor on all films of meshes
+    summits: float = 0.0  # step of the height of the summits of flanks, divided by their composite Rq
+    area: float = 1.0  # factor on the reference area of the share of time of meshes
+
+
+@dataclass(frozen=True)
 class _Axle:
     """Axle with speeds and loads, before its films are known."""
 
     case: AxleCase
     turning: dict[str, Turning]
     loads: dict[str, BearingLoads]
+    scales: FilmScales | None = None  # only ratios of voltages are used if there are any
 
 
 @dataclass(frozen=True)
@@ -76,18 +88,21 @@ class _Mounted:
         return self.axle.case.bearing_case(self.number, speed, self.radial, abs(self.axial))
 
 
-def solve_axles(cases: Iterable[AxleCase]) -> list[Outcome]:
+def solve_axles(
+    cases: Iterable[AxleCase], *, scales: Iterable[FilmScales | None] = repeat(None)
+) -> list[Outcome]:
     """Axles as ``solve_elements`` solves them, or the errors of axles without a solution, in their order.
 
-    The text of a warning is the meaning of its code.
+    The text of a warning is the meaning of its code. ``scales`` of the films of each axle: such axles have no
+    warnings, and capacitances without these factors, from fewer loads on the elements.
     """
     outcomes: dict[int, Outcome] = {}
     axles: dict[int, _Axle] = {}
     mounted: list[_Mounted] = []
     of_oil = _OfOil()
-    for place, case in enumerate(cases):
+    for place, (case, scale) in enumerate(zip(cases, scales, strict=False)):
         try:
-            axle = _Axle(case, case.turning(), loads_on_shafts(case))
+            axle = _Axle(case, case.turning(), loads_on_shafts(case), scale)
             mounted += _mounted(place, axle, of_oil)
             axles[place] = axle
         except InputError as error:
@@ -128,6 +143,11 @@ def _mounted(place: int, axle: _Axle, of_oil: _OfOil) -> Iterator[_Mounted]:
             "inner_speed": abs(axle.turning[bearing.shaft].speed),
             "temperature": case.drive.temperature,
         }
+        if axle.scales is not None:
+            given = keys.get("composite_rq")
+            rq = given if is_number(given) else case.tables_of_bearings[number].composite_rq
+            # Films that are f times as thick are films on surfaces with the roughness Rq/f, times f.
+            keys["composite_rq"] = rq / axle.scales.bearings
         values, names = _split({"bearing": keys})
         texts = f"{names!r}, {[*values]}, {text}"
         yield _Mounted(place, number, axle, radial, axial, values | shared, texts)
@@ -186,7 +206,8 @@ def _of_group(group: Sequence[_Mounted]) -> list[_Solved]:
         first = group[0].case
         if not is_quick(first):
             return [_alone(each) for each in group]
-        for part in solved_parts(many_of(first, arrays, len(group))):
+        detail: Detail = "whole" if group[0].axle.scales is None else "coarse"
+        for part in solved_parts(many_of(first, arrays, len(group)), detail=detail):
             places = part.points.tolist()
             solved |= zip(places, _elements([group[place] for place in places], part.solution), strict=True)
     except InputError:
@@ -198,6 +219,11 @@ def _of_group(group: Sequence[_Mounted]) -> list[_Solved]:
 def _elements(group: Sequence[_Mounted], solution: Any) -> list[_Solved]:
     """Elements of bearings that were solved together, with their warnings."""
     count = len(group)
+    if group[0].axle.scales is not None:
+        elements = bearing_elements(solution, [each.mounting for each in group])
+        return [
+            (_scaled(element, each.axle.scales), ()) for element, each in zip(elements, group, strict=True)
+        ]
     masks = [(code, np.broadcast_to(where, count)) for code, where in codes_of(solution)]
     elements = bearing_elements(solution, [each.mounting for each in group])
     return [
@@ -209,6 +235,14 @@ def _elements(group: Sequence[_Mounted], solution: Any) -> list[_Solved]:
     ]
 
 
+def _scaled(element: Element, scales: FilmScales | None) -> Element:
+    """Element of a bearing with films that are ``scales.bearings`` times as thick."""
+    voltage = element.breakdown_voltage
+    if scales is None or voltage is None:
+        return element
+    return replace(element, breakdown_voltage=voltage * scales.bearings)
+
+
 def _alone(mounted: _Mounted) -> _Solved:
     """Element of a single bearing."""
     try:
@@ -218,7 +252,7 @@ def _alone(mounted: _Mounted) -> _Solved:
             return error.with_text(error.key or "bearing", f"{error.text} ({mounted.name})")
         return error
     (element,) = bearing_elements(result.solution, [mounted.mounting])
-    return element, result.warnings
+    return _scaled(element, mounted.axle.scales), result.warnings
 
 
 def _solved_meshes(axles: Mapping[int, _Axle]) -> dict[tuple[int, int], _Solved]:
@@ -235,7 +269,8 @@ def _solved_meshes(axles: Mapping[int, _Axle]) -> dict[tuple[int, int], _Solved]
                 places.append((place, number))
             except InputError as error:
                 solved[place, number] = error
-    for (place, number), outcome in zip(places, solve_gear_pairs(pairs), strict=True):
+    whole = any(axle.scales is None for axle in axles.values())
+    for (place, number), outcome in zip(places, solve_gear_pairs(pairs, unloaded=whole), strict=True):
         case = axles[place].case
         if isinstance(outcome, InputError):
             solved[place, number] = outcome.under(f"mesh.{number + 1}.pair")
@@ -243,8 +278,28 @@ def _solved_meshes(axles: Mapping[int, _Axle]) -> dict[tuple[int, int], _Solved]
             solved[place, number] = outcome
         else:
             element = mesh_element(case.names_of_meshes()[number], case.mesh[number].gears, outcome)
-            solved[place, number] = element, tuple(gear_warnings(outcome))
+            scales = axles[place].scales
+            if scales is None:
+                solved[place, number] = element, tuple(gear_warnings(outcome))
+            else:
+                solved[place, number] = _scaled_mesh(element, outcome, scales), ()
     return solved
+
+
+def _scaled_mesh(element: Element, solution: GearSolution, scales: FilmScales) -> Element:
+    """Element of a mesh with other films, summits and reference area."""
+    film = scales.meshes * float(np.nanmin(solution.films.minimum))
+    gap = film - (solution.case.gear.summit_height + scales.summits) * solution.rq
+    area = scales.area * reference_area_of(solution.case)
+    share = -np.expm1(open_area(solution.loads, solution.films, solution.rq / scales.meshes) / area)
+    strength = solution.strength
+    return replace(
+        element,
+        touching=strength is not None and gap <= 0.0,
+        breakdown_voltage=strength * gap if strength is not None and gap > 0.0 else None,
+        contact_time_share=float(solution.loads.mean(share)),
+        lambda_ratio=film / solution.rq,
+    )
 
 
 def _pair(axle: _Axle, number: int, known: dict[tuple[Any, ...], GearCase]) -> GearCase:

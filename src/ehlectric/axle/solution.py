@@ -24,6 +24,7 @@ from ehlectric.bearing import (
     InclinedRow,
     breakdown_of,
     duty_of,
+    film_error,
     shaft_capacitance,
     solve_bearing,
 )
@@ -65,6 +66,7 @@ class Element:
     conduction: Conduction = "by-film"  # of the gear file of a mesh
     # Whether summits touch, so that no breakdown voltage is computed.
     touching: bool = False
+    film_error: float = 0.0  # relative error of the films
 
     @property
     def state(self) -> str:
@@ -293,6 +295,7 @@ def bearing_elements(solution: BearingSolution, mounted: Sequence[tuple[str, str
         solution.least_film / bearing.composite_rq,
         bearing.radial_load,
         bearing.axial_load,
+        film_error(solution),
     )
     rows = zip(*(np.broadcast_to(column, len(mounted)).tolist() for column in columns), strict=True)
     return [
@@ -308,8 +311,9 @@ def bearing_elements(solution: BearingSolution, mounted: Sequence[tuple[str, str
             lambda_ratio=ratio,
             radial_load=radial,
             axial_load=axial or given,
+            film_error=error,
         )
-        for (name, shaft, axial), (capacitance, voltage, share, ratio, radial, given) in zip(
+        for (name, shaft, axial), (capacitance, voltage, share, ratio, radial, given, error) in zip(
             mounted, rows, strict=True
         )
     ]
@@ -329,4 +333,5 @@ def mesh_element(name: str, gears: tuple[str, ...], solution: GearSolution) -> E
         contact_time_share=float(loads.mean(solution.contact_time_share())),
         lambda_ratio=float(np.nanmin(solution.films.minimum)) / solution.rq,
         conduction=solution.case.gear.contact.conduction,
+        film_error=solution.film_error,
     )

@@ -101,6 +101,7 @@ from .solution import lambda_text as lambda_text
 from .solution import lubrication_state as lubrication_state
 from .solution import percent as percent
 from .solving import CaseKey as CaseKey
+from .solving import Detail as Detail
 from .solving import key_of as key_of
 from .speed_curves import ON_SHAFT as ON_SHAFT
 from .speed_curves import Curves as Curves
@@ -125,7 +126,9 @@ from .uncertain_inputs import MOTOR as MOTOR
 from .uncertain_inputs import OF_TABLE as OF_TABLE
 from .uncertain_inputs import Change as Change
 from .uncertain_inputs import changes_of as changes_of
+from .uncertain_inputs import clearance_change as clearance_change
 from .uncertain_inputs import grade_changes as grade_changes
+from .uncertain_inputs import label_of as label_of
 from .uncertain_inputs import load_change as load_change
 from .uncertain_inputs import proportional_to_strength as proportional_to_strength
 from .uncertain_inputs import stated_change as stated_change
@@ -139,9 +142,11 @@ from .uncertainty import SEED as SEED
 from .uncertainty import STAGES as STAGES
 from .uncertainty import MarginBand as MarginBand
 from .uncertainty import Names as Names
+from .uncertainty import UncertainInput as UncertainInput
 from .uncertainty import Uncertainty as Uncertainty
 from .uncertainty import quick_chance as quick_chance
 from .uncertainty import refined as refined
+from .uncertainty import spread_at as spread_at
 from .verdict_rule import bearing_verdict as bearing_verdict
 from .verdict_rule import equal_bearings as equal_bearings
 from .warnings import codes_of as codes_of

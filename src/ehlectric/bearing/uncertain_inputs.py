@@ -115,12 +115,12 @@ def usual_changes(case: BearingCase, table: Mapping[str, Any]) -> Iterator[Chang
     if not temperature_is_unused(case):
         yield _temperature(bearing)
     yield from grade_changes(case.lubricant)
-    yield from _clearance(bearing)
+    yield from clearance_change(bearing)
     # Cones of tapered rollers are ground to their angle; the angle of balls also follows from their
     # clearance.
     if bearing.contact_angle is not None and not has_rollers(bearing.kind):
         key, angle = "bearing.contact_angle", bearing.contact_angle
-        yield Change(key, _label(key), angle, _around(angle, ANGLE), _OF_ANGLE)
+        yield Change(key, label_of(key), angle, _around(angle, ANGLE), _OF_ANGLE)
     yield _load(bearing)
     yield from _geometry(bearing)
     yield from summit_changes("bearing.summit_height", bearing.summit_height)
@@ -128,7 +128,7 @@ def usual_changes(case: BearingCase, table: Mapping[str, Any]) -> Iterator[Chang
         key = f"motor.{name}_capacitance"
         capacitance = value_at(table, key)
         if capacitance is not None:
-            yield Change(key, _label(key), capacitance, _part(capacitance, MOTOR), _OF_MOTOR)
+            yield Change(key, label_of(key), capacitance, _part(capacitance, MOTOR), _OF_MOTOR)
 
 
 def strength_changes(table: Mapping[str, Any]) -> Iterator[Change]:
@@ -136,7 +136,7 @@ def strength_changes(table: Mapping[str, Any]) -> Iterator[Change]:
     for key in STRENGTHS:
         strength = value_at(table, key)
         if strength is not None:
-            yield Change(key, _label(key), strength, _part(strength, STRENGTH_UNKNOWN), _OF_STRENGTH)
+            yield Change(key, label_of(key), strength, _part(strength, STRENGTH_UNKNOWN), _OF_STRENGTH)
     if value_at(table, "discharge.strength_table") is not None:
         label = "factor on the dielectric strength"
         yield Change(OF_TABLE, label, 1.0, _part(1.0, STRENGTH_UNKNOWN), _OF_STRENGTH)
@@ -146,7 +146,7 @@ def grade_changes(lubricant: Lubricant) -> Iterator[Change]:
     """Change of the viscosity at 40 degC within the limits of a viscosity grade; none without one."""
     oil = lubricant.temperature
     if oil is not None and oil.iso_vg is not None:
-        label = f"{_label(_AT_40)} (limits of ISO VG {oil.iso_vg})"
+        label = f"{label_of(_AT_40)} (limits of ISO VG {oil.iso_vg})"
         at_40 = oil.at_40()
         yield Change(_AT_40, label, float(at_40), _part(float(at_40), GRADE_WIDTH), _OF_GRADE)
 
@@ -156,23 +156,23 @@ def summit_changes(key: str, height: float) -> Iterator[Change]:
     if height > 0.0:
         # Smooth films, of a height of 0, are asked for as a bound.
         low, high = _around(height, SUMMITS)
-        yield Change(key, _label(key), height, (low, min(high, HIGHEST)), _OF_SUMMITS)
+        yield Change(key, label_of(key), height, (low, min(high, HIGHEST)), _OF_SUMMITS)
 
 
 def load_change(key: str, value: float) -> Change:
     """Change of a load that is larger than 0."""
-    return Change(key, _label(key), value, _part(value, LOAD), _OF_LOAD)
+    return Change(key, label_of(key), value, _part(value, LOAD), _OF_LOAD)
 
 
 def temperature_change(key: str, value: float) -> Change:
     """Change of a temperature."""
-    return Change(key, _label(key), value, _around(value, TEMPERATURE), _OF_TEMPERATURE)
+    return Change(key, label_of(key), value, _around(value, TEMPERATURE), _OF_TEMPERATURE)
 
 
 def stated_change(table: Mapping[str, Any], entry: InputRange) -> Change:
     """Change of an input of a case with the given tables to the ends of its range in the file."""
     value = float(value_at(table, entry.key))
-    return Change(entry.key, _label(entry.key), value, (entry.low, entry.high))
+    return Change(entry.key, label_of(entry.key), value, (entry.low, entry.high))
 
 
 def _load(bearing: Bearing) -> Change:
@@ -197,7 +197,7 @@ def _temperature(bearing: Bearing) -> Change:
     return replace(change, label=label, shifted=known)
 
 
-def _clearance(bearing: Bearing) -> Iterator[Change]:
+def clearance_change(bearing: Bearing) -> Iterator[Change]:
     """Change of the clearance to the limits of its class, or by a step either way; none without one."""
     key, clearance = "bearing.fits.unmounted_clearance", bearing.unmounted_clearance
     if clearance is None:
@@ -205,10 +205,10 @@ def _clearance(bearing: Bearing) -> Iterator[Change]:
     if clearance is None:
         return
     if bearing.clearance_class is None or bearing.bore is None:
-        yield Change(key, _label(key), clearance, _around(clearance, CLEARANCE), _OF_CLEARANCE)
+        yield Change(key, label_of(key), clearance, _around(clearance, CLEARANCE), _OF_CLEARANCE)
         return
     limits = clearance_range(bearing.kind, bearing.clearance_class, bearing.bore)
-    label = f"{_label(key)} (limits of class {bearing.clearance_class})"
+    label = f"{label_of(key)} (limits of class {bearing.clearance_class})"
     yield Change(key, label, clearance, (limits.least, limits.most), _OF_CLASS)
 
 
@@ -229,7 +229,7 @@ def _geometry(bearing: Bearing) -> Iterator[Change]:
         known = {
             f"bearing.{name}": getattr(bearing, name) for name in both if bearing.kind == "needle roller"
         }
-        yield Change(key, _label(key), value, (low, high), _OF_ESTIMATE, shifted=known)
+        yield Change(key, label_of(key), value, (low, high), _OF_ESTIMATE, shifted=known)
 
 
 def estimated_keys(bearing: Bearing) -> tuple[str, ...]:
@@ -261,7 +261,7 @@ def _around(value: float, step: float) -> tuple[float, float]:
     return value - step, value + step
 
 
-def _label(key: str) -> str:
+def label_of(key: str) -> str:
     """Label of an input in the book; its dotted key if no file has it."""
     entry = input_of(key)
     return key if entry is None else entry.label

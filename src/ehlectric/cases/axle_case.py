@@ -14,8 +14,10 @@ from itertools import combinations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
-from pydantic import Field, model_validator
+from pydantic import Field, field_serializer, field_validator, model_validator
+from pydantic.fields import FieldInfo
 
+from ehlectric.cases.amounts import Amount
 from ehlectric.cases.axle_inputs import (
     HOUSING,
     Adjustment,
@@ -35,12 +37,23 @@ from ehlectric.cases.drive_case import Remedy
 from ehlectric.cases.drive_inputs import Breakdown, Circuit, Source
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.gear_inputs import Gear
+from ehlectric.cases.input_ranges import (
+    InputRange,
+    check_range,
+    field_of_values,
+    flat_changes,
+    ranges_of,
+    table_of_ranges,
+)
 from ehlectric.cases.key_names import refuse_deep
-from ehlectric.cases.table import CaseFile, Table, Title
-from ehlectric.cases.table_edits import displace, flattened, set_keys
+from ehlectric.cases.stated_ranges import with_stated_ranges
+from ehlectric.cases.table import CaseFile, Table, Title, number_of
+from ehlectric.cases.table_edits import displace, set_keys
 from ehlectric.errors import InputError, shown, within
 from ehlectric.quantities.alternatives import ALTERNATIVES
 from ehlectric.quantities.formats import amount, operating_point, speed_text
+from ehlectric.quantities.inputs import end_and_key
+from ehlectric.quantities.rows import value_at
 from ehlectric.runtime.display import headline, is_number
 
 # Relative difference of speeds along two paths that is rounding.
@@ -107,6 +120,8 @@ class AxleCase(CaseFile, book="axle_file"):
         Title of tables and figures.
     remedies : sequence of mapping, optional
         Changes that are computed in addition to the axle, each with its title.
+    ranges : mapping, optional
+        Ranges of uncertain inputs by dotted key, each a list of two values.
     """
 
     if TYPE_CHECKING:
@@ -128,6 +143,23 @@ class AxleCase(CaseFile, book="axle_file"):
     lubricant: Lubricant
     discharge: Discharge = Discharge()
     remedies: tuple[Remedy, ...] = ()
+    ranges: tuple[InputRange, ...] | None = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _with_uncertainties(cls, tables: Any) -> Any:
+        """Inputs that are written with their uncertainty have their middle, and ``ranges`` has their ends."""
+        return with_stated_ranges(tables, _quantity_of) if isinstance(tables, Mapping) else tables
+
+    @field_validator("ranges", mode="plain")
+    @classmethod
+    def _parsed(cls, tables: Any) -> tuple[InputRange, ...] | None:
+        """Ranges of inputs in SI units."""
+        return None if tables is None else ranges_of(tables, cls, _field_of) or None
+
+    @field_serializer("ranges")
+    def _as_table(self, ranges: tuple[InputRange, ...] | None) -> dict[str, list[int | float]] | None:
+        return table_of_ranges(ranges)
 
     @classmethod
     def of_file(cls, table: dict[str, Any], path: Path) -> Self:
@@ -340,7 +372,24 @@ class AxleCase(CaseFile, book="axle_file"):
         for shaft in self.shaft:
             if self._check_adjusted(shaft) is None:
                 self._check_locating(shaft, helical=shaft.name in helical)
+        for span in self.ranges or ():
+            check_range(span, self.value_of(span.key))
         return self
+
+    def value_of(self, key: str) -> Any:
+        """Return the value of a dotted key as ``replace`` takes it, of several parts the first."""
+        end, inner = end_and_key(key)
+        kind, _, name = end.partition(".")
+        tables: Any = self.to_dict()
+        if kind:
+            number = 0 if name == "*" else self.places_of(key)[0]
+            table = tables[kind][number]
+            tables = {"axle": {kind: table}}
+            if kind == "bearing":
+                tables = {"bearing": self.tables_of_bearings[number].model_dump(mode="json")}
+            elif kind == "mesh":
+                tables = table["pair"]
+        return value_at(tables, inner)
 
     def _check_names(self) -> None:
         names = [shaft.name for shaft in self.shaft]
@@ -406,7 +455,7 @@ class AxleCase(CaseFile, book="axle_file"):
             return str(base_of(keys)[1]["kind"])
 
     @cached_property
-    def _tables(self) -> tuple[Bearing, ...]:
+    def tables_of_bearings(self) -> tuple[Bearing, ...]:
         """Tables ``bearing`` of all bearings, with any load."""
         return tuple(
             self.bearing_case(number, self.drive.speed, _CHECK_LOAD, 0.0).bearing
@@ -415,7 +464,7 @@ class AxleCase(CaseFile, book="axle_file"):
 
     def _inclined(self, shaft: str) -> list[int]:
         """Numbers of the single bearings with inclined rows on a shaft whose axial loads are not given."""
-        tables = {number: self._tables[number] for number in self.bearings_of(shaft)}
+        tables = {number: self.tables_of_bearings[number] for number in self.bearings_of(shaft)}
         return [
             number
             for number, bearing in tables.items()
@@ -433,7 +482,7 @@ class AxleCase(CaseFile, book="axle_file"):
     def _check_adjusted(self, shaft: Shaft) -> Adjustment | None:
         """Adjustment of both bearings of a shaft; refuse single inclined rows that are not adjusted."""
         inclined, numbers = self._inclined(shaft.name), self.bearings_of(shaft.name)
-        kinds = [self._tables[number].kind for number in numbers]
+        kinds = [self.tables_of_bearings[number].kind for number in numbers]
         names = f"{' and '.join(dict.fromkeys(kinds))} bearings on shaft {shaft.name!r}"
         if not inclined:
             if shaft.adjustment is not None:
@@ -527,7 +576,7 @@ class AxleCase(CaseFile, book="axle_file"):
             New values by table, as in ``drive={"speed": "6000 rpm"}``.
         """
         refuse_deep({**tables, "changes": changes})
-        flat = flattened(tables) | dict(changes or {})
+        flat = flat_changes(tables) | dict(changes or {})
         table = self.to_dict()
         if "lubricant.base" in flat or "lubricant" in flat:
             table["lubricant"] = {}
@@ -540,6 +589,8 @@ class AxleCase(CaseFile, book="axle_file"):
         }
         inner = {key: value for key, value in flat.items() if "." in key and key.split(".")[0] in lists}
         set_keys(table, {key: value for key, value in flat.items() if key not in inner})
+        if "ranges" in table and "ranges" not in flat:
+            table["ranges"] = {key: ends for key, ends in table["ranges"].items() if key not in flat}
         for key, value in inner.items():
             name, _, rest = (*key.split(".", 2), "", "")[:3]
             lists[name](table, key, {rest: value})
@@ -612,6 +663,26 @@ class AxleCase(CaseFile, book="axle_file"):
             link.update(change)
 
 
+def _field_of(key: str) -> FieldInfo:
+    """Field of a dotted key of an axle, as ``replace`` takes it."""
+    end, inner = end_and_key(key)
+    files: Mapping[str, type[Table]] = {"bearing": BearingCase, "mesh": GearCase}
+    model = files.get(end.partition(".")[0], AxleCase)
+    try:
+        return field_of_values(inner.removeprefix("axle."), model)
+    except InputError as error:
+        raise error.with_text(key, error.text) from None
+
+
+def _quantity_of(key: str) -> Amount | None:
+    """Quantity of a dotted key of an axle; None for a key that is none."""
+    try:
+        quantity = number_of(_field_of(key))
+    except InputError:
+        return None
+    return quantity if isinstance(quantity, Amount) else None
+
+
 # Tables whose numbers may change without new rules for bearings and meshes.
 _QUICK: Mapping[str, type[Table]] = {
     "drive": AxleOperation,
@@ -627,7 +698,7 @@ def changed_axle(case: AxleCase, changes: Mapping[str, Any]) -> AxleCase:
     tables: dict[str, dict[str, Any]] = {}
     for key, value in changes.items():
         name, _, leaf = key.partition(".")
-        if name not in _QUICK or not is_number(getattr(getattr(case, name), leaf, None)):
+        if case.ranges or name not in _QUICK or not is_number(getattr(getattr(case, name), leaf, None)):
             return case.replace(changes)
         tables.setdefault(name, {})[leaf] = value
     update = {}
@@ -636,6 +707,20 @@ def changed_axle(case: AxleCase, changes: Mapping[str, Any]) -> AxleCase:
         with within(name):
             update[name] = _QUICK[name].from_dict(table | values)
     return case.model_copy(update=update)
+
+
+def changed_bearings(case: AxleCase, values: Mapping[int, Mapping[str, float]]) -> AxleCase:
+    """Copy of a case with new numbers of single bearings, by the number of the bearing and the key.
+
+    The copy has no ranges. Its bearings are checked when they are solved.
+    """
+    bearings = [*case.bearing]
+    for number, changes in values.items():
+        keys = _set_in("bearing", dict(bearings[number].keys), changes)
+        mounted = bearings[number].model_copy()
+        object.__setattr__(mounted, "__pydantic_extra__", keys)
+        bearings[number] = mounted
+    return case.model_copy(update={"bearing": tuple(bearings), "ranges": None})
 
 
 def _set_in(name: str, table: dict[str, Any], change: Mapping[str, Any]) -> dict[str, Any]:

@@ -29,10 +29,13 @@ class InputRange:
     high: float
 
 
-def ranges_of(tables: Any, model: type[Table]) -> tuple[InputRange, ...]:
+def ranges_of(
+    tables: Any, model: type[Table], field_of: Callable[[str], FieldInfo] | None = None
+) -> tuple[InputRange, ...]:
     """Ranges of inputs in SI units, from dotted keys or nested tables with lists of two values.
-    Raises InputError where a key is unknown or is not a number, or its values
-    are not two that increase.
+
+    ``field_of``, field of a dotted key, by default the field in the model. Raises InputError where a key is
+    unknown or is not a number, or its values are not two that increase.
 
     Examples
     --------
@@ -46,7 +49,8 @@ def ranges_of(tables: Any, model: type[Table]) -> tuple[InputRange, ...]:
     for key, value in _flat(tables):
         if key in ranges:
             raise InputError(key, got="it twice", takes="it once")
-        ranges[key] = _range(key, value, model)
+        field = field_of_values(key, model) if field_of is None else field_of(key)
+        ranges[key] = _range(key, value, field)
     return tuple(ranges.values())
 
 
@@ -59,8 +63,8 @@ def _flat(tables: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, An
             yield prefix + name, value
 
 
-def _range(key: str, value: Any, model: type[Table]) -> InputRange:
-    parse, leaf = parser_of(field_of_values(key, model), key), key.rpartition(".")[2]
+def _range(key: str, value: Any, field: FieldInfo) -> InputRange:
+    parse, leaf = parser_of(field, key), key.rpartition(".")[2]
     if isinstance(value, str) or not isinstance(value, Sequence) or len(value) != 2:
         raise InputError(key, got=shown(value), takes="a list of two values, the smaller one first")
     ends = []
@@ -120,12 +124,17 @@ def check_ranges(ranges: Sequence[InputRange] | None, tables: Callable[[], Mappi
     """Check that each range is one of a number of the file with these tables, and contains it."""
     table = tables() if ranges else {}
     for span in ranges or ():
-        value, key = value_at(table, span.key), f"ranges.{span.key}"
-        if not is_number(value):
-            raise InputError(key, got="a range", takes=f"a number for {span.key} in the file too")
-        if not span.low - _ROUNDING * abs(span.low) <= value <= span.high + _ROUNDING * abs(span.high):
-            raise InputError(
-                key,
-                got=f"{span.low:.6g} to {span.high:.6g}",
-                takes=f"a range that contains the value of the file, {value:.6g} (in SI units)",
-            )
+        check_range(span, value_at(table, span.key))
+
+
+def check_range(span: InputRange, value: Any) -> None:
+    """Check that a range contains the number of the file."""
+    key = f"ranges.{span.key}"
+    if not is_number(value):
+        raise InputError(key, got="a range", takes=f"a number for {span.key} in the file too")
+    if not span.low - _ROUNDING * abs(span.low) <= value <= span.high + _ROUNDING * abs(span.high):
+        raise InputError(
+            key,
+            got=f"{span.low:.6g} to {span.high:.6g}",
+            takes=f"a range that contains the value of the file, {value:.6g} (in SI units)",
+        )

@@ -20,8 +20,11 @@ from .result import solve_gear as solve_gear
 from .run import result_of as result_of
 from .run import save as save
 from .run import solve_to_folder as solve_to_folder
+from .solution import AREA_FACTOR as AREA_FACTOR
 from .solution import GearSolution as GearSolution
 from .solution import drawing_of as drawing_of
+from .solution import open_area as open_area
+from .solution import reference_area_of as reference_area_of
 from .solving import solve_gear_pair as solve_gear_pair
 from .solving import solve_gear_pairs as solve_gear_pairs
 from .stored import SCHEMA as SCHEMA

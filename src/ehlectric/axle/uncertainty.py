@@ -1,0 +1,489 @@
+"""Probability that each element of an axle breaks down, and that it is the first, over uncertain inputs.
+
+At each point of a Sobol design the whole axle is solved: loads, films, network and voltages. An element with
+the voltage U and the breakdown voltage V_b breaks down if U is at least V_b; an element whose summits touch
+breaks down at any voltage, and counts as the first. Else the first element has the largest r = U/V_b. Which
+of two elements A and B is first depends on
+
+    D = (r_A - r_B)/(r_A + r_B),
+
+which does not contain the dielectric strength. It is 1 if the summits of A touch. The shares of the inputs in
+the variance of D rank the measurements that decide which of the two elements is first. In the same way the
+inputs have shares in the variance of r/(1 + r) of the first element. Both functions are bounded: a logarithm
+would not be near the inputs at which summits touch.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field, fields
+from typing import Any
+
+import numpy as np
+
+from ehlectric.arrays import Array, IntArray
+from ehlectric.axle.many_axles import FilmScales, solve_axles
+from ehlectric.axle.solution import AxleSolution
+from ehlectric.bearing import (
+    FILMS,
+    MOTOR,
+    SEED,
+    STAGES,
+    Change,
+    Names,
+    UncertainInput,
+    Uncertainty,
+    clearance_change,
+    grade_changes,
+    label_of,
+    load_change,
+    proportional_to_strength,
+    spread_at,
+    strength_changes,
+    summit_changes,
+    temperature_change,
+)
+from ehlectric.cases.axle_case import AxleCase, changed_axle, changed_bearings
+from ehlectric.cases.input_keys import is_quantity
+from ehlectric.discharge.breakdown_rule import INTERVAL
+from ehlectric.discharge.discharge_laws import MOST_MARGIN
+from ehlectric.errors import InputError
+from ehlectric.formulas.sobol import sobol_points
+from ehlectric.formulas.variance_shares import variance_shares
+from ehlectric.gear import AREA_FACTOR
+from ehlectric.quantities.lubrication_states import CONDUCTS
+from ehlectric.runtime.files import plain
+
+# Keys of inputs that act on the scales of films and flanks.
+_SUMMITS, _AREA = "mesh.gear.summit_height", "mesh.gear.contact.reference_area"
+
+_OF_MOTOR = "engineering judgement: data sheets do not have it, and few measure it"
+_OF_AREA = "engineering judgement: the area of the measurement is known to a factor of 3"
+
+# Share of the variance of r/(1 + r) whose prediction ends the refinement.
+_PREDICTED = 0.9
+
+# Least share of the points at which both elements have a voltage and a breakdown voltage, so that their
+# ratios are compared (engineering judgement).
+_LEAST_COMPARED = 0.05
+
+# Inputs with a smaller share of the variance are not listed.
+_LEAST_SHARE = 0.01
+
+
+@dataclass(frozen=True)
+class _Uncertain:
+    """Uncertain input of an axle: its range, and the keys of bearings that change by the same step."""
+
+    change: Change
+    bearings: Mapping[int, Mapping[str, float]] = field(default_factory=dict)  # values in the case
+
+    def values(self, value: float) -> dict[int, dict[str, float]]:
+        """Values of the keys of bearings at a value of the input."""
+        step = value - self.change.value
+        return {
+            number: {key: nominal + step for key, nominal in keys.items()}
+            for number, keys in self.bearings.items()
+        }
+
+
+@dataclass(frozen=True)
+class ElementChance:
+    """What the points of a design say of an element."""
+
+    element: str
+    breakdown: float  # probability of a voltage of at least the breakdown voltage, or of touching summits
+    first: float  # probability that the element is the first
+    touching: float  # probability that summits touch, and the element does not conduct
+    conduction: float  # probability that the element conducts
+    # Voltage divided by breakdown voltage at 5 %, 50 % and 95 %, infinite where summits touch.
+    ratios: tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Deciding:
+    """Inputs that decide which of two elements is first, the largest share first."""
+
+    elements: tuple[str, str]
+    # Key and label of the inputs, with their total shares of the variance of D.
+    shares: tuple[tuple[str, str, float], ...]
+    predicted: float  # share of the variance that the polynomial behind the shares predicts
+
+
+@dataclass(frozen=True)
+class AxleUncertainty(Uncertainty):
+    """Distribution of the margin of the first element, with the probabilities of all elements.
+
+    The margin is 0 at a point at which summits touch under a voltage, and infinite if no element with a
+    breakdown voltage has a voltage.
+    """
+
+    elements: tuple[ElementChance, ...] = field(kw_only=True)
+    deciding: Deciding | None = field(kw_only=True)  # None if one element is the first at almost all points
+
+    def summary(self) -> dict[str, Any]:
+        """Values as in the table ``uncertainty`` of summary.json, SI units."""
+        deciding = self.deciding
+        return dict(
+            plain(
+                {
+                    **super().summary(),
+                    "elements": [_row(each) for each in self.elements],
+                    "deciding_elements": [] if deciding is None else list(deciding.elements),
+                    "deciding": [
+                        {"key": key, "label": label, "total": total}
+                        for key, label, total in (() if deciding is None else deciding.shares)
+                    ],
+                    "deciding_predicted": None if deciding is None else deciding.predicted,
+                }
+            )
+        )
+
+
+def _row(chance: ElementChance) -> dict[str, Any]:
+    """Row of an element in ``uncertainty.elements``; None for an infinite ratio."""
+    ends = zip(("low", "median", "high"), chance.ratios, strict=True)
+    return {
+        "element": chance.element,
+        "breakdown_probability": chance.breakdown,
+        "first_probability": chance.first,
+        "asperity_contact_probability": chance.touching,
+        "conduction_probability": chance.conduction,
+        **{f"voltage_ratio_{end}": value if math.isfinite(value) else None for end, value in ends},
+    }
+
+
+@dataclass(frozen=True)
+class AxleDesign:
+    """Uncertain inputs of an axle as numbers from 0 to 1, the errors of the films last of the computed."""
+
+    case: AxleCase
+    computed: tuple[_Uncertain, ...]
+    factors: tuple[Change, ...]  # inputs to which all breakdown voltages are proportional
+    films: tuple[float, float]  # relative errors of the films of bearings and of meshes
+    assumed: Mapping[str, str]  # reasons of usual ranges by their key
+    left_out: tuple[str, ...]
+
+    @classmethod
+    def of(cls, solution: AxleSolution) -> AxleDesign:
+        """Design of a solved axle."""
+        case = solution.case
+        stated = {entry.key: entry for entry in case.ranges or ()}
+        usual = {each.change.key: each for each in _usual(case)}
+        for key, entry in stated.items():
+            value = float(case.value_of(key))
+            change = Change(key, label_of(key), value, (entry.low, entry.high))
+            known = usual.get(key)
+            usual[key] = _Uncertain(change, {} if known is None else known.bearings)
+        changes = [*usual.values()]
+        left_out = [each.change.key for each in changes if not is_quantity(each.change.key)]
+        errors = tuple(
+            max((each.film_error for each in solution.elements if each.kind == kind), default=0.0)
+            for kind in ("bearing", "mesh")
+        )
+        return cls(
+            case.model_copy(update={"ranges": None, "remedies": ()}),
+            tuple(
+                each
+                for each in changes
+                if is_quantity(each.change.key) and not proportional_to_strength(each.change.key)
+            ),
+            tuple(each.change for each in changes if proportional_to_strength(each.change.key)),
+            (errors[0], errors[1]),
+            {each.change.key: each.change.reason for each in changes if each.change.key not in stated},
+            tuple(f"{key}: its range has no part in the probability" for key in left_out),
+        )
+
+    @property
+    def number(self) -> int:
+        """Number of columns for which margins are computed."""
+        return len(self.computed) + 2
+
+    @property
+    def width(self) -> int:
+        """Number of uncertain inputs, with the films."""
+        return self.number + len(self.factors)
+
+    def log_factors(self, at: Array) -> Array:
+        """Logarithms of the factors on the margin at points from 0 to 1, shape (n, width - number)."""
+        columns = []
+        for k, change in enumerate(self.factors, self.number):
+            low, high = change.ends
+            columns.append(np.log((low + (high - low) * at[:, k]) / change.value))
+        return np.stack(columns, axis=-1) if columns else np.empty((len(at), 0))
+
+    def names(self) -> Iterator[Names]:
+        """Names of the uncertain inputs, in the order of the columns."""
+        yield from (Names.of(each.change, self.assumed) for each in self.computed)
+        for label, error in zip(("films of bearings", "films of meshes"), self.films, strict=True):
+            reason = "largest stated error of the films"
+            yield Names(FILMS, label, 1.0 - error, 1.0 + error, assumed=True, reason=reason)
+        yield from (Names.of(change, self.assumed) for change in self.factors)
+
+    def changed(self, row: Array) -> tuple[AxleCase, FilmScales]:
+        """Changed case and scales of its films at a point from 0 to 1, shape (width,)."""
+        keys: dict[str, float] = {}
+        bearings: dict[int, dict[str, float]] = {}
+        summits, area = 0.0, 1.0
+        for part, each in zip(row.tolist(), self.computed, strict=False):
+            low, high = each.change.ends
+            value = low + (high - low) * part
+            if each.change.key == _SUMMITS:
+                summits = value - each.change.value
+            elif each.change.key == _AREA:
+                area = low * (high / low) ** part
+            elif each.bearings:
+                for number, values in each.values(value).items():
+                    bearings.setdefault(number, {}).update(values)
+            else:
+                keys[each.change.key] = value
+        case = changed_axle(self.case, keys)
+        if bearings:
+            case = changed_bearings(case, bearings)
+        of_films = row[len(self.computed) : self.number].tolist()
+        factors = [1.0 + error * (2.0 * part - 1.0) for part, error in zip(of_films, self.films, strict=True)]
+        return case, FilmScales(factors[0], factors[1], summits, area)
+
+
+def _usual(case: AxleCase) -> Iterator[_Uncertain]:
+    """Usual changes: strength, temperature, grade of the oil, torque, clearances, summits, reference area of
+    meshes, and capacitances of the machine.
+    """
+    for change in strength_changes(case.to_dict()):
+        yield _Uncertain(change)
+    yield _Uncertain(temperature_change("drive.temperature", case.drive.temperature))
+    for change in grade_changes(case.lubricant):
+        yield _Uncertain(change)
+    torque = load_change("drive.torque", abs(case.drive.torque))
+    if case.drive.torque < 0.0:
+        low, high = torque.ends
+        torque = Change(torque.key, torque.label, case.drive.torque, (-high, -low), torque.reason)
+    yield _Uncertain(torque)
+    for shaft in case.shaft:
+        yield from _clearances(case, shaft.name)
+    yield from _summits(case)
+    pairs = [mesh.pair.gear for mesh in case.mesh]
+    heights = [gear.summit_height for gear in pairs]
+    if heights and min(heights) > 0.0:
+        yield from (_Uncertain(change) for change in summit_changes(_SUMMITS, heights[0]))
+    if any(gear.contact.conduction == "by-film" for gear in pairs):
+        ends = (1.0 / AREA_FACTOR, AREA_FACTOR)
+        yield _Uncertain(Change(_AREA, "factor on the reference area of meshes", 1.0, ends, _OF_AREA))
+    for name, value in case.circuit.capacitances.items():
+        key = f"circuit.{name}"
+        if name in ("winding_rotor_capacitance", "rotor_frame_capacitance") and value > 0.0:
+            ends = ((1.0 - MOTOR) * value, (1.0 + MOTOR) * value)
+            yield _Uncertain(Change(key, label_of(key), value, ends, _OF_MOTOR))
+
+
+def _clearances(case: AxleCase, shaft: str) -> Iterator[_Uncertain]:
+    """Change of the clearances of both bearings of a shaft by one step."""
+    changes = {
+        number: change
+        for number in case.bearings_of(shaft)
+        for change in clearance_change(case.tables_of_bearings[number])
+    }
+    if not changes:
+        return
+    first = next(iter(changes.values()))
+    name = first.key.removeprefix("bearing.")
+    values = {
+        number: {change.key.removeprefix("bearing."): change.value} for number, change in changes.items()
+    }
+    key = f"bearing.{shaft}.{name}"
+    label = f"{first.label.partition(' (')[0]}, bearings of {shaft}"
+    yield _Uncertain(Change(key, label, first.value, first.ends, first.reason), values)
+
+
+def _summits(case: AxleCase) -> Iterator[_Uncertain]:
+    """Change of the height of the summits of all bearings by one step."""
+    heights = {number: table.summit_height for number, table in enumerate(case.tables_of_bearings)}
+    values = {number: {"summit_height": height} for number, height in heights.items() if height > 0.0}
+    for change in summit_changes("bearings.summit_height", min(heights.values(), default=0.0)):
+        yield _Uncertain(change, values)
+
+
+def has_chance(case: AxleCase) -> bool:
+    """Whether the elements of an axle have a probability of breakdown: the oil has a strength."""
+    return case.discharge.has_strength
+
+
+@dataclass
+class _Rows:
+    """Voltages and breakdown voltages of all elements at the points of a design, shape (n, elements)."""
+
+    names: tuple[str, ...]
+    voltages: list[Array] = field(default_factory=list)
+    # Breakdown voltages: 0 where summits touch, infinite for elements that conduct or do not break down.
+    limits: list[Array] = field(default_factory=list)
+    conducting: list[Array] = field(default_factory=list)
+
+    def add(self, solution: AxleSolution | None) -> None:
+        """Add a point; NaN without a solution."""
+        count = len(self.names)
+        if solution is None:
+            self.voltages.append(np.full(count, np.nan))
+            self.limits.append(np.full(count, np.nan))
+            self.conducting.append(np.zeros(count, dtype=bool))
+            return
+        network, potentials = solution.network(), solution.potentials()
+        films = solution.films()
+        self.voltages.append(np.array([abs(network.voltage(film, potentials)) for film in films]))
+        self.limits.append(
+            np.array(
+                [
+                    math.inf if film.conducts else _limit(each.breakdown_voltage, touching=each.touching)
+                    for each, film in zip(solution.elements, films, strict=True)
+                ]
+            )
+        )
+        self.conducting.append(np.array([each.state == CONDUCTS for each in solution.elements]))
+
+    def margins(self) -> Array:
+        """Margin of the first element at the points, shape (n,)."""
+        voltages, limits = np.array(self.voltages), np.array(self.limits)
+        ranked = np.isfinite(limits) & (voltages > 0.0)
+        least = np.min(np.divide(limits, voltages, out=np.full_like(limits, np.inf), where=ranked), axis=1)
+        margins = np.where(np.any(ranked, axis=1), least, MOST_MARGIN)
+        return np.where(np.any(np.isnan(voltages), axis=1), np.nan, margins)
+
+
+def _limit(voltage: float | None, *, touching: bool) -> float:
+    """Breakdown voltage, 0 where summits touch, infinite for an element that does not break down."""
+    if voltage is None:
+        return 0.0 if touching else math.inf
+    return voltage
+
+
+def uncertainty_of(
+    solution: AxleSolution, *, stages: Sequence[int] = STAGES, seed: int = SEED
+) -> AxleUncertainty:
+    """Distribution of the margin of the first element, and probabilities of all elements of a solved axle.
+
+    Ranges are the ranges of the file, and usual ranges for all other inputs. Films at other inputs are from
+    the atlas or from formulas. ``stages``, numbers of points of the design, which is refined as for bearings.
+    Raises InputError where no point has a result.
+    """
+    design = AxleDesign.of(solution)
+    if design.case.solves_films:
+        design = _quick(design)
+    rows = _Rows(tuple(each.name for each in solution.elements))
+
+    at = sobol_points(design.width, stages[-1], seed)
+    for count in stages:
+        before = len(rows.voltages)
+        _add(rows, design, at[before:count])
+        spread = spread_at(design, rows.margins(), at[:count], seed)
+        inputs, predicted = _inputs(design, at[:count], rows.margins())
+        if spread.chance.is_settled(touching=False) and predicted >= _PREDICTED:
+            break
+    at = at[: len(rows.voltages)]
+    strength = np.exp(np.sum(design.log_factors(at), axis=-1))
+    voltages, limits = np.array(rows.voltages), np.array(rows.limits) * strength[:, np.newaxis]
+    solved = np.all(np.isfinite(voltages), axis=1)
+    conducting = np.array(rows.conducting)[solved]
+    firsts = _firsts(voltages[solved], limits[solved])
+    elements = tuple(_chances(rows.names, voltages[solved], limits[solved], conducting, firsts))
+    deciding = _deciding(design, at[solved], voltages[solved], limits[solved], elements)
+    known = {each.name: getattr(spread, each.name) for each in fields(spread)}
+    known |= {"inputs": inputs, "predicted": predicted}
+    return AxleUncertainty(**known, elements=elements, deciding=deciding)
+
+
+def _inputs(design: AxleDesign, at: Array, computed: Array) -> tuple[tuple[UncertainInput, ...], float]:
+    """Uncertain inputs with their shares of the variance of r/(1 + r), the largest first, and the share of
+    this variance that is predicted. ``computed``, margins without the factors, NaN without a result.
+    """
+    known = np.isfinite(computed)
+    margins = computed[known] * np.exp(np.sum(design.log_factors(at[known]), axis=-1))
+    shares = variance_shares(2.0 * at[known] - 1.0, 1.0 / (1.0 + margins))
+    inputs = [
+        UncertainInput(**vars(names), first_order=float(first), total=float(total))
+        for names, first, total in zip(design.names(), shares.first, shares.total, strict=True)
+    ]
+    return tuple(sorted(inputs, key=lambda each: -each.total)), float(shares.predicted)
+
+
+def _quick(design: AxleDesign) -> AxleDesign:
+    """Design whose films are not solved."""
+    case = design.case.replace({"drive.contacts": "atlas"})
+    values = {each.name: getattr(design, each.name) for each in fields(design)}
+    return AxleDesign(**values | {"case": case})
+
+
+def _add(rows: _Rows, design: AxleDesign, at: Array) -> None:
+    """Add the solutions of axles at points from 0 to 1, shape (n, width)."""
+    changed: dict[int, tuple[AxleCase, FilmScales]] = {}
+    for place, row in enumerate(at):
+        with suppress(InputError):
+            changed[place] = design.changed(row)
+    cases, scales = (list(column) for column in zip(*changed.values(), strict=True)) if changed else ([], [])
+    solved = dict(zip(changed, solve_axles(cases, scales=scales), strict=True))
+    for place in range(len(at)):
+        outcome = solved.get(place)
+        rows.add(outcome if isinstance(outcome, AxleSolution) else None)
+
+
+# Breakdown voltage with which elements whose summits touch are compared with each other [V].
+_TOUCHING = 1e-12
+
+
+def _firsts(voltages: Array, limits: Array) -> IntArray:
+    """Numbers of the first elements at all points, -1 where no element has a voltage and a breakdown voltage.
+
+    Of several elements whose summits touch, the element with the largest voltage is first.
+    """
+    ranked = np.isfinite(limits) & (voltages > 0.0)
+    ratios = np.where(ranked, voltages / np.maximum(limits, _TOUCHING), -1.0)
+    return np.asarray(np.where(np.any(ranked, axis=1), np.argmax(ratios, axis=1), -1))
+
+
+def _chances(
+    names: Sequence[str], voltages: Array, limits: Array, conducting: Array, firsts: IntArray
+) -> Iterator[ElementChance]:
+    """Probabilities of all elements."""
+    touching = (limits == 0.0) & np.logical_not(conducting)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ratios = np.where(voltages > 0.0, voltages / limits, 0.0)
+    for number, name in enumerate(names):
+        low, median, high = np.quantile(ratios[:, number], INTERVAL, method="higher").tolist()
+        yield ElementChance(
+            name,
+            float(np.mean(ratios[:, number] >= 1.0)),
+            float(np.mean(firsts == number)),
+            float(np.mean(touching[:, number])),
+            float(np.mean(conducting[:, number])),
+            (low, median, high),
+        )
+
+
+def _deciding(
+    design: AxleDesign, at: Array, voltages: Array, limits: Array, elements: Sequence[ElementChance]
+) -> Deciding | None:
+    """Inputs that decide which of the two elements that are most often the first is the first."""
+    order = sorted(range(len(elements)), key=lambda number: -elements[number].first)
+    if len(order) < 2 or not elements[order[1]].first:
+        return None
+    both = order[:2]
+    (first, second), (low, high) = voltages[:, both].T, limits[:, both].T
+    # (r_A - r_B)/(r_A + r_B) times both breakdown voltages: an element that conducts has r = 0.
+    with np.errstate(invalid="ignore"):
+        ratios = first * high, second * low
+        difference = (ratios[0] - ratios[1]) / (ratios[0] + ratios[1])
+    difference = np.where(np.isinf(low), -1.0, np.where(np.isinf(high), 1.0, difference))
+    known = np.isfinite(difference)
+    if np.mean(known) < _LEAST_COMPARED or not np.ptp(difference[known]):
+        return None
+    shares = variance_shares(2.0 * at[known, : design.number] - 1.0, difference[known])
+    rows = [
+        (names.key, names.label, float(total))
+        for names, total in zip(design.names(), shares.total, strict=False)
+        if total >= _LEAST_SHARE
+    ]
+    return Deciding(
+        (elements[both[0]].element, elements[both[1]].element),
+        tuple(sorted(rows, key=lambda row: -row[2])),
+        float(shares.predicted),
+    )
