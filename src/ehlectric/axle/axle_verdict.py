@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Sequence
+from typing import Protocol
 
 from ehlectric.axle.solution import AxleSolution
 from ehlectric.discharge.breakdown_rule import (
     TOUCHING_AT_TIMES,
+    Chance,
     code_of,
     level_of,
     strength_interval,
@@ -15,14 +18,60 @@ from ehlectric.discharge.film_verdict import no_verdict, strength_clause, streng
 from ehlectric.quantities.lubrication_states import CONDUCTS
 from ehlectric.quantities.statement import Fact, Statement
 from ehlectric.quantities.verdict import Verdict
+from ehlectric.readable import readable
 
 # Assumptions about all meshes, in words.
 _IF = {"always": "all meshes conduct", "never": "no mesh conducts"}
 
 
-def axle_verdict(solution: AxleSolution) -> Verdict:
-    """Verdict on a solved axle; its margin is the breakdown voltage over the voltage of the first element.
+class _Chance(Protocol):
+    """Probabilities of an element."""
 
+    @property
+    def element(self) -> str:
+        """Name of the element."""
+
+    @property
+    def first(self) -> float:
+        """Probability that the element is the first."""
+
+
+class _Deciding(Protocol):
+    """Inputs that decide which of two elements is first."""
+
+    @property
+    def elements(self) -> tuple[str, str]:
+        """Names of both elements."""
+
+    @property
+    def shares(self) -> tuple[tuple[str, str, float], ...]:
+        """Key and label of the inputs, with their shares, the largest first."""
+
+
+class _Probable(Protocol):
+    """Distribution of the margin of an axle."""
+
+    @property
+    def chance(self) -> Chance:
+        """Probability and interval as a verdict says them."""
+
+    @property
+    def elements(self) -> Sequence[_Chance]:
+        """Probabilities of all elements."""
+
+    @property
+    def deciding(self) -> _Deciding | None:
+        """Inputs that decide which element is first."""
+
+
+def axle_verdict(
+    solution: AxleSolution, uncertainty: _Probable | None = None, *, pending: bool = False
+) -> Verdict:
+    """Verdict on a solved axle, whose level follows the probability of breakdown if it is known.
+
+    Its margin is the breakdown voltage divided by the voltage of the first element.
+
+    ``pending``, whether the axle has probabilities that are not computed; the verdict then states this.
     Grey without a strength, and if no element with a breakdown voltage has a voltage. A margin that a change
     of the strength by 20 % takes across 1 is yellow. An element whose summits touch keeps a verdict from
     being green, because its contacts discharge as they open.
@@ -36,7 +85,22 @@ def axle_verdict(solution: AxleSolution) -> Verdict:
     margin = 1.0 / ratio
     interval = strength_interval(margin)
     level = level_of(*interval)
-    code = code_of(level, likely=margin < 1.0)
+    code, doubts = code_of(level, likely=margin < 1.0), tuple(strength_doubt(solution.case.discharge, margin))
+    facts: tuple[Fact, ...] = (
+        Fact("first.breakdown_voltage", limits[first]),
+        Fact("first.margin", margin, interval),
+    )
+    if uncertainty is not None:
+        chance = uncertainty.chance
+        level, code = chance.level, chance.code
+        doubts = (*chance.statements(), *_firsts(uncertainty))
+        known = None if chance.failed or math.isinf(chance.high) else (chance.low, chance.high)
+        facts = (
+            Fact("first.breakdown_voltage", limits[first]),
+            Fact("first.margin", margin, known),
+            Fact("uncertainty.breakdown_probability", chance.probability, chance.bounds),
+        )
+    without = (Statement.of("axle-without-probability"),) if pending else ()
     if level == "green" and _touching(solution):
         level, code = "yellow", TOUCHING_AT_TIMES
     drive = solution.case.drive
@@ -52,11 +116,32 @@ def axle_verdict(solution: AxleSolution) -> Verdict:
             margin=margin,
         ),
         Statement.of("at-axle", torque=drive.torque, speed=drive.speed, temperature=drive.temperature),
-        facts=(Fact("first.breakdown_voltage", limits[first]), Fact("first.margin", margin, interval)),
-        reasons=(*_reasons(solution, first), *strength_doubt(solution.case.discharge, margin)),
+        facts=facts,
+        reasons=(*_reasons(solution, first), *doubts, *without),
         assumptions=(Statement.of("axle-model"), strength_clause(solution.case.discharge)),
         bound="best",
     )
+
+
+# Least probability of an element that is listed as the first.
+_LEAST_FIRST = 0.01
+
+
+def _firsts(uncertainty: _Probable) -> Iterator[Statement]:
+    """Statements on the elements that are first at some points, and on the input that decides."""
+    chances = sorted(uncertainty.elements, key=lambda each: -each.first)
+    listed = tuple(
+        f"{each.element} {readable(100.0 * each.first, 2)} %"
+        for each in chances
+        if each.first >= _LEAST_FIRST
+    )
+    if listed:
+        yield Statement.of("axle-first-chances", elements=listed)
+    deciding = uncertainty.deciding
+    if deciding is not None and deciding.shares:
+        _, label, share = deciding.shares[0]
+        first, second = deciding.elements
+        yield Statement.of("axle-deciding", first=first, second=second, input=label, share=share)
 
 
 def _touching(solution: AxleSolution) -> tuple[str, ...]:

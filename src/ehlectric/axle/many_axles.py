@@ -38,6 +38,10 @@ Outcome = AxleSolution | InputError | ConvergenceError
 _Solved = tuple[Element, tuple[ResultWarning, ...]] | InputError | ConvergenceError
 
 
+# Key of the roughness, which films within their error are compared with.
+_ROUGHNESS = "bearing.composite_rq"
+
+
 @dataclass(frozen=True)
 class FilmScales:
     """Factors on the films of an axle within their error, and on what the state of its flanks depends."""
@@ -85,7 +89,10 @@ class _Mounted:
     def case(self) -> BearingCase:
         """Case of the bearing."""
         speed = self.axle.turning[self.axle.case.bearing[self.number].shaft].speed
-        return self.axle.case.bearing_case(self.number, speed, self.radial, abs(self.axial))
+        case = self.axle.case.bearing_case(self.number, speed, self.radial, abs(self.axial))
+        if self.axle.scales is None:
+            return case
+        return case.replace({_ROUGHNESS: self.values[_ROUGHNESS]})
 
 
 def solve_axles(

@@ -9,7 +9,9 @@ from typing import Any, ClassVar
 from ehlectric.axle.axle_verdict import axle_verdict
 from ehlectric.axle.solution import AxleSolution, solve_elements
 from ehlectric.axle.summary import axle_summary, tables_of_point
+from ehlectric.axle.uncertainty import AxleUncertainty, has_chance, uncertainty_of
 from ehlectric.cases.axle_case import AxleCase
+from ehlectric.errors import InputError
 from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
 from ehlectric.quantities.verdict import Verdict
 from ehlectric.runtime.display import ResultKind, Shown, headline, read_only_property
@@ -33,6 +35,9 @@ class AxleResult(Shown):
         Computing time [s].
     version : str
         Version of ehlectric that solved it.
+    probable : bool
+        Whether the verdict and the summary contain the probabilities of all elements, which take several
+        seconds.
     """
 
     result_kind: ClassVar[ResultKind] = "axle"
@@ -41,6 +46,7 @@ class AxleResult(Shown):
     remedies: tuple[AxleSolution, ...] = ()
     seconds: float = field(default=0.0, compare=False)
     version: str = __version__
+    probable: bool = True
 
     @property
     def case(self) -> AxleCase:
@@ -55,7 +61,27 @@ class AxleResult(Shown):
     @read_only_property
     def verdict(self) -> Verdict:
         """Verdict: the element that breaks down first, and when another one is first."""
-        return axle_verdict(self.solution)
+        pending = not self.probable and has_chance(self.case)
+        return axle_verdict(self.solution, self.uncertainty, pending=pending)
+
+    @property
+    def uncertainty(self) -> AxleUncertainty | None:
+        """Probabilities of all elements, and the margin of the first one, within the uncertain inputs and
+        films; None without a strength.
+
+        It evaluates 512 to 2048 axles with films from the atlas when it is first asked for.
+        """
+        return self._uncertainty_or_reason[0]
+
+    @read_only_property
+    def _uncertainty_or_reason(self) -> tuple[AxleUncertainty | None, str]:
+        """Distribution of the margin, or the reason for which it could not be computed."""
+        if not (self.probable and has_chance(self.case)):
+            return None, ""
+        try:
+            return uncertainty_of(self.solution), ""
+        except InputError as error:
+            return None, str(error)
 
     def summary(self) -> dict[str, Any]:
         """Return the results nested as in summary.json, SI units."""
@@ -63,6 +89,7 @@ class AxleResult(Shown):
             "schema": SCHEMA,
             **self._heads(),
             **axle_summary(self.solution),
+            **({} if self.uncertainty is None else {"uncertainty": self.uncertainty.summary()}),
             "remedies": [
                 {"title": remedy.title, **axle_summary(solution)}
                 for remedy, solution in zip(self.case.remedies, self.remedies, strict=False)
@@ -92,10 +119,12 @@ class AxleResult(Shown):
         return (count, f"{ranking[0][0]} breaks down first") if ranking else (count,)
 
     def _headline(self) -> str:
-        return headline(self.case.title, *self.key_numbers(), verdict=self.verdict)
+        return headline(self.case.title, *self.key_numbers(), verdict=axle_verdict(self.solution))
 
 
-def solve_axle(case: AxleCase, *, progress: Progress = silent, remedies: bool = True) -> AxleResult:
+def solve_axle(
+    case: AxleCase, *, progress: Progress = silent, remedies: bool = True, probable: bool = True
+) -> AxleResult:
     """Solve the films of all bearings and meshes of an axle, and the voltages right after an edge.
 
     Parameters
@@ -106,6 +135,9 @@ def solve_axle(case: AxleCase, *, progress: Progress = silent, remedies: bool = 
         Called with the number of solved bearings and meshes, the number of all, and a text.
     remedies : bool, optional
         Whether to solve also the axle with each of its remedies.
+    probable : bool, optional
+        Whether the verdict and the summary contain the probabilities of all elements, which take several
+        seconds.
 
     Returns
     -------
@@ -122,4 +154,4 @@ def solve_axle(case: AxleCase, *, progress: Progress = silent, remedies: bool = 
     variants = case.variants()
     solution = solve_elements(case, progress)
     changed = tuple(solve_elements(variant, progress) for variant in variants) if remedies else ()
-    return AxleResult(solution, changed, seconds=time.perf_counter() - start)
+    return AxleResult(solution, changed, seconds=time.perf_counter() - start, probable=probable)

@@ -52,7 +52,7 @@ from ehlectric.discharge.discharge_laws import MOST_MARGIN
 from ehlectric.errors import InputError
 from ehlectric.formulas.sobol import sobol_points
 from ehlectric.formulas.variance_shares import variance_shares
-from ehlectric.gear import AREA_FACTOR
+from ehlectric.gear import AREA_FACTOR, reference_area_of
 from ehlectric.quantities.lubrication_states import CONDUCTS
 from ehlectric.runtime.files import plain
 
@@ -63,14 +63,14 @@ _OF_MOTOR = "engineering judgement: data sheets do not have it, and few measure 
 _OF_AREA = "engineering judgement: the area of the measurement is known to a factor of 3"
 
 # Share of the variance of r/(1 + r) whose prediction ends the refinement.
-_PREDICTED = 0.9
+_PREDICTED = 0.5
 
 # Least share of the points at which both elements have a voltage and a breakdown voltage, so that their
 # ratios are compared (engineering judgement).
 _LEAST_COMPARED = 0.05
 
 # Inputs with a smaller share of the variance are not listed.
-_LEAST_SHARE = 0.01
+_LEAST_SHARE = 0.03
 
 
 @dataclass(frozen=True)
@@ -233,7 +233,7 @@ class AxleDesign:
             if each.change.key == _SUMMITS:
                 summits = value - each.change.value
             elif each.change.key == _AREA:
-                area = low * (high / low) ** part
+                area = low * (high / low) ** part / each.change.value
             elif each.bearings:
                 for number, values in each.values(value).items():
                     bearings.setdefault(number, {}).update(values)
@@ -268,9 +268,11 @@ def _usual(case: AxleCase) -> Iterator[_Uncertain]:
     heights = [gear.summit_height for gear in pairs]
     if heights and min(heights) > 0.0:
         yield from (_Uncertain(change) for change in summit_changes(_SUMMITS, heights[0]))
-    if any(gear.contact.conduction == "by-film" for gear in pairs):
-        ends = (1.0 / AREA_FACTOR, AREA_FACTOR)
-        yield _Uncertain(Change(_AREA, "factor on the reference area of meshes", 1.0, ends, _OF_AREA))
+    for mesh in case.mesh[:1]:
+        if any(gear.contact.conduction == "by-film" for gear in pairs):
+            area = reference_area_of(mesh.pair)
+            ends = area / AREA_FACTOR, area * AREA_FACTOR
+            yield _Uncertain(Change(_AREA, "reference area of the share of time", area, ends, _OF_AREA))
     for name, value in case.circuit.capacitances.items():
         key = f"circuit.{name}"
         if name in ("winding_rotor_capacitance", "rotor_frame_capacitance") and value > 0.0:
@@ -360,7 +362,7 @@ def _limit(voltage: float | None, *, touching: bool) -> float:
 def uncertainty_of(
     solution: AxleSolution, *, stages: Sequence[int] = STAGES, seed: int = SEED
 ) -> AxleUncertainty:
-    """Distribution of the margin of the first element, and probabilities of all elements of a solved axle.
+    """Margin of the first element, and probabilities of all elements, within the uncertain inputs.
 
     Ranges are the ranges of the file, and usual ranges for all other inputs. Films at other inputs are from
     the atlas or from formulas. ``stages``, numbers of points of the design, which is refined as for bearings.

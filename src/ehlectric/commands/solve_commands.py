@@ -414,10 +414,20 @@ def _drive_tables(outcome: RunOutcome[object]) -> Iterator[Table]:
 
 def _axle_tables(outcome: RunOutcome[object]) -> Iterator[Table]:
     """Tables of an axle: its bearings and meshes, and its shafts."""
-    from ehlectric.tables.axle_tables import elements_table, remedies_table, shafts_table
+    from ehlectric.tables.axle_tables import (
+        chance_rows,
+        chances_table,
+        elements_table,
+        remedies_table,
+        shafts_table,
+    )
+    from ehlectric.tables.measured_tables import table_of
 
     yield elements_table(outcome.summary)
     yield shafts_table(outcome.summary)
+    if "uncertainty" in outcome.summary:
+        yield chances_table(outcome.summary)
+        yield table_of(chance_rows(outcome.summary))
     if outcome.summary["remedies"]:
         yield remedies_table(outcome.summary)
 

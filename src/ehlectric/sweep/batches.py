@@ -207,7 +207,11 @@ def _axle_summaries(batch: Batch) -> Iterator[_Summary]:
     """Summaries of the axles of a batch."""
     first = AxleCase.from_dict(batch.table)
     for solution in solve_axles([changed_axle(first, values) for values in batch.changes()]):
-        yield solution if isinstance(solution, Exception) else AxleResult(solution).point_summary()
+        yield (
+            solution
+            if isinstance(solution, Exception)
+            else AxleResult(solution, probable=False).point_summary()
+        )
 
 
 def _outcomes(batch: Batch, summaries: Callable[[Batch], Iterator[_Summary]]) -> list[Outcome] | None:

@@ -287,7 +287,7 @@ def _solve_gear_pair(case: GearCase, _: int | None) -> tuple[bool, dict[str, Any
 
 
 def _solve_axle(case: AxleCase, _: int | None) -> tuple[bool, dict[str, Any], str]:
-    return True, solve_axle(case, remedies=False).point_summary(), ""
+    return True, solve_axle(case, remedies=False, probable=False).point_summary(), ""
 
 
 # Solution of a case of each kind, and of bearings with samples for the probability of breakdown: whether it

@@ -11,6 +11,7 @@ from ehlectric.quantities.formats import time_share_text
 from ehlectric.quantities.rows import Row, Summary
 from ehlectric.readable import readable
 from ehlectric.tables.measured_tables import columns_table
+from ehlectric.tables.probability_rows import left_out_of_probability, shares_of_spread
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -95,6 +96,55 @@ def remedies_table(summary: Summary) -> Table:
     """Table of U/V_b of all bearings and meshes with each remedy, for the terminal."""
     heads, *rows = remedy_cells(summary)
     return columns_table(["\n".join(textwrap.wrap(head, _HEAD)) for head in heads], rows, wrapped=(0,))
+
+
+def chance_cells(summary: Summary) -> Iterator[tuple[str, ...]]:
+    """Yield the heads of the table of probabilities, then a row for each bearing and mesh, the most probable
+    first element first. None without probabilities.
+    """
+    table = summary.get("uncertainty")
+    if table is None:
+        return
+    yield "probability [%]", "first", "breaks down", "summits touch", "conducts", "U/V_b, 5 to 95 %"
+    for row in sorted(table["elements"], key=lambda each: -each["first_probability"]):
+        yield (
+            printable(row["element"]),
+            *(
+                readable(100.0 * row[key], 2)
+                for key in (
+                    "first_probability",
+                    "breakdown_probability",
+                    "asperity_contact_probability",
+                    "conduction_probability",
+                )
+            ),
+            _between(row["voltage_ratio_low"], row["voltage_ratio_high"]),
+        )
+
+
+def _between(low: float | None, high: float | None) -> str:
+    """Text of a range; a ratio is infinite if summits touch."""
+    ends = ["touching" if end is None else readable(end, 2) for end in (low, high)]
+    return ends[0] if ends[0] == ends[1] else " to ".join(ends)
+
+
+def chances_table(summary: Summary) -> Table:
+    """Table of the probabilities of all bearings and meshes, for the terminal."""
+    heads, *rows = chance_cells(summary)
+    return columns_table(heads, rows, wrapped=(0,))
+
+
+def chance_rows(summary: Summary) -> Iterator[Row]:
+    """Rows of the uncertain inputs, and of the inputs that decide which element is first."""
+    yield from shares_of_spread(summary)
+    table = summary.get("uncertainty") or {}
+    if table.get("deciding"):
+        first, second = map(printable, table["deciding_elements"])
+        yield Row(f"inputs that decide whether {first} or {second} is first")
+        for each in table["deciding"]:
+            share = f"{readable(100.0 * each['total'], 2)} % of the spread"
+            yield Row(printable(each["label"]), share, key=f"uncertainty.deciding.{each['key']}")
+    yield from left_out_of_probability(summary)
 
 
 def axle_rows(summary: Summary) -> Iterator[Row]:
