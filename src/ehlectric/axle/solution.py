@@ -183,10 +183,11 @@ def _loads_on(
     case: AxleCase, shaft: str, forces: Sequence[ForceAt], rows: AdjustedRows | None
 ) -> BearingLoads:
     """Loads of both bearings of a shaft from the forces of its gears."""
-    if rows is None:
-        first, second = (case.bearing[number].at for number in case.bearings_of(shaft))
-        return bearing_loads(forces, (first, second))
-    loads = bearing_loads(forces, rows.pressure_centres)
+    first, second = case.bearings_of(shaft)
+    with case.naming(second):
+        if rows is None:
+            return bearing_loads(forces, (case.bearing[first].at, case.bearing[second].at))
+        loads = bearing_loads(forces, rows.pressure_centres)
     share = rows.share(loads.radial, loads.axial)
     return replace(loads, shares=share.forces, unloaded=share.unloaded)
 

@@ -451,7 +451,7 @@ class AxleCase(CaseFile, book="axle_file"):
         keys = self.keys_of_bearing(number)
         if "kind" in keys or typed_base(keys) is None:
             return str(keys.get("kind"))
-        with within("bearing"), self.naming(number):
+        with self.naming(number), within("bearing"):
             return str(base_of(keys)[1]["kind"])
 
     @cached_property
