@@ -161,3 +161,30 @@ def test_a_gear_file_is_solved_as_other_files(spur, tmp_path):
     path.write_text(spur_case().to_toml(), encoding="utf-8")
     for given in (spur_case(), spur_case().to_dict(), path, str(path)):
         assert solve(given) == spur
+
+
+@each("changes", [{}, {"gear.contact.conduction": "always"}, {"gear.contact.voltage": "1 mV"}])
+def test_the_probability_is_loaded_and_not_computed_again(changes, tmp_path, monkeypatch):
+    """Also the reason for which a mesh that conducts at all points has none."""
+    result = solve_gear(spur_case(**changes))
+    save(result, tmp_path)
+    with monkeypatch.context() as patched:
+        patched.setattr("ehlectric.gear.uncertainty.uncertainty_of", None)
+        again = load(tmp_path)
+        assert again.summary() == result.summary()
+        assert again.verdict == result.verdict
+        assert again.spread.missing == result.spread.missing
+        if result.uncertainty is not None:
+            assert again.uncertainty.margins.tolist() == result.uncertainty.margins.tolist()
+            assert again.uncertainty.inputs == result.uncertainty.inputs
+
+
+def test_a_file_without_points_of_the_probability_is_read(tmp_path):
+    """A result of an earlier version computes its probability again."""
+    result = solve_gear(spur_case())
+    dataset = result.to_xarray()
+    names = [name for name in dataset.variables if str(name).startswith("uncertainty_")]
+    older = dataset.drop_vars(names)
+    older.attrs = {key: value for key, value in dataset.attrs.items() if not key.startswith("uncertainty")}
+    again = of_gears.result_of(older, tmp_path / "gear.nc")
+    assert again.summary()["uncertainty"] == result.summary()["uncertainty"]

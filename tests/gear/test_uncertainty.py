@@ -9,11 +9,12 @@ from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.input_ranges import InputRange
 from ehlectric.formulas.sobol import sobol_points
 from ehlectric.gear import solve_gear
-from ehlectric.gear.solving import solve_gear_pair
+from ehlectric.gear.solving import capacitances_over_films, solve_gear_pair
 from ehlectric.gear.uncertainty import MeshDesign, changes_of, uncertainty_of
 from ehlectric.tables.gear_tables import gear_rows
 from tests.gear.pairs import case_of
 from tests.helpers.each import each
+from tests.helpers.gears import spur_case
 
 STRENGTH = "discharge.dielectric_strength"
 BULK = "gear.operation.bulk_temperature"
@@ -75,8 +76,8 @@ def test_points_of_the_design_are_gear_pairs_with_these_inputs():
             film = factor * float(np.nanmin(alone.films.minimum))
             height = alone.case.gear.summit_height * alone.rq
             assert found.lambda_ratios[k] == pytest.approx(film / alone.rq)
-            capacitance = alone.loads.mean(alone.capacitance)
-            assert found.capacitances[k] == pytest.approx(capacitance, rel=1e-6)
+            (capacitance,) = capacitances_over_films(alone, np.array([factor]))
+            assert found.capacitances[k] == pytest.approx(capacitance, rel=1e-3)
             assert found.voltages[k] == pytest.approx(strength[k] * 15e6 * max(film - height, 0.0))
     assert found.margins == pytest.approx(found.voltages / case.gear.contact.voltage)
 
@@ -150,3 +151,21 @@ def test_usual_ranges_and_ranges_of_the_file():
 def test_wrong_ranges_are_refused(ranges, text):
     with pytest.raises(InputError, match=text):
         case_of().replace({"ranges": ranges})
+
+
+def test_the_range_of_the_capacitance_contains_the_error_of_the_films():
+    """A higher speed makes all films thicker at equal loads, and the capacitance follows."""
+    case = spur_case()
+    solution = solve_gear_pair(case)
+    faster = solve_gear_pair(case.replace({"gear.operation.pinion_speed": "2340 rpm"}))
+    factor = float(np.nanmin(faster.films.central) / np.nanmin(solution.films.central))
+    assert 1.02 < factor < 1.04
+    same, thicker = capacitances_over_films(solution, np.array([1.0, factor]))
+    assert same == pytest.approx(solution.loads.mean(solution.capacitance), rel=1e-6)
+    assert thicker == pytest.approx(faster.loads.mean(faster.capacitance), rel=5e-4)
+    # Without the wedges next to the zone, the capacitance is inversely proportional to the film.
+    assert same / factor < thicker < same
+    uncertainty = uncertainty_of(solution, samples=64)
+    error = solution.film_error
+    ends = capacitances_over_films(solution, np.array([1.0 - error, 1.0 + error])) / same - 1.0
+    assert uncertainty.capacitance_film_error == pytest.approx(float(np.max(np.abs(ends))), rel=1e-6)

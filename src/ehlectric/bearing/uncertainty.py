@@ -23,6 +23,7 @@ from ehlectric.discharge.breakdown_rule import UNLIKELY, Chance
 from ehlectric.errors import InputError
 from ehlectric.formulas.sobol import sobol_points
 from ehlectric.formulas.variance_shares import variance_shares
+from ehlectric.quantities.field_metadata import number, stored
 from ehlectric.quantities.inputs import SPEED
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.runtime.display import read_only_property
@@ -60,17 +61,20 @@ FILMS, SCATTER = "films", "scatter"
 class UncertainInput:
     """Input within its range, and what it contributes to the spread of the margin."""
 
-    key: str  # dotted key; "films" for their error, "scatter" for a Weibull law
-    label: str
+    # Dotted key; "films" for their error, "scatter" for a Weibull law.
+    key: str = field(metadata=number("text"))
+    label: str = field(metadata=number("text"))
     # low and high: ends of the range, SI units; factors on all films for "films"; None for "scatter".
-    low: float | None
-    high: float | None
-    assumed: bool  # whether the range is the usual one, as the file states none
-    reason: str  # where the usual range comes from; empty for a range of the file
+    low: float | None = field(metadata=number())
+    high: float | None = field(metadata=number())
+    # Whether the range is the usual one, as the file states none.
+    assumed: bool = field(metadata=number("truth"))
+    # Source of the usual range; empty for a range of the file.
+    reason: str = field(metadata=number("text"))
     # Shares of the variance of ln(margin), dimensionless: that would disappear if the input were known, and
     # that would remain if all others were known.
-    first_order: float
-    total: float
+    first_order: float = field(metadata=number())
+    total: float = field(metadata=number())
 
 
 @dataclass(frozen=True)
@@ -94,13 +98,14 @@ class MarginSpread:
     """
 
     # Margins of all points with a result, 0 where surfaces touch, dimensionless, shape (n,).
-    margins: Array = field(repr=False)
-    touching: float  # share of points whose surfaces touch
-    failed: int  # number of points without a result
-    samples: int
-    seed: int
+    margins: Array = field(repr=False, metadata=stored("sample", "", "not negative"))
+    touching: float = field(metadata=number())  # share of points whose surfaces touch
+    failed: int = field(metadata=number("whole"))  # number of points without a result
+    samples: int = field(metadata=number("whole"))
+    seed: int = field(metadata=number("whole"))
     left_out: tuple[str, ...] = ()  # ranges that are not in the distribution, and why
-    reason: str = ""  # why one of the points has no result; empty where it is not known
+    # Why one of the points has no result; empty where it is not known.
+    reason: str = field(default="", metadata=number("text"))
 
     @property
     def median(self) -> float:
@@ -191,7 +196,7 @@ class Uncertainty(MarginSpread):
 
     inputs: tuple[UncertainInput, ...] = field(kw_only=True)  # the largest contribution first
     # Share of the variance of ln(margin) that the polynomial behind the shares of the inputs predicts.
-    predicted: float = field(kw_only=True)
+    predicted: float = field(kw_only=True, metadata=number())
 
     @read_only_property
     def chance(self) -> Chance:

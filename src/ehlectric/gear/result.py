@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from ehlectric.cases.gear_case import GearCase
-from ehlectric.errors import InputError
 from ehlectric.gear.gear_verdict import breakdown_margin, gear_verdict
 from ehlectric.gear.gear_warnings import gear_warnings
 from ehlectric.gear.mesh_duty import MeshDuty, check_mesh_duty, run_mesh_duty
@@ -17,7 +16,7 @@ from ehlectric.gear.solution import GearSolution
 from ehlectric.gear.solving import solve_gear_pair
 from ehlectric.gear.stored import layout_of
 from ehlectric.gear.summary import gear_summary, point_summaries
-from ehlectric.gear.uncertainty import MeshUncertainty, has_chance, uncertainty_of
+from ehlectric.gear.uncertainty import MeshUncertainty, Spread, has_chance
 from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
 from ehlectric.quantities.results import POINT_KEYS
 from ehlectric.quantities.verdict import Verdict
@@ -49,6 +48,8 @@ class GearResult(Shown):
         Version of ehlectric that solved it.
     stored_duty : MeshDuty, optional
         Result of the duty cycle that was stored with the solution.
+    stored_spread : Spread, optional
+        Distribution of the margin that was stored with the solution.
     """
 
     result_kind: ClassVar[ResultKind] = "gear"
@@ -58,6 +59,7 @@ class GearResult(Shown):
     version: str = __version__
     probable: bool = True
     stored_duty: MeshDuty | None = field(default=None, compare=False)
+    stored_spread: Spread | None = field(default=None, compare=False)
 
     @property
     def case(self) -> GearCase:
@@ -100,17 +102,14 @@ class GearResult(Shown):
 
         It evaluates 512 to 2048 gear pairs with films from the atlas when it is first asked for.
         """
-        return self._uncertainty_or_reason[0]
+        return None if self.spread is None else self.spread.points
 
     @read_only_property
-    def _uncertainty_or_reason(self) -> tuple[MeshUncertainty | None, str]:
-        """Distribution of the margin, or the reason for which it could not be computed."""
-        if not (self.probable and has_chance(self.case)):
-            return None, ""
-        try:
-            return uncertainty_of(self.solution), ""
-        except InputError as error:
-            return None, str(error)
+    def spread(self) -> Spread | None:
+        """Distribution of the margin, or the reason for which it has none; None without a probability."""
+        if not self.probable:
+            return None
+        return Spread.of(self.solution) if self.stored_spread is None else self.stored_spread
 
     @property
     def margin(self) -> float | None:
@@ -172,7 +171,7 @@ class GearResult(Shown):
     def to_xarray(self) -> xr.Dataset:
         """Return the dataset of the result, as gear.nc contains it; SI units."""
         return layout_of(
-            self.solution, self.seconds, self.version, probable=self.probable, duty=self.duty
+            self.solution, self.seconds, self.version, spread=self.spread, duty=self.duty
         ).dataset()
 
     def key_numbers(self) -> tuple[str, ...]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.gear.result import GearResult, solve_gear
-from ehlectric.gear.stored import SCHEMA, duty_of, layout_of, solution_of
+from ehlectric.gear.stored import SCHEMA, duty_of, layout_of, solution_of, spread_of
 from ehlectric.quantities.results import PHASE_COLUMNS, POINT_KEYS
 from ehlectric.runtime.file_rules import check_format, number_of, refusing
 from ehlectric.runtime.files import Content, column_head, csv_of, json_of, plain, write_together
@@ -50,7 +50,7 @@ def save(result: GearResult, folder: str | Path, *, replaced: Sequence[str] = ()
     phase = result.over_phase()
     columns = [column_head(name, unit) for name, unit in PHASE_COLUMNS.items()]
     layout = layout_of(
-        result.solution, result.seconds, result.version, probable=result.probable, duty=result.duty
+        result.solution, result.seconds, result.version, spread=result.spread, duty=result.duty
     )
     contents: dict[str, Content] = {
         SUMMARY: json_of(plain(result.summary())),
@@ -74,5 +74,5 @@ def result_of(dataset: xr.Dataset, path: Path) -> GearResult:
     with refusing(path):
         solution, seconds, version = solution_of(dataset)
         probable = number_of(dataset.attrs, "probable", "0 or 1") == 1.0
-        duty = duty_of(dataset)
-    return GearResult(solution, seconds, version, probable, duty)
+        duty, spread = duty_of(dataset), spread_of(dataset)
+    return GearResult(solution, seconds, version, probable, duty, spread)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice
 
 import numpy as np
@@ -60,6 +60,29 @@ def solve_gear_pair(case: GearCase) -> GearSolution:
     if isinstance(outcome, GearSolution):
         return outcome
     raise outcome
+
+
+def capacitances_over_films(solution: GearSolution, factors: Array) -> Array:
+    """Mean capacitances over a phase [F], shape (k,), of a mesh whose films are ``factors`` times as thick,
+    shape (k,). The films of the solution are from the atlas or from a formula.
+    """
+    case = solution.case
+    at = OperatingPair.of(case)
+    sharing = at.sharing(case.gear)
+    loads = sharing.loads(unloaded=False)
+    oils = flank_oils(case.lubricant, np.array([at.bulk_temperature]))
+    flanks = at.flanks(case, oils.each[0])
+    placed = contacts_of(flanks, loads.places, loads.load)
+    (table,) = film_tables(oils.oil, oils.groups, [_ranges(placed.groups)])
+    films, shape = flank_films(flanks, placed, table, by_formula=case.contacts == "formula")
+    number, back = loads.phases.size, solution.back_capacitance
+    means = []
+    for factor in factors.tolist():
+        scaled = replace(films, central=factor * films.central, minimum=factor * films.minimum)
+        lines = loads.along(capacitance_per_length(flanks, scaled, shape))
+        opened = open_capacitance(flanks, sharing.opened, float(np.nanmax(scaled.central)), number)
+        means.append(loads.mean(lines + opened + back))
+    return np.array(means)
 
 
 def solve_gear_pairs(cases: Iterable[GearCase], *, unloaded: bool = True) -> Iterator[Outcome]:

@@ -6,12 +6,14 @@ geometry follows from the case in closed form.
 
 from __future__ import annotations
 
+import json
 import math
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ehlectric.bearing import StoredDuty, Stretch
+from ehlectric.bearing import StoredDuty, Stretch, UncertainInput
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.gear.contact_lines import PlaneOfAction
 from ehlectric.gear.contact_path import POINTS
@@ -20,9 +22,18 @@ from ehlectric.gear.flank_oil import flank_oils
 from ehlectric.gear.load_sharing import LineLoads
 from ehlectric.gear.mesh_duty import MeshDuty, MeshRows
 from ehlectric.gear.solution import GearSolution, OperatingPair
-from ehlectric.runtime.file_rules import UnfitError, case_of, number_of, text_of
+from ehlectric.gear.uncertainty import MeshUncertainty, Spread
+from ehlectric.runtime.file_rules import UnfitError, case_of, is_list, is_text, json_of, number_of, text_of
 from ehlectric.runtime.netcdf import Layout
-from ehlectric.runtime.stored import Part, check_parts, values_of
+from ehlectric.runtime.stored import (
+    Part,
+    check_parts,
+    many_numbers_of,
+    numbers_of,
+    read_many_numbers,
+    read_numbers,
+    values_of,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -35,7 +46,10 @@ _SOLUTION, _LOADS = Part(GearSolution), Part(LineLoads)
 # Places of the films are the places of the loads.
 _FILMS = Part(FlankFilms, prefix="film_", axes={"place": _NODE})
 _POINT_FILMS = Part(FlankFilms, prefix="point_", axes={"place": (_POINT,)})
+# Attribute with the numbers of the distribution of the margin, and first letters of the names of its points.
+_UNCERTAINTY = "uncertainty"
 _DUTY = StoredDuty(MeshDuty, MeshRows, {"stretches": Stretch})
+_SPREAD = Part(MeshUncertainty, prefix=f"{_UNCERTAINTY}_")
 _PARTS = (_SOLUTION, _LOADS, _FILMS, _POINT_FILMS)
 
 # Rounding of nodes that are computed again from the case [m].
@@ -43,11 +57,17 @@ _ROUNDING = 1e-9
 
 
 def layout_of(
-    solution: GearSolution, seconds: float, version: str, *, probable: bool, duty: MeshDuty | None = None
+    solution: GearSolution,
+    seconds: float,
+    version: str,
+    *,
+    spread: Spread | None = None,
+    duty: MeshDuty | None = None,
 ) -> Layout:
     """Variables and attributes of a gear.nc, SI units, from which ``solution_of`` makes an equal solution.
 
-    ``probable``, whether the result contains the probability of breakdown; ``duty``, its duty cycle.
+    ``spread``, distribution of the margin of a result with a probability of breakdown; ``duty``, its duty
+    cycle.
     """
     return Layout(
         {
@@ -56,6 +76,7 @@ def layout_of(
             **_FILMS.written(solution.films),
             **_POINT_FILMS.written(solution.point_films),
             **_DUTY.variables(duty),
+            **({} if spread is None or spread.points is None else _SPREAD.written(spread.points)),
             _POINT: (_POINT, list(POINTS)),
         },
         {
@@ -63,8 +84,9 @@ def layout_of(
             "version": version,
             "case": solution.case.to_toml(),
             "seconds": seconds,
-            "probable": int(probable),
+            "probable": int(spread is not None),
             **_DUTY.attributes(duty),
+            **_spread_attributes(spread),
         },
         storage={name: {"compression": "gzip"} for name in (*_FILMS.rules, "capacitance_of_lines")},
     )
@@ -95,6 +117,52 @@ def solution_of(dataset: xr.Dataset) -> tuple[GearSolution, float, str]:
         **_SOLUTION.read(values),
     )
     return solution, number_of(attributes, "seconds"), text_of(attributes, "version")
+
+
+def _spread_attributes(spread: Spread | None) -> dict[str, str]:
+    """Attributes with the numbers and the inputs of a distribution, or with the reason for which there is
+    none.
+    """
+    if spread is None:
+        return {}
+    points, names = spread.points, _UNCERTAINTY
+    if points is None:
+        return {f"{names}_missing": spread.missing}
+    return {
+        names: numbers_of(points),
+        f"{names}_inputs": many_numbers_of(points.inputs),
+        f"{names}_left_out": json.dumps(points.left_out),
+    }
+
+
+def spread_of(dataset: xr.Dataset) -> Spread | None:
+    """Distribution of the margin in a dataset of ``layout_of``; None of a result without probability, and of
+    a file of an earlier version, which does not contain its points. Raises UnfitError as ``duty_of`` does.
+    """
+    attributes = dataset.attrs
+    if f"{_UNCERTAINTY}_missing" in attributes:
+        return Spread(None, text_of(attributes, f"{_UNCERTAINTY}_missing"))
+    if _UNCERTAINTY not in attributes:
+        return None
+    check_parts(dataset, [_SPREAD])
+    texts = partial(is_list, right=is_text)
+    inputs = read_many_numbers(UncertainInput, attributes, f"{_UNCERTAINTY}_inputs")
+    shares = ("first_order", "total")
+    numbers = read_numbers(MeshUncertainty, attributes, _UNCERTAINTY)
+    return Spread(
+        MeshUncertainty(
+            **_SPREAD.read(values_of(dataset)),
+            **{**numbers, "predicted": _or_nan(numbers["predicted"])},
+            inputs=tuple(
+                UncertainInput(**{**row, **{name: _or_nan(row[name]) for name in shares}}) for row in inputs
+            ),
+            left_out=tuple(json_of(attributes, f"{_UNCERTAINTY}_left_out", texts)),
+        )
+    )
+
+
+def _or_nan(value: float | None) -> float:
+    return math.nan if value is None else value
 
 
 def duty_of(dataset: xr.Dataset) -> MeshDuty | None:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, fields, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -40,7 +41,8 @@ from ehlectric.gear.solution import (
     reference_area_of,
     strength_of,
 )
-from ehlectric.gear.solving import solve_gear_pair, solve_gear_pairs
+from ehlectric.gear.solving import capacitances_over_films, solve_gear_pair, solve_gear_pairs
+from ehlectric.quantities.field_metadata import number, stored
 from ehlectric.quantities.lubrication_states import CONDUCTS
 from ehlectric.runtime.display import read_only_property
 from ehlectric.runtime.files import plain
@@ -66,6 +68,10 @@ _OF_AREA = "engineering judgement: the area of the measurement is known to a fac
 _CONDUCTS = "the mesh conducts at all points within the ranges of the inputs"
 
 
+# Numbers of the points that have a result.
+_sample = partial(stored, "sample")
+
+
 @dataclass(frozen=True)
 class MeshUncertainty(Uncertainty):
     """Distribution of the margin of a mesh, with its lambda ratio, breakdown voltage and state.
@@ -75,10 +81,13 @@ class MeshUncertainty(Uncertainty):
 
     # Of all points with a result, shape (n,): lambda ratios, breakdown voltages [V], 0 where summits touch or
     # the mesh conducts, and whether it conducts.
-    lambda_ratios: Array = field(kw_only=True, repr=False)
-    voltages: Array = field(kw_only=True, repr=False)
-    conducting: Array = field(kw_only=True, repr=False)
-    capacitances: Array = field(kw_only=True, repr=False)  # mean capacitances without the error of films [F]
+    lambda_ratios: Array = field(kw_only=True, repr=False, metadata=_sample("", "not negative"))
+    voltages: Array = field(kw_only=True, repr=False, metadata=_sample("V", "not negative"))
+    conducting: Array = field(kw_only=True, repr=False, metadata=_sample("", "0 or 1"))
+    # Mean capacitances over a phase [F].
+    capacitances: Array = field(kw_only=True, repr=False, metadata=_sample("F", "not negative"))
+    # Largest relative change of the capacitance by the error of the films.
+    capacitance_film_error: float = field(kw_only=True, metadata=number())
 
     @read_only_property
     def chance(self) -> Chance:
@@ -97,7 +106,10 @@ class MeshUncertainty(Uncertainty):
         """Values as in the table ``uncertainty`` of summary.json, SI units. Without margins to spread, the
         inputs have no shares.
         """
-        table = super().summary() | {"conduction_probability": self.conduction_probability}
+        table = super().summary() | {
+            "conduction_probability": self.conduction_probability,
+            "capacitance_film_error": self.capacitance_film_error,
+        }
         for name, values in (
             ("lambda_ratio", self.lambda_ratios),
             ("breakdown_voltage", self.voltages),
@@ -108,6 +120,24 @@ class MeshUncertainty(Uncertainty):
         if np.mean(self.voltages > 0.0) < _LEAST_WITH_MARGIN:
             table |= {"indices": [], "predicted": None}
         return dict(plain(table))
+
+
+@dataclass(frozen=True)
+class Spread:
+    """Distribution of the margin of a mesh, or the reason for which it has none."""
+
+    points: MeshUncertainty | None = None
+    missing: str = ""
+
+    @classmethod
+    def of(cls, solution: GearSolution) -> Spread:
+        """Distribution of a solved mesh; without one if the case has no probability of breakdown."""
+        if not has_chance(solution.case):
+            return cls()
+        try:
+            return cls(uncertainty_of(solution))
+        except InputError as error:
+            return cls(missing=str(error))
 
 
 def _or_infinite(margin: float) -> float:
@@ -235,7 +265,8 @@ def uncertainty_of(
     for bearings; ``samples``, number of points, a power of 2. Raises InputError where no point has a result,
     or where the mesh conducts at all points.
     """
-    design, meshes = MeshDesign.of(solution), _Meshes.of(solution)
+    design = MeshDesign.of(solution)
+    meshes = _Meshes.of(solution, design.films)
     rows: list[Array] = []
 
     def computed(at: Array) -> Array:
@@ -258,6 +289,7 @@ def uncertainty_of(
         voltages=(table[:, 2] * factors)[solved],
         conducting=conducting[solved],
         capacitances=table[solved, 4],
+        capacitance_film_error=meshes.capacitance_error,
     )
 
 
@@ -281,16 +313,34 @@ class _Meshes:
     case: GearCase  # case without solved films
     mesh: GearSolution  # solution of the case
     scale: float  # smallest film of the solution divided by the smallest film of the case
+    # Logarithms of factors on all films, and of the capacitance of the case with them, divided by the
+    # capacitance without a factor; the first and the last factor are the ends of the error of the films.
+    log_factors: Array
+    log_capacitances: Array
 
     @classmethod
-    def of(cls, solution: GearSolution) -> _Meshes:
-        case = solution.case.model_copy(update={"ranges": None})
-        if case.contacts != "solved":
-            return cls(case, solution, 1.0)
-        case = case.replace({"contacts": "atlas"})
-        atlas = solve_gear_pair(case)
-        scale = float(np.nanmin(solution.films.minimum) / np.nanmin(atlas.films.minimum))
-        return cls(case, atlas, scale)
+    def of(cls, solution: GearSolution, films: tuple[float, float]) -> _Meshes:
+        """Meshes around a solution; ``films``, ends of the factor on all films by their error."""
+        case, atlas, scale = solution.case.model_copy(update={"ranges": None, "duty": None}), solution, 1.0
+        if case.contacts == "solved":
+            case = case.replace({"contacts": "atlas"})
+            atlas = solve_gear_pair(case)
+            scale = float(np.nanmin(solution.films.minimum) / np.nanmin(atlas.films.minimum))
+        factors = scale * np.linspace(*films, _FILM_FACTORS)
+        capacitances = capacitances_over_films(atlas, np.append(factors, 1.0))
+        return cls(case, atlas, scale, np.log(factors), np.log(capacitances[:-1] / capacitances[-1]))
+
+    @property
+    def capacitance_error(self) -> float:
+        """Largest relative change of the capacitance by the error of the films."""
+        middle = np.interp(math.log(self.scale), self.log_factors, self.log_capacitances)
+        return float(np.max(np.abs(np.expm1(self.log_capacitances[[0, -1]] - middle))))
+
+    def _numbers(self, case: GearCase, mesh: GearSolution, factor: float) -> tuple[float, ...]:
+        """Numbers of a mesh with films ``factor`` times as thick as the films of the solution."""
+        factor *= self.scale
+        ratio = math.exp(float(np.interp(math.log(factor), self.log_factors, self.log_capacitances)))
+        return *_numbers(case, mesh, factor), ratio * mesh.loads.mean(mesh.capacitance)
 
     def rows(self, changed: Sequence[tuple[Mapping[str, Any], float]]) -> Array:
         """Margin, lambda ratio, breakdown voltage [V], whether the mesh conducts, and mean capacitance [F].
@@ -301,11 +351,11 @@ class _Meshes:
         same = [k for k in cases if all(key.startswith(_NOT_IN_FILMS) for key in changed[k][0])]
         others = sorted(cases.keys() - set(same))
         for k in same:
-            rows[k] = _numbers(cases[k], self.mesh, changed[k][1] * self.scale)
+            rows[k] = self._numbers(cases[k], self.mesh, changed[k][1])
         meshes = solve_gear_pairs((cases[k] for k in others), unloaded=False)
         for k, mesh in zip(others, meshes, strict=True):
             if isinstance(mesh, GearSolution):
-                rows[k] = _numbers(cases[k], mesh, changed[k][1] * self.scale)
+                rows[k] = self._numbers(cases[k], mesh, changed[k][1])
         return rows
 
     def _cases(self, changed: Sequence[tuple[Mapping[str, Any], float]]) -> Iterator[tuple[int, GearCase]]:
@@ -315,9 +365,13 @@ class _Meshes:
                 yield k, self.case.replace(changes)
 
 
-def _numbers(case: GearCase, mesh: GearSolution, factor: float) -> tuple[float, float, float, float, float]:
-    """Margin, lambda ratio, breakdown voltage [V], whether the mesh conducts, and mean capacitance [F], with
-    films ``factor`` times as thick; the capacitance has the films of the mesh.
+# Factors on the films at which the capacitance is computed.
+_FILM_FACTORS = 5
+
+
+def _numbers(case: GearCase, mesh: GearSolution, factor: float) -> tuple[float, float, float, float]:
+    """Margin, lambda ratio, breakdown voltage [V], and whether the mesh conducts, with films ``factor`` times
+    as thick.
     """
     loads, films = mesh.loads, mesh.films
     gear, strength, voltage = case.gear, strength_of(case), case.gear.contact.voltage
@@ -328,4 +382,4 @@ def _numbers(case: GearCase, mesh: GearSolution, factor: float) -> tuple[float, 
     conducts = state_at(loads.mean(share), gear.contact.conduction) == CONDUCTS
     breakdown = 0.0 if conducts else strength * max(film - gear.summit_height * gear.rq, 0.0)
     margin = MOST_MARGIN if conducts else breakdown / voltage
-    return margin, film / gear.rq, breakdown, float(conducts), loads.mean(mesh.capacitance)
+    return margin, film / gear.rq, breakdown, float(conducts)

@@ -47,7 +47,8 @@ def stored(
 def number(rule: str | tuple[str, ...] = "finite or null") -> dict[str, Any]:
     """Metadata of a field that is a number or a text in an attribute.
 
-    The rule is a key of ``VALUES``, perhaps with " or null", or "text", or the texts that are possible.
+    The rule is a key of ``VALUES``, perhaps with " or null", or "text", "truth", or the texts that are
+    possible.
     """
     return {_NUMBER: rule}
 

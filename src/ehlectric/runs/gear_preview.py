@@ -13,9 +13,7 @@ def preview(case: GearCase) -> Preview:
     """Preview of a gear pair, whose films are not solved."""
     check_mesh_duty(case)
     judged = case.model_copy(update={"duty": None})
-    result = solve_gear(
-        judged if case.contacts != "solved" else judged.replace({"contacts": "atlas"}), probable=False
-    )
+    result = solve_gear(judged if case.contacts != "solved" else judged.replace({"contacts": "atlas"}))
     summary = {**result.summary(), "inputs": case.to_dict()}
     rows = gear_rows(summary)
     if case.duty is not None:

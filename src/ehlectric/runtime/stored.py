@@ -37,6 +37,7 @@ from ehlectric.runtime.file_rules import (
     json_of,
     unfit_error,
 )
+from ehlectric.runtime.files import plain
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -152,7 +153,9 @@ def many_numbers_of(things: Iterable[Any]) -> str:
 
 
 def _numbers(thing: Any) -> dict[str, Any]:
-    return {name: getattr(thing, name) for name in rules_of_numbers(type(thing))}
+    """Numbers and texts of an object; None instead of NaN, which JSON does not have."""
+    numbers: dict[str, Any] = plain({name: getattr(thing, name) for name in rules_of_numbers(type(thing))})
+    return numbers
 
 
 def read_numbers(kind: type[Any], attributes: Mapping[Any, Any], name: str) -> dict[str, Any]:
@@ -209,6 +212,8 @@ def _fits(value: Any, rule: str | tuple[str, ...]) -> bool:
     """Whether a value of JSON is as the rule of ``number`` says."""
     if isinstance(rule, tuple) or rule == "text":
         return isinstance(value, str) and (rule == "text" or value in rule)
+    if rule == "truth":
+        return isinstance(value, bool)
     if value is None:
         return rule.endswith(" or null")
     return is_number(value, rule.removesuffix(" or null"))
