@@ -60,6 +60,21 @@ def test_check_shows_the_verdict_and_writes_nothing(typed, tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow
+def test_check_and_gear_say_the_same_of_touching_summits(typed, tmp_path):
+    """Both state one probability, and begin with the same words."""
+    text = EXAMPLE.read_text("utf-8").replace('"14000 rpm"', '"8000 rpm"')
+    (tmp_path / "gear.toml").write_text(text, "utf-8")
+    check, solved = (typed(*words) for words in (("check", "gear.toml"), ("gear", "gear.toml", "--no-plots")))
+    first, other = (
+        [line for line in done.stdout.splitlines() if "8000 rpm" in line or "probability  " in line]
+        for done in (check, solved)
+    )
+    assert first == other
+    assert len(first) > 1
+    assert "expected" in first[0]
+
+
 BAD = {
     "torque": ('pinion_torque = "30 N m"', 'pinion_torque = "30 N"'),
     "teeth": ("teeth = [23, 67]", "teeth = [23]"),

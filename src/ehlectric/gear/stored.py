@@ -136,8 +136,9 @@ def _spread_attributes(spread: Spread | None) -> dict[str, str]:
 
 
 def spread_of(dataset: xr.Dataset) -> Spread | None:
-    """Distribution of the margin in a dataset of ``layout_of``; None of a result without probability, and of
-    a file of an earlier version, which does not contain its points. Raises UnfitError as ``duty_of`` does.
+    """Distribution of the margin in a dataset of ``layout_of``. Raises UnfitError as ``duty_of`` does.
+
+    None if the result has no probability, or if an earlier version wrote the file without its points.
     """
     attributes = dataset.attrs
     if f"{_UNCERTAINTY}_missing" in attributes:
