@@ -9,7 +9,8 @@ import scipy
 from ehlectric import AxleCase, BearingCase, InputError
 from ehlectric.axle.adjusted_rows import AdjustedRows
 from ehlectric.axle.solution import loads_on_shafts, solve_elements
-from ehlectric.bearing import InclinedRow
+from ehlectric.bearing import InclinedRow, resolve_bearing
+from ehlectric.bearing.preparation import equilibria_of
 from ehlectric.cases.axle_inputs import Adjustment
 from tests.axle.axles import two_stages
 from tests.helpers.each import each
@@ -92,6 +93,29 @@ def test_rows_that_just_touch_follow_the_rule_of_catalogues():
     loads = np.maximum(0.0, np.cos(psi)) ** (10.0 / 9.0)
     assert force == pytest.approx(1500.0 * math.tan(ANGLE) * np.sum(loads) / (loads @ np.cos(psi)), rel=1e-6)
     assert force == pytest.approx(0.5 * 1500.0 / (0.4 / math.tan(ANGLE)), rel=0.03)
+
+
+@pytest.mark.parametrize(("bearing", "angle"), [(TAPERED, ANGLE), (ANGULAR, None)])
+@pytest.mark.parametrize("speed", ["10 rpm", "9000 rpm"])
+def test_equal_rows_agree_with_a_pair_at_one_place(bearing, angle, speed):
+    """Without an axial force both rows of a pair have half of its radial load, and one displacement."""
+    table = {
+        "contacts": "atlas",
+        "bearing": {
+            "radial_load": "3 kN",
+            "inner_speed": speed,
+            "temperature": "80 degC",
+            "composite_rq": "0.06 um",
+            "pair": {"arrangement": "O", "preload": "700 N"},
+            **bearing,
+        },
+        "lubricant": {"base": "fva-3"},
+    }
+    (at,) = equilibria_of(resolve_bearing(BearingCase.from_dict(table)), 1)
+    angles = at.inner_angle if angle is None else np.full_like(at.inner_load, angle)
+    first = np.split(at.inner_load * np.sin(np.abs(angles)), 2)[0]
+    share = rows({**bearing, "inner_speed": speed}, preload=700.0).share((1500.0, 1500.0), 0.0)
+    assert share.forces[1] == pytest.approx(np.sum(first), rel=1e-4)
 
 
 def stiffness():
