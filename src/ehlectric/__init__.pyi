@@ -5,6 +5,8 @@ from .axle import solve_axle as solve_axle
 from .axle import write_axle_netlist as write_axle_netlist
 from .bearing import BearingResult as BearingResult
 from .bearing import solve_bearing as solve_bearing
+from .calibration import Calibration as Calibration
+from .calibration import calibrate as calibrate
 from .cases.axle_case import AxleCase as AxleCase
 from .cases.bearing_case import BearingCase as BearingCase
 from .cases.case import Case as Case

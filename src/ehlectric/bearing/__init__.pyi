@@ -71,6 +71,8 @@ from .margin_cycle import Stretch as Stretch
 from .margin_cycle import moves as moves
 from .margin_cycle import row_probabilities as row_probabilities
 from .margin_cycle import worst_stretches as worst_stretches
+from .measurable import MARGIN as MARGIN
+from .measurable import BearingModel as BearingModel
 from .measured_capacitance import bearing_factors as bearing_factors
 from .preparation import resolve_bearing as resolve_bearing
 from .quick_contacts import formula_factor as formula_factor

@@ -11,7 +11,7 @@ import numpy as np
 
 from ehlectric.arrays import Array, IntArray, Mask, Numbers
 from ehlectric.bearing.physical_bounds import outside_bounds
-from ehlectric.bearing.preparation import prepare_bearing
+from ehlectric.bearing.preparation import prepare_bearing, with_films_times
 from ehlectric.bearing.solution import BearingSolution
 from ehlectric.bearing.solving import POSITIONS, Detail, solution_of, solution_of_prepared
 from ehlectric.bearing.summary import tables_of
@@ -107,12 +107,14 @@ def solved_parts(
     reasons: dict[int, str] | None = None,
     positions: int = POSITIONS,
     detail: Detail = "whole",
+    films: Array | None = None,
 ) -> Iterator[SolvedPart]:
     """Solutions of a case with arrays and estimated contacts of some detail, in parts of ``TOGETHER`` points.
 
-    Points without a solution are skipped. Their errors are put into ``reasons`` by their places, if it is
-    given; each error takes the time of a single bearing. Raises InputError where no point has a solution
-    for a reason that all share, as an oil that needs solved contacts.
+    ``films``, factors on the films of all points, shape (n,). Points without a solution are skipped. Their
+    errors are put into ``reasons`` by their places, if it is given; each error takes the time of a single
+    bearing. Raises InputError where no point has a solution for a reason that all share, as an oil that needs
+    solved contacts.
     """
     if SPEED not in case.arrays():
         # Loads of elements then have an axis of points as all other numbers, also where temperatures or
@@ -120,7 +122,7 @@ def solved_parts(
         case = case.with_values({SPEED: np.full(case.shape, case.bearing.inner_speed)})
     for points in np.array_split(np.arange(case.shape[0]), -(-case.shape[0] // TOGETHER)):
         with one_blas_thread(of_scipy=False):
-            part = _solved(case, points, positions, detail)
+            part = _solved(case, points, positions, detail, films)
         if part is not None:
             yield part
         if reasons is not None:
@@ -179,19 +181,26 @@ def some_points(case: BearingCase, points: IntArray) -> BearingCase:
     return case.with_values({key: array[points] for key, array in case.arrays().items()})
 
 
-def _solved(case: BearingCase, points: IntArray, positions: int, detail: Detail) -> SolvedPart | None:
+def _solved(
+    case: BearingCase, points: IntArray, positions: int, detail: Detail, films: Array | None
+) -> SolvedPart | None:
     """Solution of the points that have one; None where none has."""
     while points.size:
-        solution, refused = _attempt(some_points(case, points), positions, detail)
+        factors = None if films is None else films[points]
+        solution, refused = _attempt(some_points(case, points), positions, detail, factors)
         if solution is not None:
             return SolvedPart(points, solution)
         points = points[~np.broadcast_to(refused, points.shape)]
     return None
 
 
-def _attempt(case: BearingCase, positions: int, detail: Detail) -> tuple[BearingSolution | None, Mask | bool]:
+def _attempt(
+    case: BearingCase, positions: int, detail: Detail, films: Array | None
+) -> tuple[BearingSolution | None, Mask | bool]:
     """Solution of all points of a case, or None and which points are refused, shape (...)."""
     prepared = prepare_bearing(case, positions)
+    if films is not None:
+        prepared = with_films_times(prepared, films)
     if np.any(prepared.refused):
         return None, prepared.refused
     # Numbers of contacts beyond the model, whose points are refused then, have no logarithm.

@@ -401,6 +401,12 @@ def with_film_factor(prepared: PreparedBearing, factor: float) -> PreparedBearin
     )
 
 
+def with_films_times(prepared: PreparedBearing, factors: Array) -> PreparedBearing:
+    """Bearings whose films are ``factors`` times as thick as computed, shape (...)."""
+    rings = prepared.conditions.rings
+    return _with_rings(prepared, *(replace(ring, film_factor=factors * ring.film_factor) for ring in rings))
+
+
 def _with_rings(prepared: PreparedBearing, *rings: RingConditions) -> PreparedBearing:
     """Bearing with other conditions of its contacts with the inner and the outer ring."""
     conditions = replace(prepared.conditions, inner=rings[0], outer=rings[1])

@@ -43,6 +43,7 @@ from ehlectric.cases.input_ranges import (
 from ehlectric.cases.key_names import refuse_deep
 from ehlectric.cases.keywords import Fields, Keys, keys_of, split, takes
 from ehlectric.cases.library.bearing_catalogue import NORMAL_CLASS, with_class
+from ehlectric.cases.measured_inputs import Measured
 from ehlectric.cases.oil_inputs import displace_oil
 from ehlectric.cases.roughness_inputs import find_files
 from ehlectric.cases.stated_ranges import with_stated_ranges
@@ -60,7 +61,7 @@ from ehlectric.quantities.formats import amount, operating_point
 from ehlectric.runtime.display import headline
 
 # Tables and keys of a bearing file that a case of a contact does not have.
-_TABLES = ("motor", "contacts", "ranges", "duty")
+_TABLES = ("motor", "contacts", "ranges", "duty", "measured")
 
 
 def bearing_key(table: Mapping[str, Any]) -> str | None:
@@ -148,6 +149,7 @@ class _Tables(TypedDict, total=False):
     solver: Solver | Keys | None
     ranges: Keys | None
     duty: Duty | Keys | None
+    measured: Measured | Keys | None
 
 
 class _BearingCaseKeys(_Tables, BearingKeys, total=False):
@@ -175,7 +177,7 @@ class BearingCase(CaseFile, book="bearing_file"):
         Title of tables and figures.
     contacts : str, optional
         "solved", "atlas" for contacts from the atlas of films, or "formula" for film-thickness formulas.
-    discharge, motor, solver, ranges, duty : mapping, optional
+    discharge, motor, solver, ranges, duty, measured : mapping, optional
         Further tables, as in a bearing file.
     """
 
@@ -193,6 +195,7 @@ class BearingCase(CaseFile, book="bearing_file"):
             solver: Solver | Keys = ...,
             ranges: Keys | None = ...,
             duty: Duty | Keys | None = ...,
+            measured: Measured | Keys | None = ...,
         ) -> None: ...
 
     title: Title = ""
@@ -204,6 +207,7 @@ class BearingCase(CaseFile, book="bearing_file"):
     solver: Solver = Solver()
     ranges: tuple[InputRange, ...] | None = None
     duty: Duty | None = None
+    measured: Measured | None = None
 
     @classmethod
     def missing_table_hint(cls, key: str, given: Mapping[str, Any]) -> str:

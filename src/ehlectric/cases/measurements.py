@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from pathlib import Path
@@ -45,6 +45,9 @@ class Measurable(Amount):
     usual: str = ""  # unit that stands for the quantity in the advice of an error
     names: tuple[str, ...] = ()  # further names that people write over a column, in small letters
     key: str = ""  # dotted key of the input in whose place it stands; empty without one
+    # Usual standard uncertainty of a measured value, as a part of the value or in the SI unit; 0 if unknown.
+    relative: float = 0.0
+    absolute: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -54,6 +57,7 @@ class ColumnBook:
     columns: Mapping[str, Measurable]  # by the names of the columns in the program
     examples: str  # heads that an error names as examples
     most_rows: int  # largest number of rows
+    gaps: frozenset[str] = frozenset()  # names of columns that may have empty cells
 
     @classmethod
     def of(cls, table: str, examples: str, most_rows: int) -> ColumnBook:
@@ -92,6 +96,22 @@ MEASURED = ColumnBook.of(
 CYCLE = ColumnBook.of("duty", "'time [s]', 'speed [rpm]' and 'radial load [N]'", MOST_ROWS_OF_CYCLE)
 GEAR_CYCLE = ColumnBook.of("gear_duty", "'time [s]', 'speed [rpm]' and 'torque [N m]'", MOST_ROWS_OF_CYCLE)
 
+
+# Quantities that a calibration compares, and the columns of a file with quantities at operating points.
+CALIBRATED = ColumnBook.of("calibration", "", 0).columns
+POINTS = ColumnBook(
+    MappingProxyType(
+        {
+            **{name: column for name, column in CYCLE.columns.items() if column.key},
+            "speed": replace(MEASURED.columns["speed"], key=CYCLE.columns["speed"].key),
+            **CALIBRATED,
+        }
+    ),
+    "'speed [rpm]', 'capacitance [pF]' and 'uncertainty of capacitance [%]'",
+    1000,
+    frozenset(CALIBRATED),
+)
+
 _UNCERTAINTY = "uncertainty"
 
 # Longest head of a column [characters].
@@ -115,11 +135,14 @@ class Column:
 
         Raises ValueError if the unit is not one of the quantity; the message says why.
         """
+        unit = "" if self.name == "" else self.book.columns[self.name].unit
         if self.unit == "%":
-            if self.uncertainty:
+            if self.uncertainty or (self.name and not unit):
                 return 0.01
             raise ValueError("the value of 100 % is unknown")
-        return _factor(self.unit, self.book.columns[self.name].unit)
+        if not unit and self.unit in ("-", "1"):
+            return 1.0
+        return _factor(self.unit, unit)
 
     def value(self, number: float) -> float:
         """Value in SI units of a number in the unit of the column; an uncertainty stays a difference. Raises
@@ -346,7 +369,7 @@ def read_measurement(measured: str | Path | pd.DataFrame, book: ColumnBook = MEA
     if len(rows.cells) > book.most_rows:
         takes = f"at most {book.most_rows}; average them"
         raise InputError(source, f"has more than {book.most_rows} rows", takes=takes)
-    rows, void = _without_void(source, rows, columns)
+    rows, void = _without_void(source, rows, columns, book)
     numbers = {place: _values(source, rows, place, column) for place, column in columns.items()}
     values = {columns[place].name: numbers[place] for place in numbers if not columns[place].uncertainty}
     uncertain = {place: numbers[place] for place in numbers if columns[place].uncertainty}
@@ -354,11 +377,21 @@ def read_measurement(measured: str | Path | pd.DataFrame, book: ColumnBook = MEA
     return Measurement(source, rows.lines, values, uncertainties, ignored, void)
 
 
-def _without_void(source: str, rows: _Rows, places: Iterable[int]) -> tuple[_Rows, tuple[int, ...]]:
-    """Rows with a value in every known column, and the lines of the other rows."""
+def _without_void(
+    source: str, rows: _Rows, columns: Mapping[int, Column], book: ColumnBook
+) -> tuple[_Rows, tuple[int, ...]]:
+    """Rows with a value in every known column that has no gaps, and in one with gaps if there are any; and
+    the lines of the other rows.
+    """
     if not rows.cells:
         raise InputError(source, "has no rows below its headings", takes="at least one")
-    kept = [not any(is_void(row[place]) for place in places) for row in rows.cells]
+    gaps = [place for place, column in columns.items() if column.name in book.gaps]
+    places = [place for place in columns if place not in gaps]
+    kept = [
+        not any(is_void(row[place]) for place in places)
+        and (not gaps or not all(is_void(row[place]) for place in gaps))
+        for row in rows.cells
+    ]
     if not any(kept):
         raise InputError(source, "has no row with a number in every known column", takes="at least one")
     cells = [row for row, whole in zip(rows.cells, kept, strict=True) if whole]
@@ -464,6 +497,9 @@ def _values(source: str, rows: _Rows, place: int, column: Column) -> Array:
     values = np.empty(len(rows.cells))
     for k, (row, line) in enumerate(zip(rows.cells, rows.lines, strict=True)):
         cell = row[place]
+        if column.name in column.book.gaps and is_void(cell):
+            values[k] = math.nan
+            continue
         try:
             number = rows.dialect.value(cell)
             # A relative uncertainty has no quantity of its own; others are converted with the quantity of the
@@ -523,6 +559,6 @@ def _absolute(source: str, column: Column, name: str, numbers: Array) -> Array:
     except ValueError as error:
         takes = f"per cent or a unit of {name.replace('_', ' ')}"
         raise InputError(source, f"column {shown(column.head)}: {error}", takes=takes) from None
-    if not np.all(numbers > 0.0):
+    if np.any(numbers <= 0.0):
         raise InputError(source, f"column {shown(column.head)} has a value of 0 or below", takes="above 0")
     return numbers * factor

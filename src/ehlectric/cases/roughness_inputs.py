@@ -167,13 +167,13 @@ def check_geometry(tables: Iterable[Roughness], geometry: str) -> None:
 
 
 def find_files(table: dict[str, Any], folder: Path) -> None:
-    """Make the names of files of roughness and of a duty cycle absolute; in a case file they are relative to
-    its ``folder``.
+    """Make the names of files of roughness, of a duty cycle and of a measurement absolute; in a case file
+    they are relative to its ``folder``.
 
     They then stay valid if the case is written to another folder.
     """
     rough = table.get("roughness")
-    for holder in (*(rough if isinstance(rough, list) else []), table.get("duty")):
+    for holder in (*(rough if isinstance(rough, list) else []), table.get("duty"), table.get("measured")):
         if not isinstance(holder, dict) or not isinstance(holder.get("file"), str):
             continue
         if not Path(holder["file"]).is_absolute():

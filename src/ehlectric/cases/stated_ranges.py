@@ -76,6 +76,26 @@ def _written(value: float, quantity: Amount) -> float | str:
     return certain(f"{value!r} {quantity.unit}") if quantity.unit else value
 
 
+def value_and_uncertainty(key: str, text: str, quantity: Amount) -> tuple[float, float]:
+    """Value and its uncertainty behind "+-", SI units. Raises InputError for a text without them.
+
+    Examples
+    --------
+    >>> value_and_uncertainty("measured.shaft_voltage", "12 V +- 5 %", Amount(unit="V"))
+    (12.0, 0.6000000000000001)
+    """
+    around = _AROUND.fullmatch(text)
+    if around is None:
+        unit = f" {quantity.unit}" if quantity.unit else ""
+        takes = f"a value in{unit or ' a number'} with its standard uncertainty behind +-"
+        raise InputError(key, got=shown(text), takes=takes)
+    number = _number(around["value"])
+    if not quantity.unit and None in (number, _number(around["part"])):
+        raise InputError(key, got=shown(text), takes="two numbers, such as 0.02 +- 0.01")
+    value = _parsed(key, quantity, around["value"].strip() if quantity.unit else number)
+    return value, _difference(key, text, value, around["part"].strip(), quantity)
+
+
 def _range(key: str, text: str, quantity: Amount) -> tuple[float, float, float]:
     """Low end, middle and high end of an input with its uncertainty, SI units."""
     if between := _BETWEEN.fullmatch(text):

@@ -15,6 +15,7 @@ from typing import Annotated
 import typer
 
 from ehlectric.commands import (  # noqa: F401  # each module adds its commands to COMMANDS
+    calibrate_command,
     film_command,
     netlist_command,
     oil_commands,

@@ -150,10 +150,10 @@ def run(
             with shown as progress:
                 outcome = by_kind.RUNS[kind].run(case, folder, progress, solver=solver, measured=data)
         tables = _tables if kind == "contact" else _transient_tables
-        _print_and_draw(outcome, tables, folder, look if plots else None, quiet=quiet, as_json=as_json)
+        print_and_draw(outcome, tables, folder, look if plots else None, quiet=quiet, as_json=as_json)
 
 
-def _print_and_draw(
+def print_and_draw(
     outcome: RunOutcome[Any],
     tables: Tables,
     folder: Path,
@@ -309,7 +309,7 @@ def bearing(
             folder = locked.enter_context(alone_in(output, locks=[RESULT_LOCK]))
             with progress_bar(shown=not quiet) as progress:
                 outcome = by_kind.run_bearing(case, folder, progress, contacts=contacts, measured=data)
-        _print_and_draw(
+        print_and_draw(
             outcome, _bearing_tables, folder, look if plots else None, quiet=quiet, as_json=as_json
         )
 
@@ -396,7 +396,7 @@ def _solve(
             folder = locked.enter_context(alone_in(output, locks=[RESULT_LOCK]))
             with progress(shown=not quiet) as shown:
                 outcome = kind.run(case, folder, shown, contacts=contacts)
-        _print_and_draw(
+        print_and_draw(
             outcome, tables[file.kind], folder, look if plots else None, quiet=quiet, as_json=as_json
         )
 

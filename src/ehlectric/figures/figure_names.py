@@ -105,6 +105,7 @@ OIL_FIGURE_FILES = ("oil_over_pressure.png", "oil_over_temperature.png")
 
 # Figure of a measurement compared with computed values.
 MEASURED_FIGURE = "measured_and_computed.png"
+CALIBRATION_FIGURE = "calibration.png"
 
 # Figure of the sensitivity of a sweep; maps and lines of a sweep are named by the value that they show.
 SENSITIVITY_FIGURE = "sensitivity.png"

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 
     from ehlectric.axle import AxleResult
     from ehlectric.bearing import BearingResult
+    from ehlectric.calibration import Calibration
     from ehlectric.cases.film_factors import FilmFactors
     from ehlectric.contact import PointResult, Result
     from ehlectric.drive import DriveResult
@@ -48,6 +49,7 @@ if TYPE_CHECKING:
         | MotionRun
         | SweepResults
         | FilmFactors
+        | Calibration
     )
 
 
@@ -276,6 +278,14 @@ def _of_measurements() -> _Draws:
     return _Draws(measured.figure, lambda _: [MEASURED_FIGURE], _without_options(lambda _: MEASURED_FIGURE))
 
 
+def _of_calibrations() -> _Draws:
+    from ehlectric.figures import calibration_figures as calibration
+    from ehlectric.figures.figure_names import CALIBRATION_FIGURE
+
+    name = _without_options(lambda _: CALIBRATION_FIGURE)
+    return _Draws(calibration.figure, lambda _: [CALIBRATION_FIGURE], name)
+
+
 def _of_motions() -> _Draws:
     from ehlectric.figures import motion_figures as motion
 
@@ -313,6 +323,7 @@ _KINDS: Mapping[ResultKind | Literal["dataset"], Callable[[], _Draws]] = Mapping
         "dataset": _of_datasets,
         "sweep": _of_sweeps,
         "measurement": _of_measurements,
+        "calibration": _of_calibrations,
     }
 )
 

@@ -10,15 +10,11 @@ B. Sudret, Reliab. Eng. Syst. Saf. 93 (2008) 964, doi:10.1016/j.ress.2007.04.002
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import combinations_with_replacement
 
 import numpy as np
-from numpy.polynomial.legendre import legvander
 
-from ehlectric.arrays import Array, IntArray
-
-# Largest degree of the polynomial, and points that a term has to have at least.
-_DEGREE, _POINTS = 3, 3
+from ehlectric.arrays import Array
+from ehlectric.formulas.legendre_fit import LegendreFit
 
 
 @dataclass(frozen=True)
@@ -50,44 +46,15 @@ def variance_shares(at: Array, values: Array) -> VarianceShares:
     >>> shares.first.round(9).tolist(), shares.total.round(9).tolist(), round(shares.predicted, 9)
     ([0.125, 0.5], [0.5, 0.875], 1.0)
     """
-    number, inputs = at.shape
-    terms = _terms(inputs, number)
-    # Orthonormal polynomials of each input, shape (n, k, degree + 1).
-    polynomials = legvander(at, _DEGREE) * np.sqrt(2.0 * np.arange(_DEGREE + 1) + 1.0)
-    matrix = _matrix(polynomials, terms)
-    basis, triangle = np.linalg.qr(matrix)
-    coefficients = np.linalg.solve(triangle, basis.T @ values)
-    parts = np.square(coefficients)
+    fit = LegendreFit.of(at, values[:, np.newaxis])
+    parts = np.square(fit.coefficients[:, 0])
     variance = float(np.sum(parts[1:]))
-    has = terms > 0
+    has = fit.terms > 0
     alone = has & (np.count_nonzero(has, axis=1) == 1)[:, np.newaxis]
-    missed = (values - matrix @ coefficients) / (1.0 - np.sum(np.square(basis), axis=1))
     scale, spread = (variance or 1.0), float(np.var(values))
     return VarianceShares(
         variance,
         parts @ alone / scale,
         parts @ has / scale,
-        1.0 - float(np.mean(np.square(missed))) / spread if spread else 1.0,
+        1.0 - float(np.mean(np.square(fit.missed))) / spread if spread else 1.0,
     )
-
-
-def _matrix(polynomials: Array, terms: IntArray) -> Array:
-    """Products of polynomials of all inputs, shape (n, terms)."""
-    matrix = np.ones((polynomials.shape[0], len(terms)))
-    for k in range(polynomials.shape[1]):
-        matrix *= polynomials[:, k, terms[:, k]]
-    return matrix
-
-
-def _terms(inputs: int, number: int) -> IntArray:
-    """Degrees of the polynomials of each input in each term, shape (terms, k); the first is the constant."""
-    terms = [np.zeros(inputs, dtype=int)]
-    for degree in range(1, _DEGREE + 1):
-        further = [
-            np.bincount(chosen, minlength=inputs)
-            for chosen in combinations_with_replacement(range(inputs), degree)
-        ]
-        if _POINTS * (len(terms) + len(further)) > number:
-            break
-        terms += further
-    return np.array(terms)

@@ -116,6 +116,17 @@ def amount(value: float, unit: str) -> str:
     return f"{readable(factor * value, 4)} {prefixed}"
 
 
+def amount_text(value: float, unit: str) -> str:
+    """Value as text: a temperature in °C, a number without a unit, or a value in a prefixed unit.
+
+    Examples
+    --------
+    >>> amount_text(343.15, "K"), amount_text(0.02, ""), amount_text(2.4e-10, "F")
+    ('70 °C', '0.02', '240 pF')
+    """
+    return CELSIUS.text(value) if unit == "K" else amount(value, unit).rstrip()
+
+
 def suited(value: float, unit: str) -> tuple[float, str]:
     """Factor from an SI unit to a prefixed unit that suits a value, and this unit.
 

@@ -7,7 +7,7 @@ from functools import cache
 from string import Formatter
 from typing import Any
 
-from ehlectric.quantities.formats import CELSIUS, amount, rpm_text, speed_text, time_share_text
+from ehlectric.quantities.formats import CELSIUS, amount, amount_text, rpm_text, speed_text, time_share_text
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.result_warnings import CODES
 from ehlectric.quantities.statement import Bound, Level, Statement
@@ -50,6 +50,7 @@ _WAYS: Mapping[str, Callable[[Any], str]] = {
     "µm": lambda value: f"{readable(1e6 * value)} µm",
     "V4": lambda value: amount(value, "V"),
     "Nm": lambda value: amount(value, "N m"),
+    "amount": lambda pair: amount_text(*pair),
     "V3": _three_digits("V"),
     "J3": _three_digits("J"),
     "time": time_share_text,

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
     from ehlectric.axle import AxleResult
     from ehlectric.bearing import BearingResult
+    from ehlectric.calibration import Calibration
     from ehlectric.cases.axle_case import AxleCase
     from ehlectric.cases.bearing_case import BearingCase
     from ehlectric.cases.case import Case
@@ -269,6 +270,25 @@ def run_axle(
     with alone_in(folder, locks=[RESULT_LOCK]) as folder:
         protect(folder)
         return solve_to_folder(case, folder, progress, others=files_of_results(folder))
+
+
+# Kinds of files that a measurement can correct.
+CALIBRATED_KINDS: tuple[FileKind, ...] = ("bearing",)
+
+
+def run_calibration(
+    case: BearingCase,
+    folder: str | Path,
+    progress: Progress = silent,
+    *,
+    measured: Path | None = None,
+) -> RunOutcome[Calibration]:
+    """Update the uncertain inputs of a case by measured values, and write the results."""
+    from ehlectric.calibration import calibrate_to_folder
+
+    with alone_in(folder, locks=[RESULT_LOCK]) as folder:
+        protect(folder)
+        return calibrate_to_folder(case, folder, progress, measured=measured, others=files_of_results(folder))
 
 
 def _with_factors(outcome: RunOutcome[R], factors: FilmFactors | None) -> RunOutcome[R]:

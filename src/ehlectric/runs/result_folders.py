@@ -17,6 +17,7 @@ from ehlectric.figures.figure_names import (
     ALL_FIGURES,
     AXLE_FIGURE_FILES,
     BEARING_FIGURE_FILES,
+    CALIBRATION_FIGURE,
     DRIVE_FIGURE_FILES,
     FORMATS,
     GEAR_FIGURE_FILES,
@@ -38,6 +39,7 @@ from ehlectric.runtime.result_names import (
     MOTION_JOURNAL,
     OF_AXLES,
     OF_BEARINGS,
+    OF_CALIBRATIONS,
     OF_CONTACTS,
     OF_DRIVES,
     OF_GEARS,
@@ -64,6 +66,7 @@ _FIGURES = (
     *SPEED_FIGURE_FILES,
     SENSITIVITY_FIGURE,
     MEASURED_FIGURE,
+    CALIBRATION_FIGURE,
 )
 
 # Name of a map or of lines: the key of the value, and the values of the keys that are held. Name of a figure
@@ -87,6 +90,7 @@ def files_of_results(folder: str | Path, *, keep: tuple[str, ...] = ()) -> tuple
         *OF_AXLES,
         *OF_SWEEPS,
         *OF_MEASUREMENTS,
+        *OF_CALIBRATIONS,
         SENSITIVITY,
         *REPORTS,
         *in_formats(_FIGURES, FORMATS),

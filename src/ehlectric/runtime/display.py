@@ -33,7 +33,9 @@ T = TypeVar("T")
 R = TypeVar("R")
 
 # Kinds of results. The functions that draw a result are in a table by its kind.
-ResultKind = Literal["contact", "bearing", "drive", "gear", "axle", "motion", "sweep", "measurement"]
+ResultKind = Literal[
+    "contact", "bearing", "drive", "gear", "axle", "motion", "sweep", "measurement", "calibration"
+]
 
 # Longest representation [characters].
 WIDTH = 200

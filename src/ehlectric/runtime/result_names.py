@@ -32,3 +32,7 @@ OF_SWEEPS = (SWEEP_CSV, SWEEP_PARQUET, SWEEP_NETCDF)
 # Film factors that explain a measurement.
 MEASURED, MEASURED_ROWS = "measured.json", "measured.csv"
 OF_MEASUREMENTS = (MEASURED, MEASURED_ROWS)
+
+# Measured next to computed values, and the case with updated ranges.
+COMPARED, CALIBRATED = "compared.csv", "calibrated.toml"
+OF_CALIBRATIONS = (SUMMARY, COMPARED, CALIBRATED)

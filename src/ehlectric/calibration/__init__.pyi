@@ -1,0 +1,7 @@
+"""Names of calibration that other packages may import."""
+
+from .calibrate import calibrate as calibrate
+from .result import CalibratedInput as CalibratedInput
+from .result import Calibration as Calibration
+from .result import Compared as Compared
+from .run import calibrate_to_folder as calibrate_to_folder

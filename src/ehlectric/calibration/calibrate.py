@@ -1,0 +1,453 @@
+"""Calibration of a case: its uncertain inputs are updated by measured values."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ehlectric.arrays import Array
+from ehlectric.bearing import FILMS, MARGIN, OF_TABLE, Names
+from ehlectric.calibration.models import Model, model_of
+from ehlectric.calibration.posterior import (
+    LEAST_EFFECTIVE,
+    SEED,
+    Posterior,
+    equal_points,
+    infer,
+    slopes_of,
+    weighted_quantiles,
+    weights_of,
+)
+from ehlectric.calibration.result import CalibratedInput, Calibration, Compared, Quantiles, Unexplained
+from ehlectric.cases.input_keys import unit_of
+from ehlectric.cases.measured_inputs import Measured, MeasuredPoints, measured_points
+from ehlectric.cases.measurements import CALIBRATED, void_rows
+from ehlectric.discharge.breakdown_rule import INTERVAL, Chance, sampling_error
+from ehlectric.errors import InputError
+from ehlectric.formulas.sobol import sobol_points
+from ehlectric.quantities.result_warnings import ResultWarning
+from ehlectric.quantities.statement import Statement
+from ehlectric.quantities.verdict import Verdict
+from ehlectric.runtime.progress import Progress, silent
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+# Points of the design, of the posterior as a verdict takes it, and of polynomials.
+_SAMPLES, _DRAWN, _DENSE = 512, 512, 8192
+
+# Share of the variance of an input above which a measured value decides it, and above which its range in the
+# calibrated file is the updated one.
+_DECIDES = 0.05
+
+# Largest number of quantities to measure next, and least margin of which the logarithm counts.
+_NEXT, _LEAST_MARGIN = 3, 0.05
+
+
+def calibrate(
+    case: Any,
+    measured: str | Path | pd.DataFrame | None = None,
+    *,
+    samples: int = _SAMPLES,
+    seed: int = SEED,
+    progress: Progress = silent,
+) -> Calibration:
+    """Update the uncertain inputs of a case by measured values, by Bayes' rule.
+
+    Inputs are evenly distributed over their ranges before the measurement: ranges of the file, and the usual
+    ranges of other inputs. Films are from the atlas or from formulas, also if the file has solved contacts.
+
+    Parameters
+    ----------
+    case : BearingCase
+        Case with its ranges, and with the table ``measured`` unless ``measured`` is given.
+    measured : str, Path or pandas.DataFrame, optional
+        File or table of measured operating points, such as the columns ``speed [rpm]``, ``capacitance [pF]``
+        and ``uncertainty of capacitance [%]``. An uncertainty is one standard deviation.
+    samples : int
+        Number of points of the Sobol design, a power of 2.
+    seed : int
+        Seed of all random numbers.
+    progress : callable, optional
+        Called with the number of parts done, the number of all parts, and a text.
+
+    Returns
+    -------
+    Calibration
+        Ranges before and after, measured next to computed values, probability of breakdown and verdict.
+        ``explained`` is False, and no range is updated, if nothing within the ranges explains the
+        measurement.
+
+    Raises
+    ------
+    InputError
+        If there is no measurement, the model does not compute a measured quantity, or a value has no
+        uncertainty; if weights collapse and the extra "calibration" is not installed.
+
+    Examples
+    --------
+    >>> import ehlectric
+    >>> case = ehlectric.BearingCase.from_toml(ehlectric.example("bearing_6208.toml")).replace(
+    ...     {"measured.capacitance": "250 pF +- 8 %", "measured.shaft_voltage": "4.6 V +- 10 %"}
+    ... )
+    >>> calibration = ehlectric.calibrate(case, samples=256)
+    >>> calibration.explained, len(calibration.rows)
+    (True, 2)
+    """
+    model = model_of(case)
+    given = _given(case, measured)
+    _check(model, given)
+    compared = _Compared(model, given, seed, progress)
+    posterior = infer(
+        compared.predict,
+        len(model.names()),
+        given_values(given),
+        given_errors(given),
+        samples=samples,
+        seed=seed,
+    )
+    return compared.calibration(case, posterior)
+
+
+def _given(case: Any, measured: str | Path | pd.DataFrame | None) -> MeasuredPoints:
+    """Measured values of the arguments or of the case."""
+    table: Measured | None = case.measured
+    if measured is None and table is None:
+        raise InputError.missing("measured", "a table [measured], or a file of measured operating points")
+    return measured_points(measured if measured is not None else table)
+
+
+def _check(model: Model, given: MeasuredPoints) -> None:
+    """Refuse quantities that the model does not compute."""
+    for value in given.values:
+        if value.quantity not in model.quantities:
+            takes = f"one of {', '.join(model.quantities)}"
+            raise InputError(f"measured.{value.quantity}", got="a value", takes=takes)
+
+
+def given_values(given: MeasuredPoints) -> Array:
+    """Measured values, SI units, shape (m,)."""
+    return np.array([value.value for value in given.values])
+
+
+def given_errors(given: MeasuredPoints) -> Array:
+    """Standard uncertainties of the measured values, SI units, shape (m,)."""
+    return np.array([value.uncertainty for value in given.values])
+
+
+@dataclass(frozen=True)
+class _Compared:
+    """Model next to measured values."""
+
+    model: Model
+    given: MeasuredPoints
+    seed: int
+    progress: Progress
+
+    def predict(self, at: Array) -> Array:
+        """Predictions of the measured values at inputs from 0 to 1, shape (n, k) -> (n, m)."""
+        self.progress(0, 0, f"computing {len(at)} points")
+        names = tuple(dict.fromkeys(value.quantity for value in self.given.values))
+        numbers = self.model.numbers(at, self.given.points, names)
+        return np.stack([numbers[value.quantity][:, value.point] for value in self.given.values], axis=-1)
+
+    def calibration(self, case: Any, posterior: Posterior) -> Calibration:
+        """Result of the calibration of a case."""
+        drawn = posterior.at[equal_points(posterior.weights, _DRAWN)]
+        numbers = self.model.numbers(drawn, [{}], (*self.model.quantities, MARGIN))
+        margins = numbers.pop(MARGIN)[:, 0]
+        before = _chance(self.model.numbers(posterior.prior_at, [{}], (MARGIN,))[MARGIN][:, 0])
+        after = _chance(margins, posterior.effective) if posterior.explained else None
+        inputs = tuple(self._inputs(posterior))
+        if after is not None:
+            after = _with_first(after, inputs, drawn, margins)
+        rows = tuple(self._rows(posterior))
+        warnings = tuple(self._warnings(posterior))
+        updated = self._updated(inputs) if posterior.explained else None
+        following = tuple(self._following(numbers, margins)) if after is not None else ()
+        unexplained = None if posterior.explained else self._unexplained(posterior)
+        verdict = self._verdict(updated, before, after, rows, unexplained, following)
+        return Calibration(
+            title=case.title,
+            source="[measured]" if self.given.read is None else self.given.read.source,
+            inputs=inputs,
+            correlation=posterior.correlation,
+            rows=rows,
+            unexplained=unexplained,
+            before=before,
+            after=after,
+            following=following,
+            effective=posterior.effective,
+            chain=posterior.chain,
+            samples=len(posterior.at),
+            case=updated,
+            verdict=verdict,
+            warnings=warnings,
+        )
+
+    def _inputs(self, posterior: Posterior) -> Iterator[CalibratedInput]:
+        """Inputs before and after the measurement."""
+        quantiles = posterior.quantiles(INTERVAL)
+        mean = posterior.weights @ posterior.at
+        variance = posterior.weights @ np.square(posterior.at - mean)
+        for name, after, part in zip(self.model.names(), quantiles, 12.0 * variance, strict=True):
+            explained = posterior.explained
+            yield CalibratedInput(
+                key=name.key,
+                label=name.label,
+                assumed=name.assumed,
+                low=_end(name.low),
+                high=_end(name.high),
+                prior=_of_range(name, np.array(INTERVAL)),
+                posterior=_of_range(name, after) if explained else None,
+                reduction=1.0 - float(part) if explained else None,
+            )
+
+    def _rows(self, posterior: Posterior) -> Iterator[Compared]:
+        """Measured values next to computed ones."""
+        decided = self._decided(posterior)
+        even = np.full(len(posterior.prior_at), 1.0 / len(posterior.prior_at))
+        for place, value in enumerate(self.given.values):
+            column = posterior.predictions[:, place]
+            after = _quantiles(column, posterior.weights) if posterior.explained else None
+            nearest = float(posterior.nearest.predictions[place])
+            if after is None:
+                residual = float(posterior.residuals[place])
+            else:
+                mean = posterior.weights @ np.nan_to_num(column)
+                spread = posterior.weights @ np.square(np.nan_to_num(column) - mean)
+                residual = (value.value - after[1]) / float(np.hypot(value.uncertainty, np.sqrt(spread)))
+            key, share = decided[place]
+            yield Compared(
+                quantity=value.quantity,
+                unit=CALIBRATED[value.quantity].unit,
+                point=value.point,
+                line=value.line,
+                measured=value.value,
+                uncertainty=value.uncertainty,
+                prior=_quantiles(posterior.prior_predictions[:, place], even),
+                posterior=after,
+                nearest=nearest,
+                residual=residual,
+                decided=key,
+                decided_share=share,
+            )
+
+    def _decided(self, posterior: Posterior) -> list[tuple[str, float]]:
+        """Input whose variance each measured value alone reduces most, with the share of this variance."""
+        if posterior.emulator is None:
+            return [("", 0.0)] * len(self.given.values)
+        names, width = self.model.names(), posterior.at.shape[1]
+        low, high = posterior.emulator.low, posterior.emulator.high
+        dense = low + (high - low) * sobol_points(width, _DENSE, self.seed)
+        predictions = posterior.emulator.at(dense)
+        spread = np.hypot(given_errors(self.given), posterior.emulator.deviation(given_values(self.given)))
+        decided = []
+        for place, value in enumerate(self.given.values):
+            weights = weights_of(np.square((predictions[:, place] - value.value) / spread[place]))
+            variance = weights @ np.square(dense - weights @ dense)
+            reduced = 1.0 - 12.0 * variance / np.square(high - low)
+            best = int(np.argmax(reduced))
+            share = float(reduced[best])
+            decided.append((names[best].key, share) if share > _DECIDES else ("", 0.0))
+        return decided
+
+    def _following(self, numbers: dict[str, Array], margins: Array) -> Iterator[tuple[str, float]]:
+        """Quantities to measure next, with the share of the variance of ln(margin) that each removes.
+
+        For values that are jointly normal, a measured value with the variance s^2 of a quantity with the
+        variance v removes r^2 v/(v + s^2), with the correlation r of the quantity and ln(margin).
+        """
+        logs = np.log(np.maximum(margins, _LEAST_MARGIN))
+        parts = {}
+        for name, values in numbers.items():
+            column, known = values[:, 0], np.isfinite(values[:, 0]) & np.isfinite(logs)
+            if np.count_nonzero(known) < 0.5 * known.size or not np.ptp(column[known]) or not np.ptp(logs):
+                continue
+            error = CALIBRATED[name].relative * abs(float(np.mean(column[known]))) + CALIBRATED[name].absolute
+            variance = float(np.var(column[known]))
+            r = float(np.corrcoef(column[known], logs[known])[0, 1])
+            parts[name] = r**2 * variance / (variance + error**2)
+        yield from sorted(parts.items(), key=lambda pair: -pair[1])[:_NEXT]
+
+    def _updated(self, inputs: Sequence[CalibratedInput]) -> Any:
+        """Case with the updated ranges of inputs that the measurement decided."""
+        values, ranges = {}, {}
+        for entry in inputs:
+            if entry.posterior is not None and (entry.reduction or 0.0) > _DECIDES:
+                low, median, high = entry.posterior
+                values[entry.key], ranges[entry.key] = median, (low, high)
+        return self.model.updated(values, ranges)
+
+    def _verdict(
+        self,
+        updated: Any,
+        before: Chance | None,
+        after: Chance | None,
+        rows: Sequence[Compared],
+        unexplained: Unexplained | None,
+        following: Sequence[tuple[str, float]],
+    ) -> Verdict:
+        """Verdict with the updated probability; grey if nothing explains the measurement."""
+        if unexplained is not None:
+            return _refused(rows, unexplained)
+        verdict = self.model.verdict(updated, after)
+        reasons = []
+        if before is not None:
+            reasons.append(Statement.of("before-measurement", probability=before.stated))
+        if following:
+            name, part = following[0]
+            reasons.append(Statement.of("measure-next", quantity=name.replace("_", " "), share=part))
+        kept = (each for each in verdict.reasons if each.code != "measure-first")
+        return replace(verdict, reasons=(*kept, *reasons))
+
+    def _unexplained(self, posterior: Posterior) -> Unexplained:
+        """What nothing within the ranges explains, and why."""
+        values, errors, nearest = given_values(self.given), given_errors(self.given), posterior.nearest
+        far = np.flatnonzero(np.abs(posterior.residuals) > posterior.limit).tolist()
+        alone = np.min(np.abs(posterior.prior_predictions - values) / errors, axis=0)
+        rows = tuple(far or [int(np.argmax(np.abs(posterior.residuals)))])
+        contradicting = tuple(self._contradicting(posterior)) if values.size > 1 else ()
+        unreachable = [place for place in rows if alone[place] > posterior.limit]
+        name, needed = None, None
+        if posterior.emulator is not None and (unreachable or not contradicting):
+            place = max(unreachable or rows, key=lambda k: abs(posterior.residuals[k]))
+            name, needed = self._leaving(posterior, place)
+        key, label = ("", "") if name is None else (name.key, name.label)
+        ends = None if name is None else (_end(name.low), _end(name.high))
+        return Unexplained(rows, posterior.limit, nearest.p_value, key, label, needed, ends, contradicting)
+
+    def _contradicting(self, posterior: Posterior) -> Iterator[int]:
+        """Places of measured values without which inputs within the ranges explain the others."""
+        values, errors = given_values(self.given), given_errors(self.given)
+        for place in range(values.size):
+            others = np.arange(values.size) != place
+
+            def predict(at: Array, others: Array = others) -> Array:
+                return self.predict(at)[:, others]
+
+            if infer_explained(predict, posterior, values[others], errors[others], others, self.seed):
+                yield place
+
+    def _leaving(self, posterior: Posterior, place: int) -> tuple[Names | None, float | None]:
+        """Names of the input that would have to leave its range by the smallest part of it, alone,
+        and the value that it would need, by the slope of the model at the nearest prediction.
+        """
+        emulator, nearest = posterior.emulator, posterior.nearest
+        assert emulator is not None
+        slopes = slopes_of(emulator, nearest.at, nearest.predictions)[:, place]
+        gap = self.given.values[place].value - nearest.predictions[place]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            if emulator.logs[place] and self.given.values[place].value > 0.0:
+                gap_log = np.log(self.given.values[place].value / nearest.predictions[place])
+                needed = nearest.at + gap_log * nearest.predictions[place] / slopes
+            else:
+                needed = nearest.at + gap / slopes
+        outside = np.where(np.isfinite(needed), np.maximum(-needed, needed - 1.0), np.inf)
+        outside = np.where(outside > 0.0, outside, np.inf)
+        if not np.any(np.isfinite(outside)):
+            return None, None
+        best = int(np.argmin(outside))
+        name = self.model.names()[best]
+        return name, _of_range(name, needed[best : best + 1])[0]
+
+    def _warnings(self, posterior: Posterior) -> Iterator[ResultWarning]:
+        """Warnings about the file, and about too few points."""
+        read = self.given.read
+        if read is not None:
+            yield from void_rows(read)
+            if read.ignored:
+                yield ResultWarning.of("columns-ignored", file=read.source, columns=", ".join(read.ignored))
+        if posterior.explained and posterior.effective < LEAST_EFFECTIVE:
+            yield ResultWarning.of("effective-samples-few", effective=posterior.effective)
+
+
+def infer_explained(
+    predict: Any, posterior: Posterior, values: Array, errors: Array, others: Array, seed: int
+) -> bool:
+    """Whether inputs within the ranges explain some of the measured values."""
+    from ehlectric.calibration.posterior import nearest_of
+
+    predictions = posterior.prior_predictions[:, others]
+    nearest = nearest_of(predict, posterior.prior_at, predictions, values, errors, seed)
+    residuals = (values - nearest.predictions) / errors
+    return replace(posterior, nearest=nearest, residuals=residuals).explained
+
+
+def _refused(rows: Sequence[Compared], unexplained: Unexplained) -> Verdict:
+    """Verdict that nothing within the ranges explains the measurement."""
+    place = max(unexplained.rows, key=lambda k: abs(rows[k].residual))
+    row = rows[place]
+    answer = Statement.of(
+        "unexplained",
+        quantity=row.quantity.replace("_", " "),
+        measured=(row.measured, row.unit),
+        nearest=(row.nearest, row.unit),
+        off=abs(row.residual),
+    )
+    reasons = []
+    if unexplained.key:
+        unit = "" if unexplained.key in (FILMS, OF_TABLE) else unit_of(unexplained.key)
+        low, high = ((end, unit) for end in unexplained.range or ())
+        needed = (unexplained.needed, unit)
+        reasons.append(
+            Statement.of("input-leaves-range", input=unexplained.label, low=low, high=high, needed=needed)
+        )
+    if unexplained.contradicting:
+        names = tuple(dict.fromkeys(rows[k].quantity.replace("_", " ") for k in unexplained.contradicting))
+        reasons.append(Statement.of("measured-contradict", quantities=names))
+    return Verdict("grey", "measurement-unexplained", answer, reasons=tuple(reasons))
+
+
+def _chance(margins: Array, effective: float | None = None) -> Chance | None:
+    """Chance of margins, shape (n,); None where no point has one. ``effective``, effective number of points,
+    by which the sampling errors are those of fewer points.
+    """
+    known = np.isfinite(margins)
+    if not np.any(known):
+        return None
+    chance = Chance.of(margins[known], int(np.count_nonzero(~known)))
+    if effective is None:
+        return chance
+    number = max(round(effective), 1)
+    wider = float(np.sqrt(margins.size / number))
+    return replace(
+        chance,
+        error=sampling_error(chance.probability, number),
+        margin_error=max(wider, 1.0) * chance.margin_error,
+    )
+
+
+def _with_first(chance: Chance, inputs: Sequence[CalibratedInput], at: Array, margins: Array) -> Chance:
+    """Chance with the input whose correlation with ln(margin) is largest after the measurement."""
+    known = np.isfinite(margins)
+    logs = np.log(np.maximum(margins[known], _LEAST_MARGIN))
+    if not np.ptp(logs):
+        return chance
+    varied = [k for k in range(len(inputs)) if np.ptp(at[known, k])]
+    squares = {k: float(np.corrcoef(at[known, k], logs)[0, 1]) ** 2 for k in varied}
+    first = max(squares, key=lambda k: squares[k])
+    return replace(chance, first=inputs[first].label, share=squares[first])
+
+
+def _end(value: float | None) -> float:
+    return float("nan") if value is None else value
+
+
+def _of_range(name: Names, parts: Array) -> Quantiles:
+    """Values of an input at parts of its range, SI units."""
+    low, high = _end(name.low), _end(name.high)
+    return tuple((low + (high - low) * parts).tolist())
+
+
+def _quantiles(values: Array, weights: Array) -> Quantiles:
+    """Quantiles of computed values; NaN where none has a weight."""
+    known = np.isfinite(values) & (weights > 0.0)
+    if not np.any(known):
+        return (float("nan"),) * 3
+    low, median, high = weighted_quantiles(values[known], weights[known] / np.sum(weights[known]), INTERVAL)
+    return float(low), float(median), float(high)

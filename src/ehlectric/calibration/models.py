@@ -1,0 +1,48 @@
+"""Models of cases of every kind at many values of their uncertain inputs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+from typing import Any, Protocol
+
+from ehlectric.arrays import Array
+from ehlectric.bearing import BearingModel, Names
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.discharge.breakdown_rule import Chance
+from ehlectric.errors import InputError
+from ehlectric.quantities.verdict import Verdict
+
+
+class Model(Protocol):
+    """Case at many values of its k uncertain inputs."""
+
+    @property
+    def quantities(self) -> tuple[str, ...]:
+        """Names of the measurable quantities that the model computes."""
+
+    def names(self) -> tuple[Names, ...]:
+        """Names and ranges of the inputs."""
+
+    def numbers(
+        self, at: Array, points: Sequence[Mapping[str, float]], quantities: Sequence[str]
+    ) -> dict[str, Array]:
+        """Quantities, or the margin, at inputs from 0 to 1 and operating points, shape (n, k) -> (n, p)."""
+
+    def updated(self, values: Mapping[str, float], ranges: Mapping[str, tuple[float, float]]) -> Any:
+        """Case with other values of some inputs, by the keys of ``names``, and with other ranges."""
+
+    def verdict(self, case: Any, chance: Chance | None) -> Verdict:
+        """Verdict on an updated case with the probability of breakdown."""
+
+
+_MODELS: Mapping[type, Any] = MappingProxyType({BearingCase: BearingModel.of})
+
+
+def model_of(case: Any) -> Model:
+    """Model of a case. Raises InputError for a case that has none, or whose contacts must be solved."""
+    for kind, of in _MODELS.items():
+        if isinstance(case, kind):
+            model: Model = of(case)
+            return model
+    raise InputError("measured", got=f"a {type(case).__name__}", takes="the case of a bearing")

@@ -1,0 +1,367 @@
+"""Bayes' rule for inputs within their ranges, from predictions of a model and measured values.
+
+Inputs are numbers from 0 to 1, independent and evenly distributed before the measurement. A measured value is
+the prediction with a normal error. The posterior density at inputs u is then proportional to
+
+    L(u) = exp(-chi2(u)/2),  chi2(u) = sum over i of ((p_i(u) - y_i)/s_i)^2 ,
+
+with the predictions p_i, the measured values y_i and their standard uncertainties s_i, and is 0 outside the
+ranges. Points of a Sobol design have weights w proportional to L. Their effective number is 1/sum(w^2) for
+weights with the sum 1 (Kong, Liu and Wong, J. Am. Stat. Assoc. 89 (1994) 278,
+doi:10.1080/01621459.1994.10476469). Where it is too small, a Markov chain (J. Goodman and J. Weare, Commun.
+Appl. Math. Comput. Sci. 5 (2010) 65, doi:10.2140/camcos.2010.5.65, by the library emcee) draws points for
+polynomials in place of the model. The model is computed at these points, and their weights are proportional
+to L of the model divided by L of the polynomials.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+import scipy
+
+from ehlectric.arrays import Array, IntArray
+from ehlectric.calibration.emulator import Emulator
+from ehlectric.errors import InputError
+from ehlectric.formulas.sobol import sobol_points
+
+# Predictions at points from 0 to 1, shape (n, k) -> (n, m); NaN where the model has none.
+Predict = Callable[[Array], Array]
+
+# Effective number of points below which weights count as collapsed.
+LEAST_EFFECTIVE = 50.0
+
+# Points at which polynomials are evaluated at once, and seed of all random numbers.
+_DENSE, SEED = 8192, 1
+
+# Walkers of the chain for each input, at least, and steps of which the first part is not used.
+_WALKERS, _LEAST_WALKERS, _STEPS, _BURN = 4, 32, 1200, 400
+
+# Boxes in which polynomials are fitted at most, and part of the width of the chain by which a box is larger.
+_ROUNDS, _PADDING = 3, 0.25
+
+# Probability that a measurement within the ranges counts as unexplained: of 3 standard deviations.
+UNEXPLAINED = float(2.0 * scipy.special.ndtr(-3.0))
+
+# Steps of the search for the nearest prediction.
+_SEARCH = 6
+
+
+def chi_squares(predictions: Array, values: Array, uncertainties: Array) -> Array:
+    """Sums of squared deviations in standard uncertainties, shape (n, m) -> (n,); infinite without a
+    prediction.
+    """
+    with np.errstate(invalid="ignore"):
+        chi2 = np.sum(np.square((predictions - values) / uncertainties), axis=-1)
+    return np.where(np.isfinite(chi2), chi2, np.inf)
+
+
+def weights_of(chi2: Array) -> Array:
+    """Weights with the sum 1, proportional to exp(-chi2/2), shape (n,)."""
+    least = np.min(chi2)
+    if not np.isfinite(least):
+        return np.zeros_like(chi2)
+    weights = np.exp(-0.5 * (chi2 - least))
+    return np.asarray(weights / np.sum(weights))
+
+
+def effective_number(weights: Array) -> float:
+    """Effective number of points, 1/sum(w^2); 0 without weights.
+
+    Examples
+    --------
+    >>> effective_number(np.full(4, 0.25)), effective_number(np.array([1.0, 0.0]))
+    (4.0, 1.0)
+    """
+    total = float(np.sum(np.square(weights)))
+    return 1.0 / total if total else 0.0
+
+
+def weighted_quantiles(values: Array, weights: Array, parts: tuple[float, ...]) -> Array:
+    """Quantiles of weighted values, shape (n,) -> (parts,), interpolated between the middles of the weights.
+
+    Examples
+    --------
+    >>> weighted_quantiles(np.array([1.0, 3.0, 2.0]), np.array([0.25, 0.25, 0.5]), (0.5,)).tolist()
+    [2.0]
+    """
+    order = np.argsort(values)
+    cumulative = np.cumsum(weights[order])
+    return np.interp(parts, cumulative - 0.5 * weights[order], values[order])
+
+
+def equal_points(weights: Array, number: int) -> IntArray:
+    """Places of points of equal weight, drawn systematically from weighted ones, shape (number,)."""
+    steps = (np.arange(number) + 0.5) / number
+    places: IntArray = np.minimum(np.searchsorted(np.cumsum(weights), steps), weights.size - 1)
+    return places
+
+
+@dataclass(frozen=True)
+class Nearest:
+    """Point within the ranges at which the predictions are nearest to the measured values."""
+
+    at: Array  # inputs from 0 to 1, shape (k,)
+    predictions: Array  # predictions of the model there, shape (m,)
+    chi2: float
+    freedom: int  # degrees of freedom of ``chi2``: measured values that the inputs cannot follow, at least 1
+
+    @property
+    def p_value(self) -> float:
+        """Probability of a larger chi2 if the model is right within the ranges."""
+        return float(scipy.special.gammaincc(0.5 * self.freedom, 0.5 * self.chi2))
+
+
+@dataclass(frozen=True)
+class Posterior:
+    """Inputs after a measurement: weighted points, with the predictions of the model at them."""
+
+    at: Array  # inputs from 0 to 1, shape (n, k)
+    weights: Array  # with the sum 1, shape (n,)
+    predictions: Array  # shape (n, m)
+    prior_predictions: Array  # predictions at the points of the design, shape (samples, m)
+    prior_at: Array  # points of the design, shape (samples, k)
+    emulator: Emulator | None
+    nearest: Nearest
+    residuals: Array  # deviation of each nearest prediction in standard uncertainties, shape (m,)
+    chain: bool  # whether the points are from a Markov chain
+
+    @property
+    def effective(self) -> float:
+        """Effective number of points."""
+        return effective_number(self.weights)
+
+    @property
+    def explained(self) -> bool:
+        """Whether inputs within the ranges explain the measurement.
+
+        They do not if a nearest prediction is more than 3 standard uncertainties away, or if chi2 of all is
+        as improbable. For m measured values the limit of a single one is larger, so that the probability of a
+        false alarm stays the same (Bonferroni).
+        """
+        return self.nearest.p_value >= UNEXPLAINED and not np.any(np.abs(self.residuals) > self.limit)
+
+    @property
+    def limit(self) -> float:
+        """Deviation of a nearest prediction above which it explains nothing, in standard uncertainties."""
+        return -float(scipy.special.ndtri(0.5 * UNEXPLAINED / self.residuals.size))
+
+    def quantiles(self, parts: tuple[float, ...]) -> Array:
+        """Quantiles of the inputs, shape (k, parts)."""
+        return np.stack([weighted_quantiles(column, self.weights, parts) for column in self.at.T])
+
+    @property
+    def correlation(self) -> Array:
+        """Correlation of the inputs, shape (k, k)."""
+        off = self.at - self.weights @ self.at
+        covariance = (self.weights[:, np.newaxis] * off).T @ off
+        scale = np.sqrt(np.diagonal(covariance))
+        scale = np.where(scale > 0.0, scale, 1.0)
+        return np.asarray(covariance / np.outer(scale, scale))
+
+
+def infer(
+    predict: Predict,
+    width: int,
+    values: Array,
+    uncertainties: Array,
+    *,
+    samples: int = 512,
+    seed: int = SEED,
+) -> Posterior:
+    """Update k inputs by m measured values.
+
+    ``predict``, model; ``width``, k; ``values`` and ``uncertainties``, measured values and their standard
+    uncertainties, > 0, shape (m,); ``samples``, points of the design, a power of 2. Raises InputError where
+    the model has no prediction at any point, or where the library of the Markov chain is missing.
+    """
+    at = sobol_points(width, samples, seed)
+    predictions = predict(at)
+    chi2 = chi_squares(predictions, values, uncertainties)
+    if not np.any(np.isfinite(chi2)):
+        raise InputError("measured", "has values that the model does not compute at any inputs")
+    emulator = Emulator.of(at, predictions, np.zeros(width), np.ones(width))
+    model = _Measured(predict, values, uncertainties, seed)
+    nearest = model.nearest(at, predictions, emulator)
+    residuals = (values - nearest.predictions) / uncertainties
+    weights = weights_of(chi2)
+    posterior = Posterior(
+        at=at,
+        weights=weights,
+        predictions=predictions,
+        prior_predictions=predictions,
+        prior_at=at,
+        emulator=emulator,
+        nearest=nearest,
+        residuals=residuals,
+        chain=False,
+    )
+    if not posterior.explained or posterior.effective >= LEAST_EFFECTIVE or emulator is None:
+        return posterior
+    best, box = posterior, emulator
+    for number in range(_ROUNDS):
+        points, drawn = model.drawn(box, nearest, samples)
+        computed = predict(points)
+        ratio = chi_squares(computed, values, uncertainties) - model.chi2_of(box, points)
+        further = replace(
+            posterior, at=points, weights=weights_of(ratio), predictions=computed, emulator=box, chain=True
+        )
+        if further.effective > best.effective or not best.chain:
+            best = further
+        if best.effective >= LEAST_EFFECTIVE or number == _ROUNDS - 1:
+            break
+        low, high = np.min(drawn, axis=0), np.max(drawn, axis=0)
+        padding = _PADDING * (high - low) + 1e-6
+        low, high = np.maximum(low - padding, 0.0), np.minimum(high + padding, 1.0)
+        inside = low + (high - low) * at
+        smaller = Emulator.of(inside, predict(inside), low, high)
+        if smaller is None:
+            break
+        box = smaller
+    return best
+
+
+def nearest_of(
+    predict: Predict, at: Array, predictions: Array, values: Array, uncertainties: Array, seed: int
+) -> Nearest:
+    """Prediction that is nearest to measured values; ``predictions`` at points ``at`` are known, shape (n, m)
+    and (n, k).
+    """
+    emulator = Emulator.of(at, predictions, np.zeros(at.shape[1]), np.ones(at.shape[1]))
+    return _Measured(predict, values, uncertainties, seed).nearest(at, predictions, emulator)
+
+
+@dataclass(frozen=True)
+class _Measured:
+    """Model with the values that were measured."""
+
+    predict: Predict
+    values: Array
+    uncertainties: Array
+    seed: int
+
+    def chi2_of(self, emulator: Emulator, at: Array) -> Array:
+        """chi2 of polynomials, whose error widens the uncertainties, shape (n,)."""
+        wide = np.hypot(self.uncertainties, emulator.deviation(self.values))
+        return chi_squares(emulator.at(at), self.values, wide)
+
+    def nearest(self, at: Array, predictions: Array, emulator: Emulator | None) -> Nearest:
+        """Nearest prediction, from the points of the design and by least squares.
+
+        The polynomials are shifted to the value of the model at each point of the search.
+        """
+        chi2 = chi_squares(predictions, self.values, self.uncertainties)
+        place = int(np.argmin(chi2))
+        point, prediction, least = at[place], predictions[place], float(chi2[place])
+        if emulator is None:
+            return Nearest(point, prediction, least, 1)
+        dense = sobol_points(at.shape[1], _DENSE, self.seed)
+        start = dense[int(np.argmin(self.chi2_of(emulator, dense)))]
+        starts = [point, start]
+        for first in starts:
+            now = first
+            for _ in range(_SEARCH):
+                known = self.predict(now[np.newaxis])[0]
+                chi = float(chi_squares(known[np.newaxis], self.values, self.uncertainties)[0])
+                if not math.isfinite(chi):
+                    break
+                if chi < least:
+                    point, prediction, least = now, known, chi
+                following = self._least_squares(emulator, now, known)
+                if np.max(np.abs(following - now)) < 1e-6:
+                    break
+                now = following
+        return Nearest(point, prediction, least, self._freedom(emulator, point, prediction))
+
+    def _least_squares(self, emulator: Emulator, now: Array, known: Array) -> Array:
+        """Inputs at which shifted polynomials are nearest to the measured values, shape (k,)."""
+        shift = self._shift(emulator, now, known)
+
+        def residuals(at: Array) -> Array:
+            transformed = emulator.transformed(at[np.newaxis])[0] + shift
+            logs = emulator.logs
+            values = np.where(logs, np.exp(np.where(logs, transformed, 0.0)), transformed)
+            return np.asarray((values - self.values) / self.uncertainties)
+
+        inner = np.clip(now, 1e-9, 1.0 - 1e-9)
+        solved: Array = scipy.optimize.least_squares(residuals, inner, bounds=(0.0, 1.0), max_nfev=60).x
+        return solved
+
+    def _shift(self, emulator: Emulator, now: Array, known: Array) -> Array:
+        """Difference of the model from its polynomials at a point, shape (m,)."""
+        logs = emulator.logs & (known > 0.0)
+        transformed = np.where(logs, np.log(np.where(logs, known, 1.0)), known)
+        shift = transformed - emulator.transformed(now[np.newaxis])[0]
+        return np.where(logs == emulator.logs, shift, 0.0)
+
+    def _freedom(self, emulator: Emulator, point: Array, prediction: Array) -> int:
+        """Measured values less the directions of the inputs that change them by more than one standard
+        uncertainty within the ranges; at least 1.
+        """
+        slopes = slopes_of(emulator, point, prediction) / self.uncertainties
+        free = (point > 1e-3) & (point < 1.0 - 1e-3)
+        if not np.any(free):
+            return int(self.values.size)
+        singular = np.linalg.svd(slopes[free].T, compute_uv=False)
+        return max(int(self.values.size - np.count_nonzero(singular > 1.0)), 1)
+
+    def drawn(self, emulator: Emulator, nearest: Nearest, number: int) -> tuple[Array, Array]:
+        """Points of a Markov chain for polynomials within their box, shape (number, k), and the whole chain
+        after its beginning, shape (n, k).
+        """
+        try:
+            import emcee
+        except ImportError:
+            takes = "it, installed with: pip install 'ehlectric[calibration]'"
+            raise InputError("calibrate", "needs the package emcee for these values", takes=takes) from None
+        low, high = emulator.low, emulator.high
+        width = low.size
+        walkers = max(_WALKERS * width, _LEAST_WALKERS)
+
+        def logarithm(at: Array) -> Array:
+            inside = np.all((at >= low) & (at <= high), axis=1)
+            chi2 = self.chi2_of(emulator, np.clip(at, low, high))
+            return np.where(inside, -0.5 * chi2, -np.inf)
+
+        random = np.random.default_rng(self.seed)
+        start = self._tempered(emulator, nearest, walkers, random)
+        moves = [(emcee.moves.DEMove(), 0.8), (emcee.moves.DESnookerMove(), 0.2)]
+        sampler = emcee.EnsembleSampler(walkers, width, logarithm, vectorize=True, moves=moves)
+        sampler.random_state = np.random.RandomState(self.seed).get_state()
+        sampler.run_mcmc(start, _STEPS, skip_initial_state_check=True)
+        chain: Array = sampler.get_chain(discard=_BURN, flat=True)
+        return chain[random.choice(len(chain), size=number, replace=False)], chain
+
+    def _tempered(
+        self, emulator: Emulator, nearest: Nearest, walkers: int, random: np.random.Generator
+    ) -> Array:
+        """First points of the walkers: points of a design in the box, drawn by weights L^t.
+
+        The exponent t is halved from 1 until the effective number is at least the number of walkers.
+        """
+        low, high = emulator.low, emulator.high
+        dense = low + (high - low) * sobol_points(low.size, _DENSE, self.seed)
+        chi2, part = self.chi2_of(emulator, dense), 1.0
+        while effective_number(weights_of(part * chi2)) < walkers and part > 1e-9:
+            part *= 0.5
+        places = random.choice(len(dense), size=walkers, replace=False, p=_positive(weights_of(part * chi2)))
+        points = dense[places]
+        points[0] = np.clip(nearest.at, low + 1e-9 * (high - low), high - 1e-9 * (high - low))
+        return points
+
+
+def _positive(weights: Array) -> Array:
+    """Weights above 0 with the sum 1."""
+    raised = weights + 1e-12
+    return np.asarray(raised / np.sum(raised))
+
+
+def slopes_of(emulator: Emulator, point: Array, prediction: Array) -> Array:
+    """Change of each prediction if an input crosses its range, by the slope at a point, shape (k, m)."""
+    step = 1e-4
+    up, down = (point + sign * step * np.eye(point.size) for sign in (1.0, -1.0))
+    slopes = (emulator.transformed(up) - emulator.transformed(down)) / (2.0 * step)
+    return np.where(emulator.logs, slopes * prediction, slopes)

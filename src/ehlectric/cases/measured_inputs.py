@@ -1,0 +1,116 @@
+"""Table ``measured`` of a case file: measured values with their uncertainties, at one or more points."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Self
+
+import numpy as np
+from pydantic import model_validator
+
+from ehlectric.cases.measurements import CALIBRATED, POINTS, Measurement, read_measurement
+from ehlectric.cases.stated_ranges import value_and_uncertainty
+from ehlectric.cases.table import Table
+from ehlectric.errors import InputError
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+class Measured(Table, book="measured"):
+    """Measured values, each with its standard uncertainty: "240 pF +- 5 %"."""
+
+    file: str | None = None
+    capacitance: str | None = None
+    first_breakdown_voltage: str | None = None
+    breakdown_voltage: str | None = None
+    shaft_voltage: str | None = None
+    shaft_voltage_rms: str | None = None
+    bearing_voltage_ratio: str | None = None
+    discharge_rate: str | None = None
+    conducting_share: str | None = None
+    inner_ring_temperature: str | None = None
+    outer_ring_temperature: str | None = None
+    film: str | None = None
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if not self.values() and self.file is None:
+            raise InputError("file", "missing", takes="a file, or a measured value with its uncertainty")
+        return self
+
+    def values(self) -> dict[str, tuple[float, float]]:
+        """Measured values and their standard uncertainties at the operating point of the case, SI units."""
+        return {
+            name: value_and_uncertainty(name, getattr(self, name), quantity)
+            for name, quantity in CALIBRATED.items()
+            if getattr(self, name) is not None
+        }
+
+
+@dataclass(frozen=True)
+class MeasuredValue:
+    """Measured value of a quantity at an operating point, SI units."""
+
+    quantity: str  # name in ``CALIBRATED``
+    value: float
+    uncertainty: float  # one standard deviation
+    point: int  # place of the operating point
+    line: int | None = None  # line of the file; None of a value in [measured]
+
+
+@dataclass(frozen=True)
+class MeasuredPoints:
+    """Operating points, and what was measured at them."""
+
+    points: tuple[dict[str, float], ...]  # inputs that differ from the case, by their keys in a bearing file
+    values: tuple[MeasuredValue, ...]
+    read: Measurement | None = None  # rows of the file
+
+
+def measured_points(measured: Measured | str | Path | pd.DataFrame) -> MeasuredPoints:
+    """Measured values of a table [measured], a file or a table of pandas. Raises InputError if the file
+    cannot be read, or has a value without an uncertainty.
+    """
+    points: list[dict[str, float]] = []
+    values: list[MeasuredValue] = []
+    source: Any = measured
+    if isinstance(measured, Measured):
+        points += [{}] if measured.values() else []
+        values += [MeasuredValue(name, *pair, 0) for name, pair in measured.values().items()]
+        source = measured.file
+    read = None
+    if source is not None:
+        read = read_measurement(source, POINTS)
+        known = [name for name in CALIBRATED if name in read.values]
+        if not known:
+            heads = f"headings such as {POINTS.examples}"
+            raise InputError(read.source, "has no column with a measured quantity", takes=heads)
+        for name in known:
+            if name not in read.uncertainties:
+                text = f"a column 'uncertainty of {name.replace('_', ' ')} [%]'"
+                raise InputError.missing(f"{read.source}: uncertainty of {name.replace('_', ' ')}", text)
+        keys = {name: column.key for name, column in POINTS.columns.items() if column.key in read_keys(read)}
+        for row, line in enumerate(read.lines):
+            points.append({key: float(read.values[name][row]) for name, key in keys.items()})
+            values += _row(read, row, line, known, len(points) - 1)
+    return MeasuredPoints(tuple(points), tuple(values), read)
+
+
+def read_keys(read: Measurement) -> set[str]:
+    """Keys of the inputs that a file of operating points contains."""
+    return {POINTS.columns[name].key for name in read.values} - {""}
+
+
+def _row(read: Measurement, row: int, line: int, known: list[str], point: int) -> Iterator[MeasuredValue]:
+    """Values of a row that are not empty."""
+    for name in known:
+        value, uncertainty = (float(column[name][row]) for column in (read.values, read.uncertainties))
+        if np.isnan(value):
+            continue
+        if not uncertainty > 0.0:
+            text = f"line {line}: got no uncertainty of {name.replace('_', ' ')}"
+            raise InputError(read.source, text, takes="a standard uncertainty above 0 with each value")
+        yield MeasuredValue(name, value, uncertainty, point, line)

@@ -1,0 +1,65 @@
+"""The calibrate command: uncertain inputs of a case, updated by measured values."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import ExitStack
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ehlectric.commands.options import command, figure_options
+from ehlectric.commands.solve_commands import print_and_draw
+from ehlectric.commands.terminal import progress_line, user_errors
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from ehlectric.calibration import Calibration
+    from ehlectric.runtime.progress import RunOutcome
+
+
+@command("calibrate")
+def calibrate(
+    case_file: Path,
+    measured: Path | None = None,
+    output: Path = Path("calibration"),
+    plots: bool = True,
+    formats: list[str] | None = None,
+    style: str = "screen",
+    quiet: bool = False,
+    as_json: bool = False,
+) -> None:
+    """Update the ranges of uncertain inputs by measured values; write calibrated.toml and a figure.
+
+    The measured values are in the table [measured] of the file, or in a file of operating points. The files
+    are summary.json, compared.csv with measured next to computed values, and calibrated.toml, the case with
+    the updated [ranges], which all commands take.
+
+    If nothing within the ranges explains the measurement, the output names the nearest prediction and the
+    input that would have to leave its range, and there is no calibrated.toml.
+
+    Exit status 0: calibrated. 2: the input is wrong. 3: nothing within the ranges explains the measurement.
+    """
+    with ExitStack() as locked:
+        with user_errors():
+            look = figure_options(formats, style)
+
+            from ehlectric.runs import by_kind
+            from ehlectric.runs.file_kinds import expect
+            from ehlectric.runtime.folders import RESULT_LOCK, alone_in
+
+            file = expect(case_file, *by_kind.CALIBRATED_KINDS)
+            case = by_kind.RUNS[file.kind].read(file)
+            folder = locked.enter_context(alone_in(output, locks=[RESULT_LOCK]))
+            with progress_line(shown=not quiet) as progress:
+                outcome = by_kind.run_calibration(case, folder, progress, measured=measured)
+        print_and_draw(outcome, _tables, folder, look if plots else None, quiet=quiet, as_json=as_json)
+
+
+def _tables(outcome: RunOutcome[Calibration]) -> Iterator[Table]:
+    """Tables of a calibration: inputs, and measured next to computed values."""
+    from ehlectric.tables.calibration_tables import compared_table, inputs_table
+
+    if outcome.result.explained:
+        yield inputs_table(outcome.result)
+    yield compared_table(outcome.result)

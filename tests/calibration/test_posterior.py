@@ -1,0 +1,91 @@
+"""Bayes' rule for inputs within their ranges, compared with closed forms."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from ehlectric.calibration.posterior import chi_squares, infer, weights_of
+
+ENDS = (0.05, 0.5, 0.95)
+
+# Quantile of a standard normal distribution at 95 %.
+Z95 = 1.6448536269514722
+
+
+@pytest.mark.parametrize("error", [0.2, 0.02, 0.002])
+def test_a_value_without_noise_gives_the_inverse_of_a_monotone_relation(error):
+    """y = exp(2 u) is measured as exp(2 u0): ln y is about normal, so that u is N(u0, (error/2)^2)."""
+    u0 = 0.45
+    value = np.exp(2.0 * u0)
+    posterior = infer(lambda at: np.exp(2.0 * at[:, :1]), 1, np.array([value]), np.array([error * value]))
+    # The density of u is exp(-((exp(2u) - y)/(error y))^2/2), whose quantiles a fine grid gives.
+    grid = np.linspace(0.0, 1.0, 200_001)
+    weights = weights_of(
+        chi_squares(np.exp(2.0 * grid[:, None]), np.array([value]), np.array([error * value]))
+    )
+    expected = np.interp(ENDS, np.cumsum(weights), grid)
+    assert posterior.explained
+    assert posterior.quantiles(ENDS)[0] == pytest.approx(expected, abs=0.15 * error)
+    if error < 0.1:
+        assert expected[1] == pytest.approx(u0, abs=0.1 * error)
+        assert expected[2] - u0 == pytest.approx(0.5 * Z95 * error, rel=0.05)
+
+
+@pytest.mark.parametrize("error", [0.1, 0.02])
+def test_a_linear_model_has_the_conjugate_posterior(error):
+    """Within wide ranges the posterior of y = A u is normal: covariance s^2 (A^T A)^-1, mean A^-1 y."""
+    slopes = np.array([[1.0, 0.6], [0.2, 1.0]])
+    true = np.array([0.5, 0.45])
+    posterior = infer(lambda at: at @ slopes.T, 2, slopes @ true, np.full(2, error))
+    covariance = error**2 * np.linalg.inv(slopes.T @ slopes)
+    widths = np.sqrt(np.diagonal(covariance))
+    quantiles = posterior.quantiles(ENDS)
+    assert quantiles[:, 1] == pytest.approx(true, abs=0.2 * error)
+    assert 0.5 * (quantiles[:, 2] - quantiles[:, 0]) == pytest.approx(Z95 * widths, rel=0.1)
+    assert posterior.correlation[0, 1] == pytest.approx(covariance[0, 1] / np.prod(widths), abs=0.1)
+
+
+def test_a_value_that_is_unknown_before_and_after_leaves_the_range():
+    """A measured value with a large uncertainty changes nothing: quantiles of an even distribution."""
+    posterior = infer(lambda at: at[:, :1], 2, np.array([0.5]), np.array([100.0]))
+    assert posterior.quantiles(ENDS) == pytest.approx(np.array([ENDS, ENDS]), abs=0.01)
+    assert posterior.effective == pytest.approx(512.0, rel=1e-3)
+
+
+@pytest.mark.parametrize(("value", "explained"), [(2.05, True), (2.145, True), (2.155, False), (3.0, False)])
+def test_a_value_more_than_three_uncertainties_beyond_the_range_is_not_explained(value, explained):
+    """The model 1 + u reaches 2, and 3 standard uncertainties of 0.05 are 0.15."""
+    posterior = infer(lambda at: 1.0 + at[:, :1], 2, np.array([value]), np.array([0.05]))
+    assert posterior.explained == explained
+    assert posterior.nearest.predictions[0] == pytest.approx(2.0, abs=1e-6)
+
+
+def test_values_that_contradict_each_other_are_not_explained():
+    """The nearest prediction of 0.3 and 0.7 with equal uncertainties is their mean."""
+    posterior = infer(lambda at: at[:, [0, 0]], 2, np.array([0.3, 0.7]), np.full(2, 0.05))
+    assert not posterior.explained
+    assert posterior.nearest.predictions == pytest.approx(np.array([0.5, 0.5]), abs=1e-4)
+    assert posterior.nearest.chi2 == pytest.approx(2.0 * 4.0**2, rel=1e-6)
+
+
+def _model(at):
+    """Smooth functions of three inputs, as a capacitance, a voltage and a temperature are."""
+    a, b, c = at.T
+    return np.stack([np.exp(a - 0.5 * b), 1.0 / (0.5 + b + c), 300.0 + 20.0 * a * c], axis=-1)
+
+
+def test_true_inputs_lie_in_the_interval_of_90_per_cent():
+    """Of 50 simulated measurements with known inputs, 40 to 49 have each input within its 90 % interval: the
+    binomial distribution has 97 % of its probability there.
+    """
+    random = np.random.default_rng(7)
+    inside = np.zeros(3, dtype=int)
+    for _ in range(50):
+        true = random.random(3)
+        values = _model(true[np.newaxis])[0]
+        errors = np.array([0.05, 0.05, 0.01]) * values
+        posterior = infer(_model, 3, values + errors * random.standard_normal(3), errors, samples=256)
+        low, _, high = posterior.quantiles(ENDS).T
+        inside += (low <= true) & (true <= high)
+    assert np.all((inside >= 40) & (inside <= 49)), inside

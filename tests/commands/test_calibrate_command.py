@@ -1,0 +1,91 @@
+"""The command calibrate as a user types it."""
+
+import json
+import shutil
+
+import pytest
+
+from tests.helpers.places import EXAMPLES
+
+CASE = "bearing_measured.toml"
+
+
+@pytest.fixture
+def case_file(tmp_path):
+    """Example in a folder, with its measurement."""
+    shutil.copytree(EXAMPLES / "measurements", tmp_path / "measurements")
+    shutil.copy(EXAMPLES / CASE, tmp_path)
+    return tmp_path / CASE
+
+
+@pytest.mark.slow
+@pytest.mark.gate
+def test_the_example_is_calibrated_and_its_file_is_a_case(ehlectric, case_file):
+    """The true values of the synthetic measurement lie in the updated ranges."""
+    done = ehlectric("calibrate", case_file.name, "-o", "out")
+    out = case_file.parent / "out"
+    names = {path.name for path in out.iterdir() if not path.name.startswith(".")}
+    assert names == {"summary.json", "compared.csv", "calibrated.toml", "calibration.png"}
+    summary = json.loads((out / "summary.json").read_text())
+    assert summary["explained"]
+    assert "temperature" in done.stdout
+    inputs = {entry["key"]: entry for entry in summary["inputs"]}
+    for key, true in {"bearing.temperature": 348.15, "motor.winding_rotor_capacitance": 24e-12}.items():
+        low, _, high = inputs[key]["posterior"]
+        assert low < true < high
+        assert inputs[key]["reduction"] > 0.3
+    check = ehlectric("check", "out/calibrated.toml")
+    assert "3000 rpm" in check.stdout
+    assert len((out / "compared.csv").read_text().splitlines()) == 1 + 2 + 4 + 3
+
+
+@pytest.mark.slow
+def test_a_measurement_beyond_the_ranges_is_reported(ehlectric, case_file):
+    text = case_file.read_text().replace('file = "measurements/bearing_6208_points.csv"\n', "")
+    case_file.write_text(text.replace("2.9 V +- 0.2 V", "29 V +- 0.2 V"))
+    done = ehlectric("calibrate", case_file.name, "-o", "out", "--no-plots")
+    assert done.returncode == 3
+    assert "not explained" in done.stdout
+    assert "would have to leave its range" in done.stdout
+    assert not (case_file.parent / "out" / "calibrated.toml").exists()
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "named"),
+    [
+        ("2.9 V +- 0.2 V", "2.9 V", "measured.first_breakdown_voltage"),
+        ("2.9 V +- 0.2 V", "2.9 pF +- 0.2 pF", "measured.first_breakdown_voltage"),
+        ("74 degC +- 2 K", "74 degC +- 0 K", "measured.outer_ring_temperature"),
+        ("bearing_6208_points", "missing", "missing.csv"),
+        ("first_breakdown_voltage =", "discharge_rate = '3 1/s +- 1 1/s' #", "measured.discharge_rate"),
+        ("first_breakdown_voltage =", "breakdown = ", "measured.breakdown"),
+    ],
+)
+def test_a_wrong_measurement_is_refused(typed, case_file, old, new, named):
+    case_file.write_text(case_file.read_text().replace(old, new))
+    done = typed("calibrate", case_file.name)
+    assert done.returncode == 2
+    assert named in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("head", "named"),
+    [
+        ("speed [rpm],capacitance [pF]", "uncertainty of capacitance"),
+        ("speed [rpm],remark", "measured quantity"),
+        ("speed [V],capacitance [pF]", "speed [V]"),
+    ],
+)
+def test_a_wrong_file_of_points_is_refused(typed, case_file, head, named):
+    (case_file.parent / "points.csv").write_text(f"{head}\n3000,250\n")
+    done = typed("calibrate", case_file.name, "--measured", "points.csv")
+    assert done.returncode == 2
+    assert named in done.stderr
+
+
+def test_a_case_without_a_measurement_is_refused(typed, case_file):
+    text = case_file.read_text()
+    case_file.write_text(text[: text.index("[measured]")])
+    done = typed("calibrate", case_file.name)
+    assert done.returncode == 2
+    assert "measured: missing" in done.stderr
