@@ -25,6 +25,7 @@ _RUNS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
         ("bearing", "bearing_6208.toml", "--contacts", "formula", *_MEASURED),
         ("measured_and_computed.png",),
     ),
+    "calibration": (("calibrate", "bearing_measured.toml"), ("calibration.png",)),
     "duty_wltc": (("bearing", "duty_wltc.toml"), ("bearing_duty.png",)),
     "duty_gear": (("gear", "duty_gear.toml"), ("gear_duty.png",)),
     "duty_drive": (("drive", "duty_drive.toml"), ("drive_duty.png",)),

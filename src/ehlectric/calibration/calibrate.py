@@ -59,7 +59,7 @@ def calibrate(
     """Update the uncertain inputs of a case by measured values, by Bayes' rule.
 
     Inputs are evenly distributed over their ranges before the measurement: ranges of the file, and the usual
-    ranges of other inputs. Films are from the atlas or from formulas, also if the file has solved contacts.
+    ranges of other inputs. Films are from the atlas or from formulas, also for a file with solved contacts.
 
     Parameters
     ----------
@@ -238,7 +238,7 @@ class _Compared:
             )
 
     def _decided(self, posterior: Posterior) -> list[tuple[str, float]]:
-        """Input whose variance each measured value alone reduces most, with the share of this variance."""
+        """Input whose variance is reduced most by each measured value without the others, with the share."""
         if posterior.emulator is None:
             return [("", 0.0)] * len(self.given.values)
         names, width = self.model.names(), posterior.at.shape[1]
@@ -334,8 +334,8 @@ class _Compared:
                 yield place
 
     def _leaving(self, posterior: Posterior, place: int) -> tuple[Names | None, float | None]:
-        """Names of the input that would have to leave its range by the smallest part of it, alone,
-        and the value that it would need, by the slope of the model at the nearest prediction.
+        """Names of the input that would have to leave its range by the smallest part of it, without
+        the others, and the value that it would need, by the slope of the model at the nearest prediction.
         """
         emulator, nearest = posterior.emulator, posterior.nearest
         assert emulator is not None
@@ -405,7 +405,7 @@ def _refused(rows: Sequence[Compared], unexplained: Unexplained) -> Verdict:
 
 def _chance(margins: Array, effective: float | None = None) -> Chance | None:
     """Chance of margins, shape (n,); None where no point has one. ``effective``, effective number of points,
-    by which the sampling errors are those of fewer points.
+    which gives the sampling errors.
     """
     known = np.isfinite(margins)
     if not np.any(known):

@@ -1,4 +1,4 @@
-"""Polynomials in place of a model, within a box of its inputs."""
+"""Polynomials instead of a model, within a box of its inputs."""
 
 from __future__ import annotations
 

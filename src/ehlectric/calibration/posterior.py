@@ -8,9 +8,9 @@ the prediction with a normal error. The posterior density at inputs u is then pr
 with the predictions p_i, the measured values y_i and their standard uncertainties s_i, and is 0 outside the
 ranges. Points of a Sobol design have weights w proportional to L. Their effective number is 1/sum(w^2) for
 weights with the sum 1 (Kong, Liu and Wong, J. Am. Stat. Assoc. 89 (1994) 278,
-doi:10.1080/01621459.1994.10476469). Where it is too small, a Markov chain (J. Goodman and J. Weare, Commun.
+doi:10.1080/01621459.1994.10476469). If it is too small, a Markov chain (J. Goodman and J. Weare, Commun.
 Appl. Math. Comput. Sci. 5 (2010) 65, doi:10.2140/camcos.2010.5.65, by the library emcee) draws points for
-polynomials in place of the model. The model is computed at these points, and their weights are proportional
+polynomials instead of the model. The model is computed at these points, and their weights are proportional
 to L of the model divided by L of the polynomials.
 """
 

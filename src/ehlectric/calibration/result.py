@@ -56,8 +56,8 @@ class Compared:
     # residual: measured value minus the computed median after the measurement, or else minus the nearest
     # prediction, in standard deviations: of the measured value and, for the median, of the computed one.
     residual: float
-    decided: str  # key of the input whose variance this value alone reduces most; empty if it reduces none
-    decided_share: float  # share of its variance that this value alone removes
+    decided: str  # key of the input whose variance this value, without the others, reduces most; or empty
+    decided_share: float  # share of its variance that this value, without the others, removes
 
 
 @dataclass(frozen=True)

@@ -167,8 +167,8 @@ def check_geometry(tables: Iterable[Roughness], geometry: str) -> None:
 
 
 def find_files(table: dict[str, Any], folder: Path) -> None:
-    """Make the names of files of roughness, of a duty cycle and of a measurement absolute; in a case file
-    they are relative to its ``folder``.
+    """Make the names of files absolute, which are relative to the ``folder`` of the case file: roughness, a
+    duty cycle and a measurement.
 
     They then stay valid if the case is written to another folder.
     """
