@@ -9,9 +9,9 @@ import pytest
 from ehlectric.app.charts.bearing_charts import OverSpeed, speed_rows
 from ehlectric.app.compute.answer_parts import page_warnings_of
 from ehlectric.app.compute.bearing_answers import (
-    analysed_answer,
     answer_of,
     bearing_case,
+    curves_answer,
     differences,
     quick_answer,
     shown_numbers,
@@ -484,16 +484,17 @@ def test_without_a_motor_the_first_breakdown_decides():
 
 
 @pytest.mark.slow
-def test_the_probability_comes_before_the_curves():
+def test_the_curves_come_before_the_probability():
     table = inputs()
-    first, before, whole = quick_answer(table), analysed_answer(table), whole_quick_answer(table)
-    assert [(one.analysed, one.whole) for one in (first, before, whole)] == [
-        (False, False),
-        (True, False),
-        (True, True),
+    first, before, whole = quick_answer(table), curves_answer(table), whole_quick_answer(table)
+    assert [(one.has_curves, one.analysed, one.whole) for one in (first, before, whole)] == [
+        (False, False, False),
+        (True, False, False),
+        (True, True, True),
     ]
-    assert whole.figures.keys() - before.figures.keys() == {"breakdown", "capacitance"}
-    assert (before.shown, before.verdict, before.effects) == (whole.shown, whole.verdict, whole.effects)
+    assert before.figures.keys() - first.figures.keys() == {"breakdown", "capacitance"}
+    assert before.figures["capacitance"] == whole.figures["capacitance"]
+    assert (before.shown, before.verdict, before.effects) == (first.shown, first.verdict, None)
     assert "probability-follows" in [one.code for one in first.verdict.reasons]
     assert not any("probability of breakdown is" in one for one in first.verdict.sentences())
     assert any("probability of breakdown is" in one for one in whole.verdict.sentences())

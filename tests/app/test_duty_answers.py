@@ -11,11 +11,11 @@ from ehlectric.app.charts.duty_charts import MOST_DUTY_ROWS, duty_figure, duty_r
 from ehlectric.app.charts.plotly_panels import thinned
 from ehlectric.app.compute.answer_parts import lines_of
 from ehlectric.app.compute.bearing_answers import (
-    analysed_answer,
     answer_of,
     bearing_case,
     duty_answer,
     quick_answer,
+    whole_quick_answer,
 )
 from ehlectric.app.compute.duty_answers import look
 from ehlectric.app.compute.page_files import packed, write
@@ -108,7 +108,7 @@ def test_the_page_has_the_numbers_of_the_command(answer, summary):
 def test_the_answer_about_the_bearing_does_not_wait_for_its_cycle(session, table):
     """It reads no file: one that is not there does not matter, and its rows stand with the cycle."""
     lost = table | {"duty": {"file": f"{SURFACES}/lost.csv"}}
-    for answers in (quick_answer, analysed_answer):
+    for answers in (quick_answer, whole_quick_answer):
         found = answers(lost, session)
         assert found.lines == answers({k: v for k, v in table.items() if k != "duty"}, session).lines
         assert found.duty is None

@@ -89,6 +89,24 @@ def test_fuller_answers_follow_in_their_order():
     assert [answer for _, answer in asyncio.run(use()).shown] == ["quick", "whole", "fullest"]
 
 
+def test_a_prompt_answer_follows_before_the_inputs_are_quiet(monkeypatch):
+    """The inputs are never quiet here."""
+    monkeypatch.setattr(latest_answer, "_QUIET", 1e6)
+
+    async def use():
+        page = Page()
+        steps = page.latest_answer._steps
+        page.latest_answer._steps, page.latest_answer._prompt = (*steps, page.whole), 1
+        await page.latest_answer.ask(1)
+        await until(lambda: len(page.shown) > 1)
+        page.latest_answer._later.cancel()
+        return page
+
+    page = asyncio.run(use())
+    assert page.shown == [(1, "quick"), (1, "whole")]
+    assert page.asked == [1, ("whole", 1)]
+
+
 def test_answers_before_one_that_is_known_are_skipped():
     async def use():
         page = Page()

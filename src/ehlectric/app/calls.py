@@ -54,7 +54,7 @@ class Call(Generic[T]):
 
 # A bearing.
 BEARING_QUICK: Call[BearingAnswer] = Call("bearing_answers.quick_answer")
-BEARING_ANALYSED: Call[BearingAnswer] = Call("bearing_answers.analysed_answer")
+BEARING_CURVES: Call[BearingAnswer] = Call("bearing_answers.curves_answer")
 BEARING_WHOLE: Call[BearingAnswer] = Call("bearing_answers.whole_quick_answer")
 BEARING_SOLVED: Call[BearingAnswer] = Call("bearing_answers.solve_contacts")
 

@@ -44,7 +44,8 @@ class OnlyLast:
 class LatestAnswer(Generic[I, T]):
     """Answers to the latest inputs; those to older inputs that have not begun are never computed.
 
-    ``quick`` computes an answer at once, and each of ``later`` a fuller one, in their order.
+    ``quick`` computes an answer at once, and each of ``later`` a fuller one, in their order: the first
+    ``prompt`` of them right after the immediate answer, the others when the inputs are quiet.
     ``known`` returns the number of the fullest answer that is computed already; those before are skipped.
     ``show`` shows an answer to the latest inputs, ``passing`` one to inputs that have changed meanwhile, and
     ``refuse`` the error where the latest inputs have no answer.
@@ -59,11 +60,12 @@ class LatestAnswer(Generic[I, T]):
         passing: Callable[[I, T], None],
         refuse: Callable[[Exception], None],
         behind: asyncio.Semaphore,
+        prompt: int = 0,
         known: Callable[[I], int] = lambda _: 0,
     ) -> None:
         self._steps, self._known, self._refuse = (quick, *later), known, refuse
         self._show, self._pass = show, passing
-        self._behind = behind
+        self._behind, self._prompt = behind, prompt
         self._request = 0
         self._pending: tuple[int, I, bool] | None = None
         self._running: asyncio.Task[None] | None = None
@@ -91,10 +93,9 @@ class LatestAnswer(Generic[I, T]):
             step = self._known(inputs)
             answer = await self._answer(request, inputs, self._steps[step])
             if answer is not None and request == self._request:
-                if fuller := self._steps[step + 1 :]:
-                    self._later = asyncio.create_task(
-                        self._follow(request, inputs, fuller, 0.0 if at_once else _QUIET)
-                    )
+                if step + 1 < len(self._steps):
+                    quiet = 0.0 if at_once else _QUIET
+                    self._later = asyncio.create_task(self._follow(request, inputs, step + 1, quiet))
                 self._show(inputs, answer)
             elif answer is not None and self._waits():
                 self._pass(inputs, answer)
@@ -112,11 +113,11 @@ class LatestAnswer(Generic[I, T]):
                 self._refuse(error)
             return None
 
-    async def _follow(
-        self, request: int, inputs: I, fuller: Sequence[Callable[[I], Awaitable[T]]], quiet: float
-    ) -> None:
-        await asyncio.sleep(quiet)
-        for compute in fuller:
+    async def _follow(self, request: int, inputs: I, first: int, quiet: float) -> None:
+        """Show the fuller answers from the number ``first``; ``quiet``, time without a change [s]."""
+        for number, compute in enumerate(self._steps[first:], first):
+            if number == max(first, self._prompt + 1):
+                await asyncio.sleep(quiet)
             async with self._behind:
                 if request != self._request:
                     return

@@ -613,7 +613,7 @@ class PageAnswer:
     deciding: Deciding
     lines: tuple[Line, ...]  # all rows that the command prints
     warnings: tuple[PageWarning, ...]  # warnings, with the numbers of ``shown`` that they concern
-    # Of a bearing "load" and "film", and with a whole answer "breakdown" and "capacitance" over the speed; of
+    # Of a bearing "load" and "film", and with its curves "breakdown" and "capacitance" over the speed; of
     # a simulated drive "voltages", "histogram", "spectrum", "remedies", "discharge-voltage" and others; of a
     # solved contact "profiles" and "section", or "surface" and maps. Empty where the films are not converged.
     figures: Mapping[str, Figure] = field(default_factory=dict)
@@ -644,8 +644,9 @@ class BearingAnswer(PageAnswer):
     contacts: Contacts  # "atlas", "formula" or "solved"
     converged: bool  # whether the films of all contacts converged
     numbers: Mapping[str, Any]  # numbers of the table ``bearing`` of summary.json
-    # Whether it has critical speeds, effects of inputs and probability; a whole answer also has the curves.
-    analysed: bool
+    # Whether it has the curves over the speed; a whole answer also has what follows with ``analysed``.
+    has_curves: bool
+    analysed: bool  # whether it has critical speeds, effects of inputs and probability
     margin: Mapping[str, Any] | None  # table ``margin`` of summary.json; None unless ``analysed``
     contact_rows: tuple[Mapping[str, Any], ...]  # a row for each element and ring, as in ``contacts.csv``
     differences: tuple[Difference, ...] = ()

@@ -47,6 +47,7 @@ from ehlectric.bearing import (
     BearingResult,
     CaseKey,
     MarginAnalysis,
+    Speed,
     bearing_verdict,
     capacitance_is_bound,
     error_text,
@@ -65,6 +66,7 @@ from ehlectric.figures.ring_panels import film_panel, largest_gap, load_panel
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.lubrication_states import is_shorted
 from ehlectric.quantities.result_bounds import bearing_bounds
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.rows import Row, value_at
 from ehlectric.quantities.sheets import BEARING_CARDS, DIFFERENCES, PAGE_COLUMNS
@@ -302,15 +304,15 @@ def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> Beari
     return answer_of(solved_quickly(without_cycle(table, session)), analysed=False, curves=False)
 
 
-def analysed_answer(table: Mapping[str, Any], session: Path | None = None) -> BearingAnswer:
-    """Answer about a bearing as ``quick_answer`` has it, with critical speeds, effects of the inputs and the
-    probability of breakdown, without the curves over the speed.
-    """
-    return answer_of(solved_quickly(without_cycle(table, session)), curves=False)
+def curves_answer(table: Mapping[str, Any], session: Path | None = None) -> BearingAnswer:
+    """Answer about a bearing as ``quick_answer`` has it, with the curves over the speed."""
+    return answer_of(solved_quickly(without_cycle(table, session)), analysed=False)
 
 
 def whole_quick_answer(table: Mapping[str, Any], session: Path | None = None) -> BearingAnswer:
-    """Answer about a bearing as ``analysed_answer`` has it, with the curves over the speed."""
+    """Answer about a bearing as ``curves_answer`` has it, with critical speeds, effects of the inputs and the
+    probability of breakdown.
+    """
     return answer_of(solved_quickly(without_cycle(table, session)))
 
 
@@ -381,7 +383,7 @@ def answer_of(
     changes: tuple[Difference, ...] = (),
 ) -> BearingAnswer:
     """Answer of a solved bearing: ``analysed`` with critical speeds, effects of the inputs and probability of
-    breakdown, and with the ``curves`` over the speed; each takes half a second.
+    breakdown, which takes a quarter of a second, and with the ``curves`` over the speed.
     """
     summary = result.summary() if analysed else quick_summary(result)
     verdict = result.verdict if analysed else quick_verdict(result)
@@ -390,7 +392,8 @@ def answer_of(
         warnings += result.uncertainty.warnings
     figures = _figures(result, summary) if result.converged else {}
     if curves and result.converged:
-        points, left_out = over_speed(result.case, ratio_of_case=summary["bearing"]["lambda_ratio"])
+        key = key_of(result.case, without_effect=())
+        points, left_out = _over_speed(key, summary["bearing"]["lambda_ratio"])
         warnings += tuple(left_out)
         at_case = (result.case.bearing.inner_speed, summary)
         bound = capacitance_is_bound(result.solution)
@@ -400,7 +403,8 @@ def answer_of(
     return BearingAnswer(
         title=result.case.title,
         contacts=result.case.contacts,
-        whole=curves,
+        whole=analysed and curves,
+        has_curves=curves,
         analysed=analysed,
         converged=result.converged,
         verdict=verdict,
@@ -420,6 +424,12 @@ def answer_of(
         effects=effects_table(summary),
         duty=shown_duty(result.duty, summary) if analysed and result.duty is not None else None,
     )
+
+
+@lru_cache(maxsize=4)
+def _over_speed(key: CaseKey, lambda_ratio: float) -> tuple[list[Speed], list[ResultWarning]]:
+    """Numbers of a bearing at many speeds, which the whole answer has again after the curves."""
+    return over_speed(key.case, ratio_of_case=lambda_ratio)
 
 
 def _how(result: BearingResult) -> str:

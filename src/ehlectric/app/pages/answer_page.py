@@ -48,6 +48,7 @@ class AnswerPage(Generic[A]):
     # None for a page without one.
     quick: ClassVar[Call[Any]]
     later: ClassVar[Sequence[Call[Any]]] = ()
+    prompt: ClassVar[int] = 0  # fuller answers that follow right after the immediate one
     solved: ClassVar[Call[Any] | None] = None
 
     view: AnswerView[A]
@@ -61,6 +62,7 @@ class AnswerPage(Generic[A]):
             passing=lambda _, answer: self._put(answer),
             refuse=self._refuse,
             behind=session.work.behind,
+            prompt=self.prompt,
             known=self._known,
         )
 

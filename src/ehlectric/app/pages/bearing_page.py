@@ -10,7 +10,7 @@ from typing import ClassVar
 from nicegui import ui
 
 from ehlectric.app.calls import (
-    BEARING_ANALYSED,
+    BEARING_CURVES,
     BEARING_DUTY,
     BEARING_QUICK,
     BEARING_SOLVED,
@@ -97,7 +97,7 @@ class BearingView(AnswerView[BearingAnswer]):
         self._changes.set_visibility(bool(answer.differences))
         if answer.analysed or not answer.figures:
             self._effects.content = effects_html(answer.effects)
-        known = answer.whole or not answer.figures
+        known = answer.has_curves or not answer.figures
         if known:
             self.panel.lead("breakdown", answer.figures.get("breakdown"))
         else:
@@ -110,9 +110,9 @@ class BearingView(AnswerView[BearingAnswer]):
 
     def show_figure(self, name: str, place: FigureBox, answer: BearingAnswer) -> None:
         """Show a figure; one over the speed stays as it is until an answer has it."""
-        if name in _AT_ONCE or answer.whole or not answer.figures:
+        if name in _AT_ONCE or answer.has_curves or not answer.figures:
             place.show(answer.figures.get(name))
-        place.dim(dimmed=name in _OVER_SPEED and not answer.whole)
+        place.dim(dimmed=name in _OVER_SPEED and not answer.has_curves)
 
 
 def without_what_follows(answer: BearingAnswer) -> BearingAnswer:
@@ -162,7 +162,8 @@ class BearingPage(AnswerPage[BearingAnswer]):
     short: ClassVar[Mapping[str, str]] = {"bearing.margin": "", "margin.critical_speed": "breakdown below"}
     wait = 0.4
     elsewhere = (DUTY_FILE,)
-    quick, later, solved = BEARING_QUICK, (BEARING_ANALYSED, BEARING_WHOLE), BEARING_SOLVED
+    quick, later, solved = BEARING_QUICK, (BEARING_CURVES, BEARING_WHOLE), BEARING_SOLVED
+    prompt = 1
 
     view: BearingView
 
