@@ -382,8 +382,10 @@ def answer_of(
     curves: bool = True,
     changes: tuple[Difference, ...] = (),
 ) -> BearingAnswer:
-    """Answer of a solved bearing: ``analysed`` with critical speeds, effects of the inputs and probability of
-    breakdown, which takes a quarter of a second, and with the ``curves`` over the speed.
+    """Answer of a solved bearing.
+
+    An ``analysed`` answer has critical speeds, effects of the inputs and the probability of breakdown, which
+    take a quarter of a second. ``curves`` adds the curves over the speed.
     """
     summary = result.summary() if analysed else quick_summary(result)
     verdict = result.verdict if analysed else quick_verdict(result)
