@@ -2,12 +2,13 @@
 
 import csv
 import json
+import pickle
 import shutil
 
 import pytest
+from scipy.io import loadmat
 
-from ehlectric import InputError, export, figure, save, solve
-from tests.helpers.each import each
+from ehlectric import InputError, export, figure, load, save, solve
 from tests.helpers.places import EXAMPLES
 
 EXAMPLE = EXAMPLES / "e_axle.toml"
@@ -24,7 +25,12 @@ def test_the_example_is_solved(typed, tmp_path, result):
     assert "mesh of rotor and intermediate first" in done.stdout
     assert "Hybrid" in done.stdout
     folder = tmp_path / "out"
-    assert sorted(path.name for path in folder.iterdir()) == ["elements.csv", "shafts.csv", "summary.json"]
+    assert sorted(path.name for path in folder.iterdir()) == [
+        "axle.nc",
+        "elements.csv",
+        "shafts.csv",
+        "summary.json",
+    ]
     summary = json.loads((folder / "summary.json").read_text("utf-8"))
     assert summary["elements"] == result.summary()["elements"]
     with (folder / "elements.csv").open(encoding="utf-8", newline="") as file:
@@ -87,7 +93,12 @@ def test_results_in_notebooks_and_files(result, tmp_path):
     assert "mesh of rotor and intermediate" in repr(result)
     assert "breakdown voltage" in result._repr_html_()
     assert "drive.speed" in result.case._repr_html_()
-    assert {path.name for path in save(result, tmp_path)} == {"summary.json", "elements.csv", "shafts.csv"}
+    assert {path.name for path in save(result, tmp_path)} == {
+        "summary.json",
+        "elements.csv",
+        "shafts.csv",
+        "axle.nc",
+    }
 
 
 def test_a_netlist_is_written(typed, tmp_path):
@@ -102,13 +113,59 @@ def test_a_netlist_is_written(typed, tmp_path):
     assert "--arc-resistance" in done.stderr
 
 
-@each("what", ["export", "plot", "laws"])
-def test_what_axles_do_not_have_is_refused(what, result, tmp_path):
+def same(found, expected):
+    """Whether two summaries are equal; times of computation do not count."""
+    return {**found, "seconds": 0.0} == {**expected, "seconds": 0.0}
+
+
+def test_a_saved_result_is_loaded_drawn_and_exported(typed, tmp_path, result):
+    """One number in all files: summary.json, axle.nc, a table of pandas, MATLAB and a pickle."""
     save(result, tmp_path / "out")
-    ways = {
-        "export": lambda: export(result, tmp_path / "axle.mat"),
-        "plot": lambda: export(tmp_path / "out", tmp_path / "axle.mat"),
-        "laws": lambda: solve(EXAMPLE, solvers="paper"),
-    }
+    loaded = load(tmp_path / "out")
+    assert same(loaded.summary(), result.summary())
+    assert same(json.loads((tmp_path / "out" / "summary.json").read_text("utf-8")), result.summary())
+    assert same(pickle.loads(pickle.dumps(loaded)).summary(), result.summary())
+    ratios = [row["voltage_ratio"] for row in result.summary()["elements"]]
+    table = loaded.to_dataframe()
+    assert table["voltage_ratio"].tolist() == pytest.approx(
+        [r if r else float("nan") for r in ratios], nan_ok=True
+    )
+    export(tmp_path / "out", tmp_path / "axle.mat")
+    values = loadmat(tmp_path / "axle.mat", squeeze_me=True)
+    capacitances = [row["capacitance"] for row in result.summary()["elements"]]
+    assert values["capacitance"][0].tolist() == capacitances
+    assert typed("plot", tmp_path / "out").returncode == 0
+    assert (tmp_path / "out" / "axle_elements.png").exists()
+
+
+@pytest.mark.slow
+def test_reports_contain_elements_probabilities_and_remedies(typed, tmp_path, result):
+    save(result, tmp_path / "out")
+    done = typed("report", tmp_path / "out", "-o", "axle.html")
+    assert done.returncode == 0, done.stderr
+    text = (tmp_path / "axle.html").read_text("utf-8")
+    for words in (
+        "Which bearing or gear mesh",
+        "bearing 2 of output",
+        "Probabilities of",
+        "Ring on the rotor",
+    ):
+        assert words in text
+
+
+def test_damaged_files_are_refused(tmp_path, result):
+    dataset = result.to_xarray()
+    for damaged in (
+        dataset.drop_vars("capacitance"),
+        dataset.assign_attrs(warnings="{}"),
+        dataset.assign_attrs(schema="ehlectric.axle.result/9"),
+        dataset.isel(element=slice(3)),
+    ):
+        damaged.to_netcdf(tmp_path / "axle.nc", engine="h5netcdf")
+        with pytest.raises(InputError, match=r"axle\.nc"):
+            load(tmp_path / "axle.nc")
+
+
+def test_other_solvers_are_refused():
     with pytest.raises(InputError, match="axle"):
-        ways[what]()
+        solve(EXAMPLE, solvers="paper")

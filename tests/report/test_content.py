@@ -29,6 +29,7 @@ from ehlectric.report.report_texts import (
     references_of,
 )
 from ehlectric.report.written_report import write_report
+from tests.axle.axles import two_stages
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.bearings import BALLS, OIL, bearing_case, changed
 from tests.helpers.each import each
@@ -276,7 +277,7 @@ def test_keys_are_told_by_their_names(text, shown):
 
 
 def test_conditions_of_limits_and_publications_are_known():
-    cases = Case.from_dict(TABLE), BearingCase.from_dict(BALLS), spur_case()
+    cases = Case.from_dict(TABLE), BearingCase.from_dict(BALLS), spur_case(), two_stages()
     known = {name for case in cases for name in conditions_of(case)}
     known |= {f"kind {kind}" for kind in KINDS_OF_BEARINGS}
     known |= {f"sharing {law}" for law in get_args(Sharing)}

@@ -151,7 +151,7 @@ WRITTEN = {
     "bearing": ["summary.json", "contacts.csv", "bearing.nc"],
     "drive": ["summary.json", "events.csv", "spectrum.csv", "drive.nc"],
     "gear": ["summary.json", "path.csv", "mesh.csv", "gear.nc"],
-    "axle": ["summary.json", "elements.csv", "shafts.csv"],
+    "axle": ["summary.json", "elements.csv", "shafts.csv", "axle.nc"],
     "sweep": ["sweep.csv", "sweep.parquet", "sweep.nc"],
 }
 

@@ -8,6 +8,7 @@ from .network import WINDING as WINDING
 from .network import Film as Film
 from .result import AxleResult as AxleResult
 from .result import solve_axle as solve_axle
+from .run import result_of as result_of
 from .run import save as save
 from .run import solve_to_folder as solve_to_folder
 from .shaft_loads import BearingLoads as BearingLoads
@@ -15,4 +16,5 @@ from .solution import AxleSolution as AxleSolution
 from .solution import Element as Element
 from .solution import forces_on_shafts as forces_on_shafts
 from .solution import loads_on_shafts as loads_on_shafts
+from .stored import SCHEMA as SCHEMA
 from .summary import tables_of_point as tables_of_point

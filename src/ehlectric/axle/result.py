@@ -4,21 +4,30 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from ehlectric.axle.axle_verdict import axle_verdict
 from ehlectric.axle.solution import AxleSolution, solve_elements
-from ehlectric.axle.summary import axle_summary, tables_of_point
+from ehlectric.axle.stored import layout_of
+from ehlectric.axle.summary import ELEMENT_COLUMNS, axle_summary, tables_of_point
 from ehlectric.axle.uncertainty import AxleUncertainty, has_chance, uncertainty_of
 from ehlectric.cases.axle_case import AxleCase
 from ehlectric.errors import InputError
 from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
 from ehlectric.quantities.verdict import Verdict
 from ehlectric.runtime.display import ResultKind, Shown, headline, read_only_property
+from ehlectric.runtime.netcdf import Layout
 from ehlectric.runtime.progress import Progress, silent
 from ehlectric.version import __version__
 
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+
 SCHEMA = "ehlectric.axle/1"
+
+# Columns of the table of elements that are texts.
+_TEXTS = ("element", "state")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -111,6 +120,23 @@ class AxleResult(Shown):
         """Return the results of a point of a sweep, SI units: elements and shafts by their keys."""
         tables = tables_of_point(self.solution)
         return {"schema": SCHEMA, **self._heads(), **tables, "seconds": self.seconds}
+
+    def layout(self) -> Layout:
+        """Return variables and attributes of axle.nc."""
+        solutions = (self.solution, *self.remedies)
+        return layout_of(solutions, self.seconds, self.version, probable=self.probable)
+
+    def to_xarray(self) -> xr.Dataset:
+        """Return the dataset of the result, as axle.nc contains it; SI units."""
+        return self.layout().dataset()
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Return all bearings and meshes as a table of pandas; ``attrs["units"]`` contains the units."""
+        import pandas as pd
+
+        frame = pd.DataFrame(axle_summary(self.solution)["elements"])
+        frame.attrs["units"] = {name: unit for name, unit in ELEMENT_COLUMNS.items() if name not in _TEXTS}
+        return frame
 
     def key_numbers(self) -> tuple[str, ...]:
         """Return the number of elements and the first of them as texts."""

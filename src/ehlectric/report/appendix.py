@@ -91,6 +91,8 @@ def _tables(case: SolvedCase, *, apart: bool) -> dict[str, Any]:
     """Nested tables of the inputs that are set; two equal bearings of a drive are one."""
     tables = case.model_dump(mode="json", exclude_none=True, exclude_unset=True)
     tables.pop("remedies", None)
+    if isinstance(case, AxleCase):
+        tables["mesh"] = [_with_gear_keys(mesh) for mesh in tables.get("mesh", ())]
     if isinstance(case, DriveCase):
         bearings = {before[:-1]: tables[ENDS[0]] for before in parts_of(case, apart=apart) if before == _BOTH}
         if bearings:
@@ -107,6 +109,12 @@ def parts_of(case: SolvedCase, *, apart: bool = False) -> dict[str, Case | Beari
     if case.drive_end == case.non_drive_end and not apart:
         return {_BOTH: case.drive_end}
     return {f"{end}.": getattr(case, end) for end in ENDS}
+
+
+def _with_gear_keys(mesh: Mapping[str, Any]) -> dict[str, Any]:
+    """Table of a mesh with the keys of its gear file that the axle uses."""
+    pair = {key: value for key, value in mesh["pair"].items() if key in ("contacts", "gear")}
+    return {key: value for key, value in mesh.items() if key != "pair"} | pair
 
 
 def input_text(case: SolvedCase, key: str, value: Any) -> str:
@@ -234,6 +242,17 @@ _STRENGTHS = tuple(f"discharge.{name}" for name in ("dielectric_strength", "weib
 _PLACES = {BOTH: "both bearings", **{end: f"bearing at the {name}" for end, name in NAMES_OF_ENDS.items()}}
 
 
+def _place(end: str) -> str:
+    """Words for the name before a key: a bearing of a drive, or a part of an axle.
+
+    Examples
+    --------
+    >>> _place("drive_end"), _place("mesh.1"), _place("bearing.rotor"), _place("")
+    ('bearing at the drive end', 'mesh 1', 'bearing rotor', '')
+    """
+    return _PLACES.get(end, end.replace(".", " ").replace("*", "of all"))
+
+
 def varied_keys(varied: Sequence[str]) -> tuple[set[str], bool]:
     """Varied keys, with the keys of both bearings that one stands for; whether only one bearing varies."""
     keys = {either_end for key in varied for either_end in (key, *of_both_ends(key))}
@@ -273,7 +292,7 @@ def named(key: str) -> Named:
     end, inner = end_and_key(key)
     entry = input_of(inner)
     label = inner.rpartition(".")[2].replace("_", " ") if entry is None else entry.label
-    return Named(", ".join(filter(None, [label, _PLACES.get(end, "").removeprefix("bearing at the ")])), key)
+    return Named(", ".join(filter(None, [label, _place(end).removeprefix("bearing at the ")])), key)
 
 
 def worded(text: str) -> str:
@@ -317,13 +336,18 @@ def given_inputs(case: SolvedCase, varied: Sequence[str] = ()) -> str:
     ]
     groups = groupby(given, key=lambda entry: end_and_key(entry.key)[0])
     return "; ".join(
-        (f"{_PLACES[end]}: " if end else "") + "; ".join(_given(case, [*group])) for end, group in groups
+        (f"{_place(end)}: " if end else "") + "; ".join(_given(case, [*group])) for end, group in groups
     )
 
 
 def _is_used(case: SolvedCase, key: str) -> bool:
-    """Whether a drive uses an input of one of its bearings; their motor and their duty cycle are its own."""
+    """Whether a drive uses an input of one of its bearings; their motor and their duty cycle are its own.
+
+    Shafts, bearings and meshes of an axle have tables of their own.
+    """
     end, inner = end_and_key(key)
+    if isinstance(case, AxleCase):
+        return not end
     return not (replaced_by(case, key) or (end and inner.startswith(("motor.", "duty."))))
 
 

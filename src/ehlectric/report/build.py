@@ -1,4 +1,4 @@
-"""Report of a stored result of any kind: contact, moving roughness, bearing, gear pair, drive, or a sweep."""
+"""Report of a stored result of any kind: contact, motion, bearing, gear pair, drive, axle, or a sweep."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
+from ehlectric.axle import AxleResult
 from ehlectric.bearing import BearingResult
 from ehlectric.cases.defaults import HOW
 from ehlectric.contact import ContactResult
@@ -43,6 +44,14 @@ from ehlectric.runs.result_folders import stored_result
 from ehlectric.runs.solve import load
 from ehlectric.sweep import NAME as SWEEP
 from ehlectric.sweep import SweepResults, read_sweep
+from ehlectric.tables.axle_tables import (
+    axle_rows,
+    chance_rows,
+    chances_table,
+    elements_table,
+    remedies_table,
+    shafts_table,
+)
 from ehlectric.tables.bearing_tables import films_table, loads_table, total_rows
 from ehlectric.tables.contact_tables import result_rows
 from ehlectric.tables.gear_tables import gear_rows, points_table
@@ -73,7 +82,10 @@ def _title(result: Any) -> str:
 
 def _appendix(result: Any, part: Part, figures: Sequence[str]) -> Iterator[Section]:
     """Sections behind the first page, in the order of the question, with the figures of these names."""
-    yield Section("What was asked", (Text(TEXTS["questions"][part.command]), Text(part.machine or part.lead)))
+    yield Section(
+        "What was asked",
+        (Text(TEXTS["questions"][part.question or part.command]), Text(part.machine or part.lead)),
+    )
     yield Section("Result", tuple(_answer(part)))
     yield Section("Key numbers", part.numbers)
     drawn = tuple(pictures_of(result, converged=is_solved(result), names=figures))
@@ -167,6 +179,34 @@ def _gear(result: GearResult) -> Part:
     )
 
 
+def _axle(result: AxleResult) -> Part:
+    summary, case = result.summary(), result.case
+    speed, temperature = operating_point(case.drive.speed, case.drive.temperature)
+    shafts, meshes = len(case.shaft), len(case.mesh)
+    machine = (
+        f"{shafts} shaft{'s' if shafts > 1 else ''}, {len(case.bearing)} bearings and {meshes} gear "
+        f"mesh{'' if meshes == 1 else 'es'}: {amount(case.drive.torque, 'N m')} on the rotor, {speed}, "
+        f"oil at {temperature}."
+    )
+    elements = cell_table(elements_table(summary), "Bearings and meshes, the first to break down first")
+    further = [elements, cell_table(shafts_table(summary), "Shafts", "shaft")]
+    if "uncertainty" in summary:
+        further.append(cell_table(chances_table(summary), "Probabilities of bearings and meshes"))
+    if summary["remedies"]:
+        further.append(cell_table(remedies_table(summary), "Voltage / breakdown voltage with each remedy"))
+    return part_of(
+        result,
+        summary,
+        kind=f"axle with {shafts} shafts",
+        command="drive",
+        question="axle",
+        machine=machine,
+        first=(elements,),
+        numbers=(*row_tables(axle_rows(summary), "Overview"), *row_tables(chance_rows(summary), "Spread")),
+        further=(Section("Bearings, meshes and shafts", tuple(further)),),
+    )
+
+
 # Parts by the class of the result.
 _PARTS: Mapping[type, Callable[[Any], Part]] = MappingProxyType(
     {
@@ -175,6 +215,7 @@ _PARTS: Mapping[type, Callable[[Any], Part]] = MappingProxyType(
         BearingResult: _bearing,
         GearResult: _gear,
         DriveResult: drive_part,
+        AxleResult: _axle,
         SweepResults: sweep_part,
     }
 )

@@ -166,6 +166,7 @@ class Part:
 
     kind: str  # what the result is, in a few words
     command: str  # command that solves the input file
+    question: str = ""  # name of its question, by default the command
     machine: str = ""  # machine in a sentence; empty for contacts and sweeps, of which the lead says it
     lead: str  # main numbers in a sentence
     failure: str  # what is not solved; empty where all is

@@ -84,7 +84,7 @@ def write_report(
     Parameters
     ----------
     result : str or Path
-        Folder of a result of any kind, or its result.nc, bearing.nc, gear.nc, drive.nc or motion.nc.
+        Folder of a result of any kind, or its result.nc, bearing.nc, gear.nc, drive.nc, axle.nc or motion.nc.
     target : str or Path
         File of the report; its ending, .html or .pdf, decides about its format. An existing file is replaced.
     *further : str or Path

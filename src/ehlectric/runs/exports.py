@@ -309,8 +309,8 @@ def export(result: Exported | str | Path, path: str | Path) -> Path:
     Parameters
     ----------
     result : any result, str or Path
-        Result; or the folder of a result of any kind, or its result.nc, bearing.nc, gear.nc, drive.nc or
-        motion.nc.
+        Result; or the folder of a result of any kind, or its result.nc, bearing.nc, gear.nc, drive.nc,
+        axle.nc or motion.nc.
     path : str or Path
         File to write; an existing one is replaced. ``.mat`` for MATLAB and Octave has all arrays and the
         summary, ``.xlsx`` for spreadsheets the summary, the inputs and the table of the result, and
@@ -344,10 +344,6 @@ def export(result: Exported | str | Path, path: str | Path) -> Path:
     """
     path = check_target(path)
     loaded = stored(result) if isinstance(result, str | Path) else result
-    if getattr(type(loaded), "result_kind", None) == "axle":
-        raise InputError(
-            "result", got="the result of an axle", takes="another one; save writes its tables as CSV"
-        )
     write(path, WRITERS[path.suffix.lower()](loaded))
     return path
 

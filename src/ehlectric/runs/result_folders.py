@@ -30,10 +30,10 @@ from ehlectric.figures.figure_names import (
 from ehlectric.runtime.journal import begun
 from ehlectric.runtime.reading import refuse_unreadable
 from ehlectric.runtime.result_names import (
+    AXLE_NETCDF,
     BEARING_NETCDF,
     CONTACT_NETCDF,
     DRIVE_NETCDF,
-    ELEMENTS,
     GEAR_NETCDF,
     MOTION,
     MOTION_JOURNAL,
@@ -147,7 +147,10 @@ def stored_result(path: str | Path) -> Path:
     NetCDF file, which need not exist where moving roughness has only a journal yet, or the database of a
     sweep. Raises InputError if the file cannot be read, or if the folder has no result or several.
     """
-    path, names = Path(path), (CONTACT_NETCDF, BEARING_NETCDF, DRIVE_NETCDF, GEAR_NETCDF, MOTION, SWEEP)
+    path, names = (
+        Path(path),
+        (CONTACT_NETCDF, BEARING_NETCDF, DRIVE_NETCDF, GEAR_NETCDF, AXLE_NETCDF, MOTION, SWEEP),
+    )
     if not path.is_dir():
         if not _is_result(path):
             refuse_unreadable(path)
@@ -156,10 +159,6 @@ def stored_result(path: str | Path) -> Path:
             return path
         path = path.parent
     files = [path / name for name in names if _is_result(path / name)]
-    if not files and (path / ELEMENTS).is_file():
-        raise InputError(
-            path, "has the result of an axle", takes="another one: ehlectric drive draws its figure"
-        )
     if not files:
         raise InputError(path, "has no result", takes=f"a folder with one of {', '.join(names)}")
     if len(files) > 1:

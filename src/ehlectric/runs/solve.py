@@ -58,7 +58,7 @@ if TYPE_CHECKING:
 
 
 # Results of ``solve``, and of ``load``.
-SolvedResult: TypeAlias = Result | PointResult | BearingResult | DriveResult | GearResult
+SolvedResult: TypeAlias = Result | PointResult | BearingResult | DriveResult | GearResult | AxleResult
 AnyResult: TypeAlias = SolvedResult | MotionResult
 
 
@@ -75,22 +75,23 @@ _OF_KINDS: Mapping[str, Callable[[xr.Dataset, Path], AnyResult]] = {
         (bearing.SCHEMA, bearing.result_of),
         (drive.SCHEMA, drive.result_of),
         (gear.SCHEMA, gear.result_of),
+        (axle.SCHEMA, axle.result_of),
         (MOVING, _moving),
     )
 }
 
 
 def load(path: str | Path) -> AnyResult:
-    """Load the result of a contact, a bearing, a gear pair, a drive or a contact with moving roughness.
+    """Load the result of a contact, a bearing, a gear pair, a drive, an axle or moving roughness.
 
     Parameters
     ----------
     path : str or Path
-        A result.nc, bearing.nc, gear.nc, drive.nc or motion.nc, or the folder with this file.
+        A result.nc, bearing.nc, gear.nc, drive.nc, axle.nc or motion.nc, or the folder with this file.
 
     Returns
     -------
-    Result, PointResult, BearingResult, GearResult, DriveResult or MotionResult
+    Result, PointResult, BearingResult, GearResult, DriveResult, AxleResult or MotionResult
         Result, equal to the one that was saved. The result of a drive does not contain its solved bearings.
 
     Raises
@@ -120,16 +121,16 @@ def load(path: str | Path) -> AnyResult:
     return _OF_KINDS[kind](dataset, path)
 
 
-def save(result: SolvedResult | AxleResult, folder: str | Path) -> list[Path]:
-    """Save the result of a contact, bearing, gear pair or drive.
+def save(result: SolvedResult, folder: str | Path) -> list[Path]:
+    """Save the result of a contact, bearing, gear pair, drive or axle.
 
     Parameters
     ----------
-    result : Result, PointResult, BearingResult, GearResult or DriveResult
+    result : Result, PointResult, BearingResult, GearResult, DriveResult or AxleResult
         Result of ``solve``. A contact writes summary.json, result.nc and film.csv; a bearing writes
         summary.json, contacts.csv, bearing.nc and, where it has one, impedance.csv; a gear pair writes
         summary.json, path.csv, mesh.csv and gear.nc; a drive writes summary.json, events.csv, spectrum.csv
-        and drive.nc.
+        and drive.nc; an axle writes summary.json, elements.csv, shafts.csv and axle.nc.
     folder : str or Path
         Folder of the files; it is made if it does not exist.
 
@@ -159,7 +160,7 @@ def save(result: SolvedResult | AxleResult, folder: str | Path) -> list[Path]:
     raise InputError(
         "result",
         got=shown(type(result).__name__),
-        takes="a result of a contact, a bearing, a gear pair or a drive",
+        takes="a result of a contact, a bearing, a gear pair, a drive or an axle",
     )
 
 
@@ -213,7 +214,7 @@ def solve(
     beside_smooth: bool = True,
     laws: Laws | None = None,
     workers: int | None = None,
-) -> SolvedResult | AxleResult:
+) -> SolvedResult:
     """Solve a contact, a bearing, a gear pair, a drive or an axle.
 
     Parameters
@@ -445,7 +446,7 @@ def solve_motion(case: Case, *, progress: Progress = silent) -> MotionResult:
 R = TypeVar("R")
 
 # Result of a case, or the error instead.
-_Outcome = SolvedResult | AxleResult | Exception
+_Outcome = SolvedResult | Exception
 
 
 class Solved(NamedTuple, Generic[R]):
@@ -509,7 +510,7 @@ def solve_many(
     *,
     progress: Progress | None = None,
     laws: Laws | None = None,
-) -> Iterator[Solved[SolvedResult | AxleResult]]: ...
+) -> Iterator[Solved[SolvedResult]]: ...
 
 
 def solve_many(

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ehlectric.arrays import Array
+from ehlectric.axle import AxleResult
 from ehlectric.bearing import ON_SHAFT, BearingResult, scaled_curves
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.solved_case import SolvedCase
@@ -20,7 +21,7 @@ from ehlectric.gear import GearResult
 from ehlectric.quantities.formats import UNITS, USUAL, Scale, scale_for, scale_of
 from ehlectric.quantities.inputs import SPEED, end_and_key
 from ehlectric.quantities.quantity import key_of
-from ehlectric.quantities.results import ELEMENT_KEYS, EVENT_KEYS, POINT_KEYS
+from ehlectric.quantities.results import AXLE_ELEMENT_KEYS, ELEMENT_KEYS, EVENT_KEYS, POINT_KEYS
 from ehlectric.quantities.units import printed
 from ehlectric.runs.solve import AnyResult
 from ehlectric.runtime.display import is_number
@@ -153,6 +154,8 @@ def _table(
                 shown = ELEMENT_KEYS[name].shown if name in ELEMENT_KEYS else ""
             case DriveResult():
                 shown = EVENT_KEYS[name].shown if name in EVENT_KEYS else ""
+            case AxleResult():
+                shown = AXLE_ELEMENT_KEYS[name].shown if name in AXLE_ELEMENT_KEYS else ""
             case GearResult():
                 shown = POINT_KEYS[name].shown if name in POINT_KEYS else ""
             case _:

@@ -26,7 +26,7 @@ def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> AxleA
     """Answer about an axle without its remedies. Raises InputError if the tables are no valid axle, a bearing
     cannot carry its load, or gears cannot run together.
     """
-    return answer_of(solve_axle(axle_of(table, session), remedies=False), whole=False)
+    return answer_of(solve_axle(axle_of(table, session), remedies=False, probable=False), whole=False)
 
 
 def whole_answer(table: Mapping[str, Any], session: Path | None = None) -> AxleAnswer:

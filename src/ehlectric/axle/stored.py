@@ -1,0 +1,152 @@
+"""Stored form of the result of an axle, axle.nc: its variables in SI units, and the solutions of such a file.
+
+A file contains the drive file with its gear files, and the films of all elements of the axle and of its
+remedies. Names, speeds and torques follow from the case.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ehlectric.arrays import Array
+from ehlectric.axle.solution import AxleSolution, Element
+from ehlectric.cases.axle_case import AxleCase
+from ehlectric.cases.axle_inputs import HOUSING
+from ehlectric.quantities.result_warnings import CODES_OF_TEXTS, TEXTS, warnings_of
+from ehlectric.runtime.file_rules import UnfitError, case_of, is_list, is_text, json_of
+from ehlectric.runtime.files import plain
+from ehlectric.runtime.netcdf import Layout
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+# Name and version of the layout of axle.nc.
+SCHEMA = "ehlectric.axle.result/1"
+
+_DIMENSIONS = ("variant", "element")
+
+# Fields of an element that are numbers, with whether they may be missing.
+_NUMBERS = {
+    "capacitance": False,
+    "breakdown_voltage": True,
+    "contact_time_share": False,
+    "lambda_ratio": False,
+    "radial_load": True,
+    "axial_load": True,
+    "touching": False,
+    "film_error": False,
+}
+
+
+def layout_of(solutions: Sequence[AxleSolution], seconds: float, version: str, *, probable: bool) -> Layout:
+    """Variables and attributes of an axle.nc, SI units, from which ``solutions_of`` makes equal solutions.
+
+    ``solutions`` of the axle, and of the axle with each of its remedies; ``probable``, whether the result
+    contains the probabilities of the elements.
+    """
+    count = max(len(solution.elements) for solution in solutions)
+    warnings = [[[each.code, each.text] for each in solution.warnings] for solution in solutions]
+    return Layout(
+        {name: (_DIMENSIONS, _column(solutions, name, count)) for name in _NUMBERS},
+        {
+            "schema": SCHEMA,
+            "version": version,
+            "case": solutions[0].case.to_toml(),
+            "warnings": _text(warnings),
+            "seconds": seconds,
+            "probable": int(probable),
+        },
+    )
+
+
+def _column(solutions: Sequence[AxleSolution], name: str, count: int) -> Array:
+    """Numbers of a field of all elements, NaN where an element has none, shape (variants, elements)."""
+    column = np.full((len(solutions), count), math.nan)
+    for row, solution in zip(column, solutions, strict=True):
+        for place, element in enumerate(solution.elements):
+            value = getattr(element, name)
+            row[place] = math.nan if value is None else float(value)
+    return column
+
+
+def _text(value: Any) -> str:
+    import json
+
+    return json.dumps(plain(value))
+
+
+def solutions_of(dataset: xr.Dataset) -> tuple[AxleSolution, ...]:
+    """Solutions of a dataset of ``layout_of``, first without remedies. Raises UnfitError where a variable or
+    an attribute is missing, or is not as it was written.
+    """
+    case = case_of(dataset.attrs, AxleCase.from_dict)
+    cases = [case, *case.variants()]
+    warnings = json_of(dataset.attrs, "warnings", lambda value: is_list(value, _are_warnings))
+    columns = {name: _read(dataset, name) for name in _NUMBERS}
+    (variants, count) = columns["capacitance"].shape
+    if variants not in (1, len(cases)) or len(warnings) != variants:
+        raise UnfitError(f"it has {variants} variants of an axle with {len(case.remedies)} remedies")
+    if any(column.shape != (variants, count) for column in columns.values()):
+        raise UnfitError("its variables differ in their shape")
+    return tuple(
+        AxleSolution(
+            of_variant,
+            of_variant.turning(),
+            tuple(_elements(of_variant, {name: column[k] for name, column in columns.items()})),
+            warnings_of(
+                {CODES_OF_TEXTS: [row[0] for row in warnings[k]], TEXTS: [row[1] for row in warnings[k]]}
+            ),
+        )
+        for k, of_variant in enumerate(cases[:variants])
+    )
+
+
+def _are_warnings(value: Any) -> bool:
+    """Whether a value is a list of codes and texts of warnings."""
+    return is_list(
+        value,
+        lambda row: is_list(row, is_text) and len(row) == 2,
+    )
+
+
+def _read(dataset: xr.Dataset, name: str) -> Array:
+    """Numbers of a field, shape (variants, elements)."""
+    if name not in dataset or tuple(dataset[name].dims) != _DIMENSIONS:
+        raise UnfitError(f"{name} is missing, or has other dimensions")
+    values = np.asarray(dataset[name].values)
+    if values.dtype.kind != "f" or np.any(np.isinf(values)):
+        raise UnfitError(f"{name} is not a number")
+    return values
+
+
+def _elements(case: AxleCase, rows: dict[str, Array]) -> list[Element]:
+    """Elements of an axle from the numbers of their fields, shape (elements,)."""
+    bearings = [
+        {"name": name, "kind": "bearing", "first": bearing.shaft, "second": HOUSING}
+        for name, bearing in zip(case.names_of_bearings(), case.bearing, strict=True)
+    ]
+    meshes = [
+        {
+            "name": name,
+            "kind": "mesh",
+            "first": mesh.gears[0],
+            "second": mesh.gears[1],
+            "conduction": mesh.pair.gear.contact.conduction,
+        }
+        for name, mesh in zip(case.names_of_meshes(), case.mesh, strict=True)
+    ]
+    fields: list[dict[str, Any]] = [*bearings, *meshes]
+    if len(fields) > rows["capacitance"].size:
+        raise UnfitError(f"it has {rows['capacitance'].size} elements of {len(fields)}")
+    for place, values in enumerate(fields):
+        for name, optional in _NUMBERS.items():
+            value = float(rows[name][place])
+            if math.isnan(value) and not optional:
+                raise UnfitError(f"{name} of {values['name']} is not a number")
+            values[name] = None if math.isnan(value) else value
+        values["touching"] = bool(values["touching"])
+    return [Element(**values) for values in fields]
