@@ -1,6 +1,8 @@
 """Page of a gear pair as a user sees it: from a drawing to the verdict, with the numbers of the command."""
 
+import json
 import re
+import zipfile
 
 import pytest
 
@@ -134,3 +136,33 @@ def test_a_sweep_begins_with_the_gears_of_the_page(gears):
     values = "names.map((_, k) => document.querySelector(`[data-testid=field-vary-${k}]`)?.value)"
     page.wait_for_function(f"names => `${{{values}}}` === `${{names}}`", arg=names)
     assert "/gear?" in page.get_by_role("link", name="Open the base case on its page").get_attribute("href")
+
+
+@pytest.mark.slow
+def test_a_duty_cycle_follows_the_answer(gears, tmp_path):
+    """The numbers of the cycle are the numbers of the command; without its file, its place is hidden."""
+    page = gears
+    rows = "0,0,50,60\n10,50,120,80\n20,9000,20,50\n60,12000,30,70\n100,6000,15,70\n"
+    cycle = tmp_path / "cycle.csv"
+    cycle.write_text(f"time [s],speed [rpm],torque [N m],temperature [degC]\n{rows}", encoding="utf-8")
+    assert not page.get_by_test_id("duty").is_visible()
+    page.locator("[data-testid=group-duty-cycle] > summary").click()
+    wrong = tmp_path / "wrong.csv"
+    wrong.write_text("time [s],radial load [N]\n0,1\n1,2\n", encoding="utf-8")
+    page.get_by_test_id("upload-duty").set_input_files(wrong)
+    page.get_by_test_id("error-duty").filter(has_text="torque [N m]").wait_for()
+    page.get_by_test_id("upload-duty").set_input_files(cycle)
+    wait_for_address(page, "duty.file=")
+    numbers = page.get_by_test_id("duty-numbers").locator("tr")
+    still = numbers.filter(has_text="share of the duty cycle at a standstill").locator("td")
+    # The first row counts for half of the first interval of 100 s.
+    still.filter(has_text="5 %").wait_for()
+    numbers.filter(has_text="mesh conducts").filter(has_text="10 %").wait_for()
+    assert page.get_by_test_id("figure-duty").locator(".js-plotly-plot .yaxislayer-above").count() > 0
+    assert page.get_by_test_id("duty-stretches").locator("tbody tr").count() > 0
+    with zipfile.ZipFile(downloaded(page, "download-all", tmp_path)) as archive:
+        assert {"duty.csv", "gear_duty.svg", "surfaces/surface-2.csv"} <= set(archive.namelist())
+        duty = json.loads(archive.read("summary.json"))["duty"]
+    assert duty["standstill_share"] == pytest.approx(0.05)
+    page.get_by_test_id("duty-remove").click()
+    page.get_by_test_id("duty").wait_for(state="hidden")

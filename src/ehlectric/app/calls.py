@@ -73,6 +73,7 @@ DRIVE_SIMULATED: Call[DriveAnswer] = Call("drive_answers.simulate")
 # A gear pair.
 GEAR_QUICK: Call[GearAnswer] = Call("gear_answers.quick_answer")
 GEAR_WHOLE: Call[GearAnswer] = Call("gear_answers.whole_answer")
+GEAR_DUTY: Call[DutyAnswer] = Call("gear_answers.duty_answer")
 GEAR_SOLVED: Call[GearAnswer] = Call("gear_answers.solve_pair")
 
 # An axle.

@@ -706,6 +706,9 @@ class GearAnswer(PageAnswer):
     geometry: Table  # contact ratios and other numbers that follow from the drawing
     points: Table  # radii, speeds, loads and films at the points A to E of the path of contact
     follows: Mapping[str, str]  # values with units that follow from other inputs, by key of the input
+    # Duty cycle of a solved gear pair; None without one, and of an immediate answer, whose page asks for it
+    # later.
+    duty: DutyAnswer | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -11,6 +11,7 @@ from .mesh_duty import MeshDuty as MeshDuty
 from .mesh_duty import MeshRows as MeshRows
 from .mesh_duty import check_mesh_duty as check_mesh_duty
 from .mesh_duty import mesh_states as mesh_states
+from .mesh_duty import run_mesh_duty as run_mesh_duty
 from .mesh_forces import Hand as Hand
 from .mesh_forces import mesh_forces as mesh_forces
 from .points import name_of_place as name_of_place

@@ -8,18 +8,29 @@ from dataclasses import replace
 from ehlectric.app.charts.plotly_panels import Plot, kept_nodes, stack
 from ehlectric.bearing import DutyResult, lubrication_names
 from ehlectric.figures.data import Along, Panel
-from ehlectric.figures.duty_panels import duty_panels, time_axis
+from ehlectric.figures.duty_panels import duty_panels, gear_duty_panels, time_axis
+from ehlectric.gear import MeshDuty, mesh_states
 from ehlectric.quantities.formats import rpm_text, scale_of
 from ehlectric.readable import readable
 
 # Heads of the table over the time, and largest number of its rows.
 DUTY_HEADS = ("time [s]", "speed [rpm]", "temperature [°C]", "λ", "margin", "state")
 MOST_DUTY_ROWS = 200
+MESH_DUTY_HEADS = (
+    "time [s]", "torque [N m]", "speed [rpm]", "flanks [°C]", "λ", "breakdown [V]", "margin", "state"
+)  # fmt: skip
 
 
 def duty_figure(duty: DutyResult) -> Plot:
     """Speed, lambda ratio and margin over the time, with bands of the states behind them."""
     return cycle_plot(time_axis(duty.rows), duty_panels(duty))
+
+
+def mesh_duty_figure(duty: MeshDuty, summits: float) -> Plot:
+    """Speed, torque, lambda ratio and breakdown voltage over the time, with bands of the states of the mesh.
+    ``summits``, height of the highest summits in units of the composite Rq.
+    """
+    return cycle_plot(time_axis(duty.rows), gear_duty_panels(duty, summits))
 
 
 def cycle_plot(along: Along, panels: Iterable[Panel]) -> Plot:
@@ -53,11 +64,29 @@ def duty_rows(duty: DutyResult) -> list[tuple[str, ...]]:
             readable(rows.time[k], 6),
             rpm_text(rows.speed[k]),
             readable(celsius.of(float(rows.temperature[k])), 4),
-            *(
-                readable(column[k]) if column[k] == column[k] else "none"
-                for column in (rows.lambda_ratio, rows.margin)
-            ),
+            *(_known(column[k]) for column in (rows.lambda_ratio, rows.margin)),
             names[k],
         )
         for k in kept_nodes(rows.time.size, MOST_DUTY_ROWS).tolist()
     ]
+
+
+def mesh_duty_rows(duty: MeshDuty) -> list[tuple[str, ...]]:
+    """Cells of the table of a gear pair over the time, of rows evenly spaced in the file."""
+    rows, celsius, names = duty.rows, scale_of("°C"), mesh_states(duty.rows)
+    return [
+        (
+            readable(rows.time[k], 6),
+            readable(rows.torque[k], 4),
+            rpm_text(rows.speed[k]),
+            _known(celsius.of(float(rows.flank_temperature[k])), 4),
+            *(_known(column[k]) for column in (rows.lambda_ratio, rows.breakdown_voltage, rows.margin)),
+            names[k],
+        )
+        for k in kept_nodes(rows.time.size, MOST_DUTY_ROWS).tolist()
+    ]
+
+
+def _known(value: float, digits: int = 3) -> str:
+    """Number of a cell, or "none"."""
+    return readable(value, digits) if value == value else "none"

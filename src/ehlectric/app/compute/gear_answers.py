@@ -16,10 +16,12 @@ from ehlectric.app.compute.answer_parts import (
     page_warnings_of,
     with_warnings,
 )
+from ehlectric.app.compute.duty_answers import shown_mesh_duty
 from ehlectric.app.view_models import (
     PENDING,
     WITHOUT_PROBABILITY,
     Deciding,
+    DutyAnswer,
     Figure,
     Gauge,
     GearAnswer,
@@ -40,7 +42,7 @@ from ehlectric.figures.gear_panels import (
     mesh_finding,
     path_finding,
 )
-from ehlectric.gear import GearResult, solve_gear
+from ehlectric.gear import GearResult, run_mesh_duty, solve_gear
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.results import GEAR_BOOK
 from ehlectric.quantities.rows import Row, Summary, row_of
@@ -48,6 +50,7 @@ from ehlectric.quantities.sheets import GEAR, GEAR_CARDS
 from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import ratio_text, readable
 from ehlectric.runs.by_kind import run_gear
+from ehlectric.runtime.files import plain
 from ehlectric.runtime.progress import Progress
 from ehlectric.tables.gear_tables import gear_rows, point_rows
 
@@ -80,18 +83,34 @@ def _check_both(gear: Any) -> None:
             raise InputError(f"gear.{name}.{empty}", "is empty;", takes="a value, as for the other gear")
 
 
+def _alone(table: Mapping[str, Any], session: Path | None) -> GearCase:
+    """Gear pair at its own operating point without solved films, which needs no file of a duty cycle."""
+    case = gear_case({key: value for key, value in table.items() if key != "duty"}, session)
+    return case.replace({"contacts": quick_way(case.contacts)})
+
+
 def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> GearAnswer:
     """Answer about a gear pair without solved films and without its probability of breakdown. Raises
     InputError if the tables are no valid gear pair, or its gears cannot run together.
     """
-    case = gear_case(table, session)
-    return answer_of(solve_gear(case.replace({"contacts": quick_way(case.contacts)}), probable=False))
+    return answer_of(solve_gear(_alone(table, session), probable=False))
 
 
 def whole_answer(table: Mapping[str, Any], session: Path | None = None) -> GearAnswer:
     """Answer about a gear pair without solved films; see ``quick_answer``."""
+    return answer_of(solve_gear(_alone(table, session)))
+
+
+def duty_answer(table: Mapping[str, Any], session: Path | None = None) -> DutyAnswer:
+    """Answer about the duty cycle of a gear pair, which takes several seconds. Raises InputError where the
+    tables are no valid gear pair, or its cycle cannot be computed.
+    """
     case = gear_case(table, session)
-    return answer_of(solve_gear(case.replace({"contacts": quick_way(case.contacts)})))
+    duty = run_mesh_duty(case)
+    if duty is None:
+        raise InputError.missing("duty.file", "a file of a duty cycle")
+    summary = solve_gear(_alone(table, session), probable=False).summary() | {"duty": plain(duty.summary())}
+    return shown_mesh_duty(duty, summary, case.gear.summit_height)
 
 
 def solve_pair(
@@ -108,7 +127,9 @@ def solve_pair(
 def answer_of(result: GearResult) -> GearAnswer:
     """Answer of a solved gear pair."""
     summary, verdict = result.summary(), result.verdict
-    rows = gear_rows(summary)
+    duty = None if result.duty is None else shown_mesh_duty(result.duty, summary, _summits(result))
+    # Rows of a duty cycle are with its result.
+    rows = gear_rows({**summary, "duty": None})
     warnings = limited_to(page_warnings_of(result.warnings), GEAR_CARDS)
     return GearAnswer(
         title=result.case.title,
@@ -126,7 +147,13 @@ def answer_of(result: GearResult) -> GearAnswer:
         geometry=geometry_table(summary),
         points=points_table(summary),
         follows=follows(result),
+        duty=duty,
     )
+
+
+def _summits(result: GearResult) -> float:
+    """Height of the highest summits in units of the composite Rq."""
+    return float(result.case.gear.summit_height)
 
 
 def _over_pitch(numbers: Iterable[Number], rows: Iterable[Row]) -> Iterator[Number]:

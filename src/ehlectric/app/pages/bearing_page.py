@@ -17,10 +17,10 @@ from ehlectric.app.calls import (
     BEARING_WHOLE,
 )
 from ehlectric.app.form_fields import BEARING_GROUPS
-from ehlectric.app.latest_answer import LatestAnswer
 from ehlectric.app.page_inputs import Inputs
-from ehlectric.app.pages.answer_page import AnswerPage, AnswerView
-from ehlectric.app.pages.duty_box import DUTY_FILE, DutyField, DutyView
+from ehlectric.app.pages.answer_page import AnswerView
+from ehlectric.app.pages.cycle_page import CyclePage
+from ehlectric.app.pages.duty_box import DUTY_FILE, DutyView
 from ehlectric.app.pages.frame import BEARING
 from ehlectric.app.pages.page_parts import mark, say
 from ehlectric.app.pages.remedies_box import RemediesBox
@@ -31,11 +31,9 @@ from ehlectric.app.view_models import (
     RANGE_FOLLOWS,
     BearingAnswer,
     Difference,
-    DutyAnswer,
     Table,
 )
 from ehlectric.cases.defaults import HOW
-from ehlectric.errors import LostError
 from ehlectric.quantities.sheets import BEARING_CARDS
 
 _AT_ONCE, _OVER_SPEED = ("load", "film"), ("capacitance",)
@@ -43,8 +41,6 @@ _AT_ONCE, _OVER_SPEED = ("load", "film"), ("capacitance",)
 _OTHER_ROWS = "All rows of the operating point, as the command prints them"
 
 _OR_SOLVE = "solve the contacts, which computes the duty cycle, too"
-
-_NOT_COMPUTED = "The duty cycle is not computed; its field says why."
 
 # Codes of statements about what a later answer has.
 _TO_FOLLOW = ("range-follows", "probability-follows")
@@ -151,7 +147,7 @@ def differences_html(differences: Iterable[Difference]) -> str:
     return table_html(Table(f"Solved contacts compared with the {way}", heads, cells))
 
 
-class BearingPage(AnswerPage[BearingAnswer]):
+class BearingPage(CyclePage[BearingAnswer]):
     """Page of one tab."""
 
     path = "/"
@@ -164,46 +160,20 @@ class BearingPage(AnswerPage[BearingAnswer]):
     elsewhere = (DUTY_FILE,)
     quick, later, solved = BEARING_QUICK, (BEARING_CURVES, BEARING_WHOLE), BEARING_SOLVED
     prompt = 1
+    cycle, or_solve = BEARING_DUTY, _OR_SOLVE
 
     view: BearingView
-
-    def __init__(self, session: Session) -> None:
-        super().__init__(session)
-        # A duty cycle takes several seconds: it follows the whole answer, behind the answers of other tabs.
-        self._cycle: LatestAnswer[Inputs, DutyAnswer] = LatestAnswer(
-            self._cycle_of,
-            show=lambda _, answer: self._show_cycle(answer),
-            passing=lambda *_: None,
-            refuse=self._refuse_cycle,
-            behind=session.work.behind,
-        )
 
     def build_view(self) -> None:
         """Build the place of the answer."""
         self.view = BearingView(self.session)
 
-    def build_boxes(self) -> None:
-        """Build the field of a duty cycle."""
-        self.duty = DutyField(self.session, self.form.take, self.kind)
-
-    def show_boxes(self) -> None:
-        """Show the present inputs in the field of the duty cycle."""
-        self.duty.refresh()
-
     def close(self) -> None:
         """Want no further answers."""
         super().close()
-        self._cycle.drop()
         self.view.remedies.latest_answer.drop()
 
-    async def _cycle_of(self, inputs: Inputs) -> DutyAnswer:
-        async with self.session.work.behind:
-            if inputs != self.session.inputs:
-                raise LostError("the inputs have changed")
-            return await self.session.work.quick(BEARING_DUTY, dict(inputs.table), self.session.made_folder)
-
     def _ask(self, *, at_once: bool = False) -> asyncio.Future[None]:
-        self._cycle.drop()
         self.view.remedies.wait()
         return super()._ask(at_once=at_once)
 
@@ -213,31 +183,3 @@ class BearingPage(AnswerPage[BearingAnswer]):
             self.view.remedies.refresh()
         else:
             self.view.remedies.offer()
-        if self.duty.file is None:
-            self.view.duty.show(None)
-        elif self.duty.lost:
-            self.view.duty.fail(_NOT_COMPUTED)
-        elif answer.duty is not None:
-            self._show_cycle(answer.duty)
-        else:
-            self.view.duty.wait()
-            if answer.whole:
-                self._cycle.ask(inputs)
-
-    def _put(self, answer: BearingAnswer) -> None:
-        self.view.place(cycle=self.duty.file is not None)
-        super()._put(answer)
-
-    def _show_cycle(self, answer: DutyAnswer) -> None:
-        self.view.duty.show(answer, self.duty.named)
-
-    def _refuse_cycle(self, error: Exception) -> None:
-        # A solution has more time than an answer of the page.
-        further = f"; {_OR_SOLVE}" if isinstance(error, LostError) else ""
-        self.duty.refuse(f"{error}{further}")
-        self.view.duty.fail(_NOT_COMPUTED)
-
-    def _refuse(self, error: Exception) -> None:
-        super()._refuse(error)
-        self._cycle.drop()
-        self.view.duty.stop()

@@ -22,16 +22,18 @@ from ehlectric.runtime.memory import MOST_MEASURED
 DUTY_FILE, _EXAMPLE = "duty.file", "measurements/wltc_class_3b_motor.csv"
 
 _COLUMNS = (
-    "The file has the column time [s], and any of speed [rpm], radial load [N], axial load [N], temperature "
-    "[degC] and common-mode voltage [V]. What has no column is as above."
+    "The file has the column time [s], and any of speed [rpm], {columns}. What has no column is as above."
 )
+_OF_BEARINGS = "radial load [N], axial load [N], temperature [degC] and common-mode voltage [V]"
+_OF_GEARS = "torque [N m], temperature [degC], flank temperature [degC] and voltage [V]"
 
 # What a cycle gives, by the kind of the page, and where its result is.
 _GIVES = {
     "bearing": "The bearing over time.",
     "drive": "Discharges over time, with the simulation; loads are those of both bearings.",
+    "gear": "The mesh over time.",
 }
-_PLACES = {"bearing": "duty", "drive": "figure-duty"}
+_PLACES = {"bearing": "duty", "drive": "figure-duty", "gear": "duty"}
 
 _COMPUTING = "The cycle is being computed."
 
@@ -39,21 +41,22 @@ _TO_RESULT = "document.querySelector('[data-testid={}]')?.scrollIntoView({{ bloc
 
 
 class DutyField:
-    """Field for the file of a duty cycle of a page of a ``kind``, "bearing" or "drive"; ``change`` is called
-    with a changed key and its value.
+    """Field for the file of a duty cycle of a page of a ``kind``, "bearing", "drive" or "gear"; ``change`` is
+    called with a changed key and its value.
     """
 
     def __init__(
         self, session: Session, change: Callable[[dict[str, Any]], Awaitable[None]], kind: str
     ) -> None:
-        self._session, self._change = session, change
+        self._session, self._change, self._kind = session, change, kind
+        columns = _COLUMNS.format(columns=_OF_GEARS if kind == "gear" else _OF_BEARINGS)
         self._sentences: dict[str, str] = {}  # sentences about files that were looked at
         self._last: str | None = None  # file that was shown last
         title, given, to_result = "Duty cycle", self.file is not None, _TO_RESULT.format(_PLACES[kind])
         with (
             ui.element("div").classes("form").props('role="form" aria-label="Duty cycle"'),
             GroupBox(
-                title, title=title, note=f"{_GIVES[kind]} {_COLUMNS}", opened=given, first=True
+                title, title=title, note=f"{_GIVES[kind]} {columns}", opened=given, first=True
             ) as self._group,
             ui.element("div").classes("box"),
         ):
@@ -133,7 +136,9 @@ class DutyField:
     async def _take(self, name: str) -> None:
         """Put an uploaded file into the inputs, if it is a duty cycle."""
         try:
-            self._sentences[name] = await self._session.work.quick(DUTY_LOOK, name, self._session.folder)
+            self._sentences[name] = await self._session.work.quick(
+                DUTY_LOOK, name, self._session.folder, self._kind
+            )
         except (InputError, LostError) as error:
             self._tell(self._with_name(str(error), name))
             return
@@ -144,7 +149,7 @@ class DutyField:
 
 
 class DutyView:
-    """Place of the result of a duty cycle, below the answer about its bearing."""
+    """Place of the result of a duty cycle, below the answer about its bearing or gear pair."""
 
     def __init__(self) -> None:
         with ui.element("section").classes("duty").props('aria-label="Duty cycle"') as self.body:

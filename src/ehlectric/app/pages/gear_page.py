@@ -8,11 +8,13 @@ from typing import Any, ClassVar
 
 from nicegui import ui
 
-from ehlectric.app.calls import GEAR_QUICK, GEAR_SOLVED, GEAR_WHOLE
+from ehlectric.app.calls import GEAR_DUTY, GEAR_QUICK, GEAR_SOLVED, GEAR_WHOLE
 from ehlectric.app.form_fields import GEAR_GROUPS
 from ehlectric.app.form_fields.gear_fields import Gears, gears_of, of_gears
 from ehlectric.app.page_inputs import Inputs
-from ehlectric.app.pages.answer_page import AnswerPage, AnswerView
+from ehlectric.app.pages.answer_page import AnswerView
+from ehlectric.app.pages.cycle_page import CyclePage
+from ehlectric.app.pages.duty_box import DUTY_FILE, DutyView
 from ehlectric.app.pages.frame import GEAR, PATHS
 from ehlectric.app.pages.result_parts import behind, table_html
 from ehlectric.app.session import Session
@@ -33,6 +35,7 @@ class GearView(AnswerView[GearAnswer]):
         self._points = ui.html("", sanitize=False).props('data-testid="points"')
         self.build_figures(("flank", "mesh", "path"), ("path",))
         self._geometry = ui.html("", sanitize=False).props('data-testid="geometry"')
+        self.duty = DutyView()
 
     def stop(self) -> None:
         """Show that the probability is not computed, as after a wrong input."""
@@ -58,7 +61,7 @@ class GearView(AnswerView[GearAnswer]):
         self._geometry.content = behind("Geometry that follows from the drawing", table_html(answer.geometry))
 
 
-class GearPage(AnswerPage[GearAnswer]):
+class GearPage(CyclePage[GearAnswer]):
     """Page of one tab."""
 
     path = PATHS["gear"]
@@ -66,10 +69,11 @@ class GearPage(AnswerPage[GearAnswer]):
     start = GEAR
     kind = "gear"
     groups = GEAR_GROUPS
-    elsewhere = ("contacts",)
+    elsewhere = ("contacts", DUTY_FILE)
     short: ClassVar[Mapping[str, str]] = {"mesh.margin": "", "mesh.lambda_ratio": "λ"}
     wait = 0.4
     quick, later, solved = GEAR_QUICK, (GEAR_WHOLE,), GEAR_SOLVED
+    cycle, or_solve = GEAR_DUTY, "compute it with ehlectric gear"
 
     def __init__(self, session: Session) -> None:
         super().__init__(session)
@@ -90,7 +94,8 @@ class GearPage(AnswerPage[GearAnswer]):
             self.go_to(self._left.get(kind) or of_gears(kind, now))
 
     def show_boxes(self) -> None:
-        """Show the kind of the present gear pair."""
+        """Show the kind of the present gear pair, and the field of the duty cycle."""
+        super().show_boxes()
         self._kind.set_value(gears_of(self.session.inputs))
 
     def build_view(self) -> None:
