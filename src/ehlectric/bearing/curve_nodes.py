@@ -15,6 +15,9 @@ Values = Callable[[Array], Array]
 # once, and number of parts of an interval in which a curve ends.
 _ROUNDS, _MOST, _OPEN = 16, 8, 8
 
+# Length over the smallest length of an interval that is rounding.
+_ROUNDED = 1e-6
+
 
 def where_it_bends(
     values_of: Values, x: Array, values: Array, *, tolerance: float, closest: float, always: int = 1
@@ -24,8 +27,8 @@ def where_it_bends(
     Every interval is first divided into ``2**always`` equal parts, so that no node is on a straight line by
     chance. Then an interval of length h is divided again if h^2/2 times the second divided difference at one
     of its ends exceeds the tolerance. This product is the difference from a straight line of length 2 h, four
-    times the error of the line in the interval. The number of parts is the root of product over tolerance. An
-    interval in which a curve ends is also divided.
+    times the error of the line in the interval. The number of parts is the product over the tolerance, which
+    is enough at a corner. An interval in which a curve ends is also divided.
 
     Parameters
     ----------
@@ -57,11 +60,11 @@ def where_it_bends(
     >>> start = np.array([0.0, 0.5, 1.0])
     >>> x, y = where_it_bends(root, start, root(start), tolerance=0.02, closest=0.01)
     >>> len(x[x < 0.25]), len(x[x > 0.75])
-    (11, 1)
+    (14, 1)
     """
     parts = np.full(x.size - 1, 2**always) if always else _parts(x, values, tolerance)
     for _ in range(_ROUNDS):
-        added = _between(x, np.minimum(parts, np.ceil(np.diff(x) / closest).astype(int)))
+        added = _between(x, np.minimum(parts, np.ceil(np.diff(x) / closest - _ROUNDED).astype(int)))
         if not added.size:
             break
         order = np.argsort(np.concatenate([x, added]), kind="stable")
@@ -87,7 +90,7 @@ def _parts(x: Array, values: Array, tolerance: float) -> IntArray:
     # A line is compared only if all three values are known.
     bend[1:-1] = np.max(np.where(np.isfinite(second), second, 0.0), axis=0)
     off = 0.5 * length**2 * np.maximum(bend[:-1], bend[1:])
-    parts = np.clip(np.ceil(np.sqrt(off / tolerance)), 1, _MOST).astype(int)
+    parts = np.clip(np.ceil(off / tolerance), 1, _MOST).astype(int)
     known = np.isfinite(values)
     ends = np.any(known[:, :-1] != known[:, 1:], axis=0)
     return np.where(ends, _OPEN, parts)

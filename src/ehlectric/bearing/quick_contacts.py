@@ -265,12 +265,14 @@ def outside_atlas(error: float, *, light: bool = False) -> ResultWarning:
 
 def quick_warnings(quick: QuickContact) -> list[tuple[ResultWarning, ...]]:
     """Warnings about the contacts of a single bearing, by increasing load."""
-    ring, warnings_of_loads = quick.contact.ring, []
+    warnings_of_loads: list[tuple[ResultWarning, ...]] = []
+    setup: Setup | None = None
     rows = zip(quick.load.tolist(), quick.left.tolist(), quick.error.tolist(), strict=True)
     for load, left, error in rows:
         contact = replace(quick.contact, load=load)
         grid = contact.grid
-        warnings = case_warnings(Setup(oil=ring.oil, grid=grid), contact.conditions_on(grid))
+        setup = Setup(oil=contact.ring.oil, grid=grid) if setup is None else replace(setup, grid=grid)
+        warnings = case_warnings(setup, contact.conditions_on(grid))
         of_atlas = (outside_atlas(error),) if left else ()
         warnings_of_loads.append((*of_atlas, *without_regime(warnings)))
     return warnings_of_loads

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
+from functools import cache
 from typing import ClassVar, Generic, TypeAlias
 
 import numpy as np
@@ -84,11 +84,14 @@ _ROLLER_DOMAINS = DomainRule(
 )
 
 
-@lru_cache(maxsize=128)
-def _point_grid(inlet: float, outlet: float, side: float, nodes: int) -> Grid:
-    """Grid with lengths in semi-axes; it is made once, as most contacts have the same one."""
-    table = {"inlet": -inlet, "outlet": outlet, "side": side, "nodes": nodes, "refine": REFINE}
-    return Grid.from_dict(point_grid(table))
+@cache
+def _checked_grid(*, of_point: bool) -> Grid:
+    """Grid of a heavy contact, from which the grids of all contacts are copied.
+
+    Contacts with other loads have further ends and more nodes, which need no further check.
+    """
+    table = {"nodes": 129 if of_point else 801, "refine": REFINE}
+    return Grid.from_dict(point_grid(table) if of_point else table)
 
 
 # Largest film thickness over (f - 1/2) D, the difference of the radii of groove and ball, at which the film
@@ -307,7 +310,8 @@ class BallContact:
         """Grid of film and field in semi-axes, on the domain of the contact."""
         inlet, outlet, side = map(float, self.domain)
         nodes = max(129, 8 * math.ceil(inlet + outlet) + 1, 16 * math.ceil(side) + 1)
-        return _point_grid(inlet, outlet, side, nodes)
+        ends = {"inlet": -inlet, "outlet": outlet, "side": side}
+        return _checked_grid(of_point=True).model_copy(update=ends | {"nodes": nodes})
 
     @property
     def part_needed(self) -> Numbers:
@@ -420,19 +424,19 @@ class RollerContact:
     @property
     def grid(self) -> Grid:
         """Grid of film and field in half-widths, on the domain of the contact."""
-        length, (inlet, outlet, _) = float(self._build_up), self.domain
-        return Grid.from_dict(
-            {
+        length = float(self._build_up)
+        inlet, outlet, _ = map(float, self.domain)
+        return _checked_grid(of_point=False).model_copy(
+            update={
                 "inlet": -inlet,
                 "outlet": outlet,
                 # A grid takes sixteen nodes or more in the Hertz zone.
                 "nodes": max(801, 8 * math.ceil(inlet + outlet) + 1),
                 # Grids reach a hundred half-widths for the field at the most, and 1.25 by default.
-                "field_range": [
+                "field_range": (
                     -max(1.25, min(length, inlet, 100.0)),
                     max(1.25, min(length, outlet, 100.0)),
-                ],
-                "refine": REFINE,
+                ),
             }
         )
 

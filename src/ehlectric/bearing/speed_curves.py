@@ -156,6 +156,9 @@ def _add_bends(
 # distance.
 _EVEN, _GRADED = 4, 1.07
 
+# Least distance of two speeds next to the speed at which the surfaces part, over ``_CLOSEST``.
+_STEP = 0.6
+
 
 def _foreseen(log: Array, log_ratio: Array, limit: float) -> Array:
     """Return logarithms of further speeds where curves are expected to bend, shape (m,).
@@ -167,10 +170,11 @@ def _foreseen(log: Array, log_ratio: Array, limit: float) -> Array:
     """
     parts = np.interp(np.arange(_EVEN * (log.size - 1) + 1) / _EVEN, np.arange(log.size), log)
     added = [np.delete(parts, np.s_[::_EVEN])]
-    # Distances over the least length of an interval: one more for each speed, and then in a geometric series.
-    near, far = 1.0 / (_GRADED - 1.0), float(np.max(np.diff(log))) / (_EVEN * _CLOSEST * (_GRADED - 1.0))
+    # Distances in steps: one more for each speed, and then in a geometric series.
+    step, near = _STEP * _CLOSEST, 1.0 / (_GRADED - 1.0)
+    far = near * float(np.max(np.diff(log))) / (_EVEN * step)
     away = near * _GRADED ** np.arange(math.log(far / near) / math.log(_GRADED))
-    away = _CLOSEST * np.concatenate([[-0.49], np.arange(0.49, near), away])
+    away = step * np.concatenate([[-0.5], np.arange(0.5, near), away])
     for at in Sampled(lambda _: log_ratio, log, (log_ratio - math.log(limit))[np.newaxis]).crossings(0):
         added.append(at + away)
     every = np.unique(np.concatenate(added))

@@ -165,10 +165,10 @@ def roughness_factor(film_ratio: ArrayLike, *, touching: float = TOUCHING) -> Ar
         raise InputError("film_ratio", got=shown(film_ratio), takes="ratios h/Rq above 0")
     if not 0.0 < touching < 1.0:
         raise InputError("touching", got=shown(touching), takes="a gap over Rq above 0 and below 1")
+    factor, near = np.empty(ratio.shape), ratio < _FAR
     # Dawson's integral at an infinite argument times that argument is not defined; its limit is reached here.
-    far = np.clip(ratio, _FAR, 1e8) / np.sqrt(2.0)
-    factor: Array = np.asarray(2.0 * far * dawson(far))
-    near = ratio < _FAR
+    far = np.minimum(ratio[~near], 1e8) / np.sqrt(2.0)
+    factor[~near] = 2.0 * far * dawson(far)
     factor[near] = _thin_film_factor(ratio[near], touching)
     return factor
 

@@ -14,12 +14,10 @@ from ehlectric.arrays import Array
 
 # Spacing of the terms of Dawson's integral, at which its error is exp(-(pi/(2 h))^2) = 2e-27, and the terms
 # on each side of the argument, beyond which they are below 1e-16.
-_SPACING, _TERMS = 0.2, 32
+_SPACING, _TERMS = 0.2, 18
 
 # Argument beyond which three terms of the asymptotic series of Dawson's integral are exact to the last digit.
 _LARGE = 1e3
-
-_erfc = np.vectorize(math.erfc, otypes=[float])
 
 
 def erfc(x: ArrayLike) -> Array:
@@ -30,8 +28,8 @@ def erfc(x: ArrayLike) -> Array:
     >>> erfc([0.0, 1.0]).round(7).tolist()
     [1.0, 0.1572992]
     """
-    values: Array = _erfc(x)
-    return values
+    at = np.asarray(x, dtype=float)
+    return np.fromiter(map(math.erfc, at.ravel().tolist()), float, at.size).reshape(at.shape)
 
 
 def normal_share(x: ArrayLike) -> Array:
