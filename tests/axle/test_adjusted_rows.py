@@ -12,6 +12,7 @@ from ehlectric.axle.solution import loads_on_shafts, solve_elements
 from ehlectric.bearing import InclinedRow, resolve_bearing
 from ehlectric.bearing.preparation import equilibria_of
 from ehlectric.cases.axle_inputs import Adjustment
+from ehlectric.cases.bearing_inputs import Bearing
 from tests.axle.axles import two_stages
 from tests.helpers.each import each
 
@@ -28,37 +29,31 @@ TAPERED = {
 ANGULAR = {"base": "7207 B"}
 
 
+# Speed at which centrifugal forces are negligible [rad/s].
+SLOW = 1.0
+
+
 def row(**bearing):
-    """Row at a speed at which centrifugal forces are negligible."""
-    return InclinedRow.of(
-        BearingCase.from_dict(
-            {
-                "contacts": "atlas",
-                "bearing": {
-                    "radial_load": "1 kN",
-                    "axial_load": "1 kN",
-                    "inner_speed": "10 rpm",
-                    "temperature": "80 degC",
-                    "composite_rq": "0.06 um",
-                    **bearing,
-                },
-                "lubricant": {"base": "fva-3"},
-            }
-        )
-    )
+    table = {"radial_load": 1e3, "axial_load": 1e3, "inner_speed": SLOW, "temperature": 350.0}
+    return InclinedRow.of(Bearing.from_dict(table | {"composite_rq": 6e-8} | bearing))
 
 
-def rows(bearing, places=(0.0, 0.11), **adjustment):
+def rows(bearing, *, ascending=True, **adjustment):
     """Two rows that are alike."""
-    return AdjustedRows((row(**bearing), row(**bearing)), places, Adjustment.from_dict(adjustment))
+    return AdjustedRows((row(**bearing), row(**bearing)), Adjustment.from_dict(adjustment), ascending)
+
+
+def shared(pair, radial, axial, speed=SLOW):
+    """Axial forces on both rows of one shaft, and whether they are unloaded."""
+    share = pair.share(radial, axial, speed)
+    return tuple(share.forces[:, 0]), tuple(share.unloaded[:, 0])
 
 
 @pytest.mark.parametrize("bearing", [TAPERED, ANGULAR])
 @pytest.mark.parametrize("adjustment", [{"axial_play": 0.0}, {"axial_play": 2e-5}, {"preload": 700.0}])
 def test_equal_rows_without_axial_force_share_equally(bearing, adjustment):
     """By symmetry, and face to face the row at the smaller z is pressed towards -z."""
-    share = rows(bearing, arrangement="X", **adjustment).share((1500.0, 1500.0), 0.0)
-    first, second = share.forces
+    (first, second), _ = shared(rows(bearing, arrangement="X", **adjustment), (1500.0, 1500.0), 0.0)
     assert first == pytest.approx(-second, rel=1e-8)
     assert first < 0.0
 
@@ -66,9 +61,8 @@ def test_equal_rows_without_axial_force_share_equally(bearing, adjustment):
 @pytest.mark.parametrize("bearing", [TAPERED, ANGULAR])
 @pytest.mark.parametrize("preload", [0.0, 800.0])
 def test_the_preload_is_the_axial_load_without_other_loads(bearing, preload):
-    assert rows(bearing, preload=preload).share((0.0, 0.0), 0.0).forces == pytest.approx(
-        (-preload, preload), rel=1e-6, abs=1e-6
-    )
+    forces, _ = shared(rows(bearing, preload=preload), (0.0, 0.0), 0.0)
+    assert forces == pytest.approx((-preload, preload), rel=1e-6, abs=1e-6)
 
 
 def test_a_large_axial_force_unloads_a_row():
@@ -79,16 +73,17 @@ def test_a_large_axial_force_unloads_a_row():
         (TAPERED, 1000.0 * math.tan(ANGLE) / math.cos(math.pi / ROLLERS)),
         (ANGULAR, 0.0),
     ):
-        share = rows(bearing, arrangement="O", axial_play=1e-3).share((1000.0, 1000.0), 5000.0)
-        assert share.forces == pytest.approx((5000.0 + least, -least), rel=1e-5, abs=1e-2)
-        assert share.unloaded == (False, True)
+        pair = rows(bearing, arrangement="O", axial_play=1e-3)
+        forces, unloaded = shared(pair, (1000.0, 1000.0), 5000.0)
+        assert forces == pytest.approx((5000.0 + least, -least), rel=1e-5, abs=1e-2)
+        assert unloaded == (False, True)
 
 
 def test_rows_that_just_touch_follow_the_rule_of_catalogues():
     """With half of the rollers loaded, F_a = 1.26 F_r tan a; the rule of catalogues, 0.5 F_r/Y with
     Y = 0.4 cot a, is 1.25 F_r tan a. 1.26 is J_a/J_r of Sjovall's integrals at 0.5, here sums over rollers.
     """
-    force = rows(TAPERED, arrangement="X", axial_play=0.0).share((1500.0, 1500.0), 0.0).forces[1]
+    (_, force), _ = shared(rows(TAPERED, arrangement="X", axial_play=0.0), (1500.0, 1500.0), 0.0)
     psi = 2.0 * math.pi * np.arange(ROLLERS) / ROLLERS
     loads = np.maximum(0.0, np.cos(psi)) ** (10.0 / 9.0)
     assert force == pytest.approx(1500.0 * math.tan(ANGLE) * np.sum(loads) / (loads @ np.cos(psi)), rel=1e-6)
@@ -96,7 +91,7 @@ def test_rows_that_just_touch_follow_the_rule_of_catalogues():
 
 
 @pytest.mark.parametrize(("bearing", "angle"), [(TAPERED, ANGLE), (ANGULAR, None)])
-@pytest.mark.parametrize("speed", ["10 rpm", "9000 rpm"])
+@pytest.mark.parametrize("speed", [SLOW, 900.0])
 def test_equal_rows_agree_with_a_pair_at_one_place(bearing, angle, speed):
     """Without an axial force both rows of a pair have half of its radial load, and one displacement."""
     table = {
@@ -114,8 +109,8 @@ def test_equal_rows_agree_with_a_pair_at_one_place(bearing, angle, speed):
     (at,) = equilibria_of(resolve_bearing(BearingCase.from_dict(table)), 1)
     angles = at.inner_angle if angle is None else np.full_like(at.inner_load, angle)
     first = np.split(at.inner_load * np.sin(np.abs(angles)), 2)[0]
-    share = rows({**bearing, "inner_speed": speed}, preload=700.0).share((1500.0, 1500.0), 0.0)
-    assert share.forces[1] == pytest.approx(np.sum(first), rel=1e-4)
+    (_, force), _ = shared(rows(bearing, preload=700.0), (1500.0, 1500.0), 0.0, speed)
+    assert force == pytest.approx(np.sum(first), rel=1e-4)
 
 
 def stiffness():
@@ -123,7 +118,7 @@ def stiffness():
     from ehlectric.formulas.hertz import body_compliance, reduced_modulus
 
     steel = reduced_modulus(body_compliance(206e9, 0.3), body_compliance(206e9, 0.3))
-    return 35948.0e6 * LENGTH ** (8.0 / 9.0) * row(**TAPERED).conditions.modulus / steel
+    return 35948.0e6 * LENGTH ** (8.0 / 9.0) * row(**TAPERED).modulus / steel
 
 
 def axial_load(approach, radial):
@@ -156,22 +151,35 @@ def test_the_place_of_the_shaft_solves_both_rows(axial, total):
         # Each row approaches half of the sum at rest.
         sine = math.sin(ANGLE)
         play = {"preload": ROLLERS * stiffness() * (0.5 * total * sine) ** (10.0 / 9.0) * sine}
-    share = rows(TAPERED, arrangement="O", **play).share(radial, axial)
+    forces, _ = shared(rows(TAPERED, arrangement="O", **play), radial, axial)
     expected = axial_load(place, radial[0]), -axial_load(total - place, radial[1])
-    assert share.forces == pytest.approx(expected, rel=2e-6)
+    assert forces == pytest.approx(expected, rel=2e-6)
+
+
+def test_many_shafts_have_the_shares_of_each():
+    """Also with loads at which a row is unloaded."""
+    pair = rows(TAPERED, arrangement="X", axial_play=1e-5)
+    first, second = np.array([1500.0, 200.0, 0.0, 900.0]), np.array([800.0, 900.0, 50.0, 900.0])
+    axial, speed = np.array([0.0, -700.0, 9e3, 1.0]), np.array([1.0, 100.0, 200.0, 300.0])
+    many = pair.share((first, second), axial, speed)
+    for place in range(4):
+        forces, unloaded = shared(pair, (first[place], second[place]), axial[place], speed[place])
+        assert tuple(many.forces[:, place]) == pytest.approx(forces, rel=1e-8, abs=1e-9)
+        assert tuple(many.unloaded[:, place]) == unloaded
 
 
 def test_pressure_centres():
     """(d_m/2) tan a outside of both rows or between them; the order of the rows in the file is free."""
     distance = 0.5 * PITCH * math.tan(ANGLE)
     for places in ((0.0, 0.11), (0.11, 0.0)):
-        sign = 1.0 if places[0] == 0.0 else -1.0
-        outside = rows(TAPERED, places, arrangement="O", preload=0.0).pressure_centres
-        between = rows(TAPERED, places, preload=0.0).pressure_centres
+        ascending = places[0] == 0.0
+        sign = 1.0 if ascending else -1.0
+        pairs = (rows(TAPERED, ascending=ascending, arrangement=way, preload=0.0) for way in "OX")
+        outside, between = (pair.pressure_centres(places) for pair in pairs)
         assert outside == pytest.approx((places[0] - sign * distance, places[1] + sign * distance))
         assert between == pytest.approx((places[0] + sign * distance, places[1] - sign * distance))
     with pytest.raises(InputError, match="pressure centres"):
-        _ = rows(TAPERED, (0.0, 0.01), preload=0.0).pressure_centres
+        rows(TAPERED, preload=0.0).pressure_centres((0.0, 0.01))
 
 
 def axle(base="32207", **adjustment):

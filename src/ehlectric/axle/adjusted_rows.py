@@ -14,11 +14,11 @@ least axial load of its equilibrium. Shaft, rings and housing are rigid.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
-import scipy
+import numpy as np
 
+from ehlectric.arrays import Array, Numbers
 from ehlectric.bearing import InclinedRow
 from ehlectric.cases.axle_inputs import ASSUMED_ARRANGEMENT, Adjustment, Arrangement
 from ehlectric.errors import InputError
@@ -26,7 +26,7 @@ from ehlectric.errors import InputError
 # Factor by which a bound grows until the root lies below it, and most steps.
 _GROWTH, _MOST_STEPS = 2.0, 60
 
-# Relative error of axial loads, and the least load of a bound [N].
+# Relative error of axial loads, and the least step to a bound [N].
 _ACCURACY, _LEAST = 1e-10, 1.0
 
 # Sign of the z axis along which the row at the smaller z carries axial forces of the shaft.
@@ -35,39 +35,39 @@ _WAYS: dict[Arrangement, float] = {"O": 1.0, "X": -1.0}
 
 @dataclass(frozen=True)
 class AxialShare:
-    """Axial forces along z of the shaft on its two rows [N], in the order of the rows."""
+    """Axial forces of n shafts along z on their two rows, in the order of the rows."""
 
-    forces: tuple[float, float]
-    # For each row, whether it carries only the axial load that keeps it together.
-    unloaded: tuple[bool, bool]
+    forces: Array  # [N], shape (2, n); NaN where a row has no equilibrium
+    # For each row, whether it carries only the axial load that keeps it together, shape (2, n).
+    unloaded: Array
 
 
 @dataclass(frozen=True)
 class AdjustedRows:
-    """Two rows at places along z [m], adjusted against each other."""
+    """Two rows that are adjusted against each other."""
 
     rows: tuple[InclinedRow, InclinedRow]
-    places: tuple[float, float]
     adjustment: Adjustment
+    ascending: bool = True  # whether the first row is at the smaller z
 
     @property
     def ways(self) -> tuple[float, float]:
         """Sign of the z axis along which each row carries axial forces of the shaft."""
-        arrangement = self.adjustment.arrangement or ASSUMED_ARRANGEMENT
-        first = _WAYS[arrangement] * (1.0 if self.places[0] < self.places[1] else -1.0)
+        first = _WAYS[self.adjustment.arrangement or ASSUMED_ARRANGEMENT] * (1.0 if self.ascending else -1.0)
         return first, -first
 
-    @property
-    def pressure_centres(self) -> tuple[float, float]:
-        """Places of the pressure centres along z [m], at which the rows carry their radial loads."""
+    def pressure_centres(self, places: tuple[float, float]) -> tuple[float, float]:
+        """Places of the pressure centres along z, at which the rows carry their radial loads, from the places
+        of the rows [m].
+        """
         first, second = (
             place - way * row.pressure_distance
-            for row, place, way in zip(self.rows, self.places, self.ways, strict=True)
+            for row, place, way in zip(self.rows, places, self.ways, strict=True)
         )
-        if (second - first) * (self.places[1] - self.places[0]) <= 0.0:
+        if (second - first) * (places[1] - places[0]) <= 0.0:
             raise InputError(
                 "bearing.at",
-                got=f"places {abs(self.places[1] - self.places[0]):g} m apart, face to face",
+                got=f"places {abs(places[1] - places[0]):g} m apart, face to face",
                 takes="a larger distance: the pressure centres of both rows coincide or cross",
             )
         return first, second
@@ -78,34 +78,56 @@ class AdjustedRows:
         preload, play = self.adjustment.preload, self.adjustment.axial_play
         if preload is None:
             return -(play or 0.0)
-        return sum(row.approach(0.0, preload, resting=True) for row in self.rows)
+        return float(sum(row.approach(0.0, preload, 0.0)[0] for row in self.rows))
 
-    def share(self, radial: tuple[float, float], axial: float) -> AxialShare:
-        """Axial forces on both rows under radial loads [N] and the axial force of the shaft along z [N]."""
+    def share(self, radial: tuple[Numbers, Numbers], axial: Numbers, speed: Numbers) -> AxialShare:
+        """Axial forces on both rows of n shafts, under radial loads [N] and the axial forces of the shafts
+        along z [N], at speeds of the shafts [rad/s]; numbers, or arrays of shape (n,).
+        """
+        *loads, axial, speed = np.broadcast_arrays(*map(np.atleast_1d, (*radial, axial, speed)))
         along = self.ways[0] * axial
-        further = max(along, 0.0), max(-along, 0.0)
-        rows = tuple(zip(self.rows, radial, further, strict=True))
-        total = self.total_approach
-
-        def excess(load: float) -> float:
-            """Approach of both rows beyond the sum, at an axial load of the row that carries less."""
-            return sum(row.approach(at, load + more) for row, at, more in rows) - total
-
-        limits = [row.least_axial_load(at) - more for row, at, more in rows]
-        least = max(0.0, *limits)
-        load = least if excess(least) >= 0.0 else _root(excess, least, max(_LEAST, abs(along), *radial))
-        first, second = (load + more for more in further)
+        further = np.stack([np.maximum(along, 0.0), np.maximum(-along, 0.0)])
+        limits = (
+            np.stack([row.least_axial_load(at) for row, at in zip(self.rows, loads, strict=True)]) - further
+        )
+        load = self._lesser(np.maximum(0.0, np.max(limits, axis=0)), (*loads, *further, speed))
+        both = load + further
         return AxialShare(
-            (self.ways[0] * first, self.ways[1] * second),
-            (load == limits[0] or first == 0.0, load == limits[1] or second == 0.0),
+            np.array(self.ways)[:, np.newaxis] * both,
+            (load == limits) | (both == 0.0),
         )
 
+    def _lesser(self, least: Array, values: tuple[Array, ...]) -> Array:
+        """Axial load of the row that carries less [N], at least ``least``, shape (n,).
 
-def _root(excess: Callable[[float], float], least: float, step: float) -> float:
-    """Root of a function that increases from a value below 0 at ``least``."""
-    high = least + step
-    for _ in range(_MOST_STEPS):
-        if excess(high) >= 0.0:
-            break
-        high = least + _GROWTH * (high - least)
-    return float(scipy.optimize.brentq(excess, least, high, xtol=_ACCURACY * high, rtol=_ACCURACY))
+        ``values`` are the radial loads of both rows, the axial loads that each row carries in addition, and
+        the speed, shape (n,) each.
+        """
+        import scipy.optimize.elementwise
+
+        total, (first, second) = self.total_approach, self.rows
+
+        def excess(load: Array, *of: Array) -> Array:
+            """Approach of both rows beyond the sum."""
+            approach = first.approach(of[0], load + of[2], of[4]) + second.approach(
+                of[1], load + of[3], of[4]
+            )
+            return approach - total
+
+        low = excess(least, *values)
+        lesser = np.where(np.isnan(low), np.nan, least)
+        sought = low < 0.0
+        if not np.any(sought):
+            return lesser
+        bound, chosen = least[sought], tuple(value[sought] for value in values)
+        step = np.maximum(_LEAST, np.max(np.abs(chosen[:4]), axis=0))
+        for _ in range(_MOST_STEPS):
+            short = excess(bound + step, *chosen) < 0.0
+            if not np.any(short):
+                break
+            step = np.where(short, _GROWTH * step, step)
+        root = scipy.optimize.elementwise.find_root(
+            excess, (bound, bound + step), args=chosen, tolerances={"xrtol": _ACCURACY, "xatol": _ACCURACY}
+        )
+        lesser[sought] = np.where(root.success, root.x, np.nan)
+        return lesser

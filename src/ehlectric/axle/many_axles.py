@@ -16,7 +16,7 @@ from ehlectric.axle.solution import (
     adjustment_warnings,
     bearing_elements,
     load_of,
-    loads_on_shafts,
+    loads_of_axles,
     mesh_element,
     named_warnings,
 )
@@ -107,9 +107,13 @@ def solve_axles(
     axles: dict[int, _Axle] = {}
     mounted: list[_Mounted] = []
     of_oil = _OfOil()
-    for place, (case, scale) in enumerate(zip(cases, scales, strict=False)):
+    given = list(cases)
+    for place, (case, scale, loads) in enumerate(zip(given, scales, loads_of_axles(given), strict=False)):
+        if isinstance(loads, Exception):
+            outcomes[place] = loads
+            continue
         try:
-            axle = _Axle(case, case.turning(), loads_on_shafts(case), scale)
+            axle = _Axle(case, case.turning(), loads, scale)
             mounted += _mounted(place, axle, of_oil)
             axles[place] = axle
         except InputError as error:

@@ -12,7 +12,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Literal
+from typing import Literal, cast
 
 import numpy as np
 
@@ -31,7 +31,7 @@ from ehlectric.bearing import (
 from ehlectric.cases.axle_case import AxleCase, Turning
 from ehlectric.cases.axle_inputs import CONDUCTING, Shaft
 from ehlectric.cases.gear_inputs import Conduction
-from ehlectric.errors import within
+from ehlectric.errors import ConvergenceError, InputError, within
 from ehlectric.gear import GearSolution, drawing_of, gear_pair, gear_warnings, solve_gear_pair, state_at
 from ehlectric.quantities.lubrication_states import CONDUCTS
 from ehlectric.quantities.result_warnings import ResultWarning
@@ -42,9 +42,6 @@ CONDUCTIONS: tuple[Conduction, ...] = ("by-film", "always", "never")
 
 # Axial forces that are no load of a bearing [N].
 _NO_FORCE = 1e-6
-
-# Load of a bearing case whose loads are not used [N].
-_ANY_LOAD = 100.0
 
 
 @dataclass(frozen=True)
@@ -169,30 +166,81 @@ def forces_on_shafts(case: AxleCase) -> dict[str, list[tuple[str, ForceAt]]]:
 
 def loads_on_shafts(case: AxleCase) -> dict[str, BearingLoads]:
     """Loads of the bearings of each shaft with gears, by the name of the shaft."""
-    turning, forces = case.turning(), forces_on_shafts(case)
-    loads = {}
-    for shaft in case.shaft:
-        if shaft.name in forces:
-            rows = _adjusted_rows(case, shaft, turning[shaft.name].speed)
-            of_shaft = [force for _, force in forces[shaft.name]]
-            loads[shaft.name] = _loads_on(case, shaft.name, of_shaft, rows)
+    (loads,) = loads_of_axles([case])
+    if isinstance(loads, Exception):
+        raise loads
     return loads
+
+
+def loads_of_axles(
+    cases: Sequence[AxleCase],
+) -> list[dict[str, BearingLoads] | InputError | ConvergenceError]:
+    """Loads as ``loads_on_shafts`` computes them of many axles, or the error of an axle without loads.
+
+    Adjusted rows that are alike are solved together.
+    """
+    loads: list[dict[str, BearingLoads] | InputError | ConvergenceError] = []
+    adjusted: dict[AdjustedRows, list[tuple[int, str, float]]] = {}
+    for place, case in enumerate(cases):
+        try:
+            turning, of_case = case.turning(), dict[str, BearingLoads]()
+            inclined: list[tuple[AdjustedRows, str]] = []
+            forces = forces_on_shafts(case)
+            for shaft in case.shaft:
+                if shaft.name not in forces:
+                    continue
+                rows = _adjusted_rows(case, shaft)
+                of_shaft = [force for _, force in forces[shaft.name]]
+                of_case[shaft.name] = _loads_on(case, shaft.name, of_shaft, rows)
+                if rows is not None:
+                    inclined.append((rows, shaft.name))
+        except InputError as error:
+            loads.append(error)
+            continue
+        loads.append(of_case)
+        for rows, name in inclined:
+            adjusted.setdefault(rows, []).append((place, name, turning[name].speed))
+    for rows, shafts in adjusted.items():
+        _share(rows, shafts, loads)
+    return loads
+
+
+def _share(
+    rows: AdjustedRows,
+    shafts: Sequence[tuple[int, str, float]],
+    loads: list[dict[str, BearingLoads] | InputError | ConvergenceError],
+) -> None:
+    """Give the axial forces on equal rows of many shafts to the loads of these shafts.
+
+    ``shafts`` are places of axles, names of their shafts, and speeds [rad/s].
+    """
+    places = [(place, name, speed) for place, name, speed in shafts if isinstance(loads[place], dict)]
+    of_shafts = [cast("dict[str, BearingLoads]", loads[place])[name] for place, name, _ in places]
+    first, second = np.array([each.radial for each in of_shafts]).T
+    axial = np.array([each.axial for each in of_shafts])
+    share = rows.share((first, second), axial, np.array([speed for *_, speed in places]))
+    for (place, name, _), each, forces, unloaded in zip(
+        places, of_shafts, share.forces.T.tolist(), share.unloaded.T.tolist(), strict=True
+    ):
+        of_axle = loads[place]
+        if np.isnan(forces).any() or isinstance(of_axle, Exception):
+            text = f"no equilibrium of the adjusted bearings of shaft {name!r} was found"
+            loads[place] = ConvergenceError(text)
+        else:
+            of_axle[name] = replace(each, shares=tuple(forces), unloaded=tuple(unloaded))
 
 
 def _loads_on(
     case: AxleCase, shaft: str, forces: Sequence[ForceAt], rows: AdjustedRows | None
 ) -> BearingLoads:
-    """Loads of both bearings of a shaft from the forces of its gears."""
+    """Loads of both bearings of a shaft from the forces of its gears, without shares of the axial force."""
     first, second = case.bearings_of(shaft)
+    places = case.bearing[first].at, case.bearing[second].at
     with case.naming(second):
-        if rows is None:
-            return bearing_loads(forces, (case.bearing[first].at, case.bearing[second].at))
-        loads = bearing_loads(forces, rows.pressure_centres)
-    share = rows.share(loads.radial, loads.axial)
-    return replace(loads, shares=share.forces, unloaded=share.unloaded)
+        return bearing_loads(forces, places if rows is None else rows.pressure_centres(places))
 
 
-def _adjusted_rows(case: AxleCase, shaft: Shaft, speed: float) -> AdjustedRows | None:
+def _adjusted_rows(case: AxleCase, shaft: Shaft) -> AdjustedRows | None:
     """Rows of a shaft that are adjusted against each other; None if they are not adjusted."""
     adjustment = case.adjustment_of(shaft)
     if adjustment is None:
@@ -200,10 +248,9 @@ def _adjusted_rows(case: AxleCase, shaft: Shaft, speed: float) -> AdjustedRows |
     rows = []
     first, second = case.bearings_of(shaft.name)
     for number in (first, second):
-        of_bearing = case.bearing_case(number, speed, _ANY_LOAD, _ANY_LOAD)
-        with case.naming(number):
-            rows.append(InclinedRow.of(of_bearing))
-    return AdjustedRows((rows[0], rows[1]), (case.bearing[first].at, case.bearing[second].at), adjustment)
+        with case.naming(number), within("bearing"):
+            rows.append(InclinedRow.of(case.tables_of_bearings[number]))
+    return AdjustedRows((rows[0], rows[1]), adjustment, case.bearing[first].at < case.bearing[second].at)
 
 
 def solve_elements(case: AxleCase, progress: Progress = silent) -> AxleSolution:
