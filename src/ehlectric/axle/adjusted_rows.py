@@ -81,8 +81,10 @@ class AdjustedRows:
         return float(sum(row.approach(0.0, preload, 0.0)[0] for row in self.rows))
 
     def share(self, radial: tuple[Numbers, Numbers], axial: Numbers, speed: Numbers) -> AxialShare:
-        """Axial forces on both rows of n shafts, under radial loads [N] and the axial forces of the shafts
-        along z [N], at speeds of the shafts [rad/s]; numbers, or arrays of shape (n,).
+        """Axial forces on both rows, for one shaft or n shafts.
+
+        ``radial`` loads of the rows [N], ``axial`` force of the shaft along z [N] and its ``speed`` [rad/s] are
+        numbers, or arrays of shape (n,).
         """
         *loads, axial, speed = np.broadcast_arrays(*map(np.atleast_1d, (*radial, axial, speed)))
         along = self.ways[0] * axial

@@ -233,7 +233,7 @@ def _share(
 def _loads_on(
     case: AxleCase, shaft: str, forces: Sequence[ForceAt], rows: AdjustedRows | None
 ) -> BearingLoads:
-    """Loads of both bearings of a shaft from the forces of its gears, without shares of the axial force."""
+    """Loads of both bearings of a shaft from the forces of its gears; adjusted rows have no shares yet."""
     first, second = case.bearings_of(shaft)
     places = case.bearing[first].at, case.bearing[second].at
     with case.naming(second):
