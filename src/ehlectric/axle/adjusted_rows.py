@@ -83,8 +83,8 @@ class AdjustedRows:
     def share(self, radial: tuple[Numbers, Numbers], axial: Numbers, speed: Numbers) -> AxialShare:
         """Axial forces on both rows, for one shaft or n shafts.
 
-        ``radial`` loads of the rows [N], ``axial`` force of the shaft along z [N] and its ``speed`` [rad/s] are
-        numbers, or arrays of shape (n,).
+        ``radial`` loads of the rows [N], ``axial`` force of the shaft along z [N] and its ``speed`` [rad/s]
+        are numbers, or arrays of shape (n,).
         """
         *loads, axial, speed = np.broadcast_arrays(*map(np.atleast_1d, (*radial, axial, speed)))
         along = self.ways[0] * axial
