@@ -106,6 +106,11 @@ class BearingModel:
         known = {name.key: name for name in self.design.names()}
         return tuple(known[key] for key in (*(change.key for change in self.changes), FILMS))
 
+    def values(self, place: int, parts: Array) -> Array:
+        """Values of an input at parts of its range, SI units, shape (n,)."""
+        low, high = (*(change.ends for change in self.changes), self.design.films)[place]
+        return low + (high - low) * parts
+
     @property
     def quantities(self) -> tuple[str, ...]:
         """Names of the measurable quantities."""

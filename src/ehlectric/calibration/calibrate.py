@@ -11,7 +11,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.bearing import FILMS, MARGIN, OF_TABLE, Names
-from ehlectric.calibration.models import Model, model_of
+from ehlectric.calibration.models import POINTS, Model, model_of
 from ehlectric.calibration.posterior import (
     LEAST_EFFECTIVE,
     SEED,
@@ -63,7 +63,7 @@ def calibrate(
 
     Parameters
     ----------
-    case : BearingCase
+    case : BearingCase or GearCase
         Case with its ranges, and with the table ``measured`` unless ``measured`` is given.
     measured : str, Path or pandas.DataFrame, optional
         File or table of measured operating points, such as the columns ``speed [rpm]``, ``capacitance [pF]``
@@ -118,7 +118,9 @@ def _given(case: Any, measured: str | Path | pd.DataFrame | None) -> MeasuredPoi
     table: Measured | None = case.measured
     if measured is None and table is None:
         raise InputError.missing("measured", "a table [measured], or a file of measured operating points")
-    return measured_points(measured if measured is not None else table)
+    source = table if measured is None else measured
+    assert source is not None
+    return measured_points(source, POINTS[type(case)])
 
 
 def _check(model: Model, given: MeasuredPoints) -> None:
@@ -194,18 +196,23 @@ class _Compared:
         quantiles = posterior.quantiles(INTERVAL)
         mean = posterior.weights @ posterior.at
         variance = posterior.weights @ np.square(posterior.at - mean)
-        for name, after, part in zip(self.model.names(), quantiles, 12.0 * variance, strict=True):
-            explained = posterior.explained
+        explained, names = posterior.explained, self.model.names()
+        for place, (name, after, part) in enumerate(zip(names, quantiles, 12.0 * variance, strict=True)):
             yield CalibratedInput(
                 key=name.key,
                 label=name.label,
                 assumed=name.assumed,
                 low=_end(name.low),
                 high=_end(name.high),
-                prior=_of_range(name, np.array(INTERVAL)),
-                posterior=_of_range(name, after) if explained else None,
+                prior=self._values(place, np.array(INTERVAL)),
+                posterior=self._values(place, after) if explained else None,
                 reduction=1.0 - float(part) if explained else None,
             )
+
+    def _values(self, place: int, parts: Array) -> Quantiles:
+        """Values of an input at parts of its range, SI units."""
+        low, median, high = self.model.values(place, parts).tolist()
+        return low, median, high
 
     def _rows(self, posterior: Posterior) -> Iterator[Compared]:
         """Measured values next to computed ones."""
@@ -353,7 +360,7 @@ class _Compared:
             return None, None
         best = int(np.argmin(outside))
         name = self.model.names()[best]
-        return name, _of_range(name, needed[best : best + 1])[0]
+        return name, float(self.model.values(best, needed[best : best + 1])[0])
 
     def _warnings(self, posterior: Posterior) -> Iterator[ResultWarning]:
         """Warnings about the file, and about too few points."""
@@ -436,12 +443,6 @@ def _with_first(chance: Chance, inputs: Sequence[CalibratedInput], at: Array, ma
 
 def _end(value: float | None) -> float:
     return float("nan") if value is None else value
-
-
-def _of_range(name: Names, parts: Array) -> Quantiles:
-    """Values of an input at parts of its range, SI units."""
-    low, high = _end(name.low), _end(name.high)
-    return tuple((low + (high - low) * parts).tolist())
 
 
 def _quantiles(values: Array, weights: Array) -> Quantiles:

@@ -9,8 +9,11 @@ from typing import Any, Protocol
 from ehlectric.arrays import Array
 from ehlectric.bearing import BearingModel, Names
 from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.gear_case import GearCase
+from ehlectric.cases.measurements import BEARING_POINTS, GEAR_POINTS, ColumnBook
 from ehlectric.discharge.breakdown_rule import Chance
 from ehlectric.errors import InputError
+from ehlectric.gear import GearModel
 from ehlectric.quantities.verdict import Verdict
 
 
@@ -24,6 +27,9 @@ class Model(Protocol):
     def names(self) -> tuple[Names, ...]:
         """Names and ranges of the inputs."""
 
+    def values(self, place: int, parts: Array) -> Array:
+        """Values of an input at parts of its range, SI units, shape (n,)."""
+
     def numbers(
         self, at: Array, points: Sequence[Mapping[str, float]], quantities: Sequence[str]
     ) -> dict[str, Array]:
@@ -36,7 +42,11 @@ class Model(Protocol):
         """Verdict on an updated case with the probability of breakdown."""
 
 
-_MODELS: Mapping[type, Any] = MappingProxyType({BearingCase: BearingModel.of})
+_MODELS: Mapping[type, Any] = MappingProxyType({BearingCase: BearingModel.of, GearCase: GearModel.of})
+
+
+# Columns of a file of operating points, by the kind of the case.
+POINTS: Mapping[type, ColumnBook] = MappingProxyType({BearingCase: BEARING_POINTS, GearCase: GEAR_POINTS})
 
 
 def model_of(case: Any) -> Model:
@@ -45,4 +55,6 @@ def model_of(case: Any) -> Model:
         if isinstance(case, kind):
             model: Model = of(case)
             return model
-    raise InputError("measured", got=f"a {type(case).__name__}", takes="the case of a bearing")
+    raise InputError(
+        "measured", got=f"a {type(case).__name__}", takes="the case of a bearing or of a gear pair"
+    )

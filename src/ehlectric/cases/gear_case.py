@@ -25,6 +25,7 @@ from ehlectric.cases.input_ranges import (
     table_of_ranges,
 )
 from ehlectric.cases.key_names import refuse_deep
+from ehlectric.cases.measured_inputs import Measured
 from ehlectric.cases.oil_inputs import displace_oil
 from ehlectric.cases.roughness_inputs import find_files
 from ehlectric.cases.stated_ranges import with_stated_ranges
@@ -63,6 +64,8 @@ class GearCase(CaseFile, book="gear_file"):
         Ranges of uncertain inputs by dotted key, each a list of two values.
     duty : mapping, optional
         ``file``, the file of a duty cycle.
+    measured : mapping, optional
+        Measured values that correct the ranges of uncertain inputs.
     """
 
     if TYPE_CHECKING:
@@ -76,6 +79,7 @@ class GearCase(CaseFile, book="gear_file"):
     discharge: Discharge = Discharge()
     ranges: tuple[InputRange, ...] | None = None
     duty: Duty | None = None
+    measured: Measured | None = None
 
     @model_validator(mode="before")
     @classmethod

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 from pydantic import model_validator
 
-from ehlectric.cases.measurements import CALIBRATED, POINTS, Measurement, read_measurement
+from ehlectric.cases.measurements import CALIBRATED, ColumnBook, Measurement, read_measurement
 from ehlectric.cases.stated_ranges import value_and_uncertainty
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
@@ -70,9 +70,9 @@ class MeasuredPoints:
     read: Measurement | None = None  # rows of the file
 
 
-def measured_points(measured: Measured | str | Path | pd.DataFrame) -> MeasuredPoints:
-    """Measured values of a table [measured], a file or a table of pandas. Raises InputError if the file
-    cannot be read, or has a value without an uncertainty.
+def measured_points(measured: Measured | str | Path | pd.DataFrame, book: ColumnBook) -> MeasuredPoints:
+    """Measured values of a table [measured], or of a file or a table of pandas with the columns of ``book``.
+    Raises InputError if the file cannot be read, or has a value without an uncertainty.
     """
     points: list[dict[str, float]] = []
     values: list[MeasuredValue] = []
@@ -83,25 +83,20 @@ def measured_points(measured: Measured | str | Path | pd.DataFrame) -> MeasuredP
         source = measured.file
     read = None
     if source is not None:
-        read = read_measurement(source, POINTS)
+        read = read_measurement(source, book)
         known = [name for name in CALIBRATED if name in read.values]
         if not known:
-            heads = f"headings such as {POINTS.examples}"
+            heads = f"headings such as {book.examples}"
             raise InputError(read.source, "has no column with a measured quantity", takes=heads)
         for name in known:
             if name not in read.uncertainties:
                 text = f"a column 'uncertainty of {name.replace('_', ' ')} [%]'"
                 raise InputError.missing(f"{read.source}: uncertainty of {name.replace('_', ' ')}", text)
-        keys = {name: column.key for name, column in POINTS.columns.items() if column.key in read_keys(read)}
+        keys = {name: key for name in read.values if (key := book.columns[name].key)}
         for row, line in enumerate(read.lines):
             points.append({key: float(read.values[name][row]) for name, key in keys.items()})
             values += _row(read, row, line, known, len(points) - 1)
     return MeasuredPoints(tuple(points), tuple(values), read)
-
-
-def read_keys(read: Measurement) -> set[str]:
-    """Keys of the inputs that a file of operating points contains."""
-    return {POINTS.columns[name].key for name in read.values} - {""}
 
 
 def _row(read: Measurement, row: int, line: int, known: list[str], point: int) -> Iterator[MeasuredValue]:

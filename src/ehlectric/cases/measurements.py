@@ -99,18 +99,20 @@ GEAR_CYCLE = ColumnBook.of("gear_duty", "'time [s]', 'speed [rpm]' and 'torque [
 
 # Quantities that a calibration compares, and the columns of a file with quantities at operating points.
 CALIBRATED = ColumnBook.of("calibration", "", 0).columns
-POINTS = ColumnBook(
-    MappingProxyType(
-        {
-            **{name: column for name, column in CYCLE.columns.items() if column.key},
-            "speed": replace(MEASURED.columns["speed"], key=CYCLE.columns["speed"].key),
-            **CALIBRATED,
-        }
-    ),
-    "'speed [rpm]', 'capacitance [pF]' and 'uncertainty of capacitance [%]'",
-    1000,
-    frozenset(CALIBRATED),
-)
+
+
+def _points(cycle: ColumnBook, examples: str) -> ColumnBook:
+    """Columns of a file of operating points: quantities, and the columns of a duty cycle except the time."""
+    inputs = {name: column for name, column in cycle.columns.items() if column.key}
+    columns = {**inputs, "speed": replace(MEASURED.columns["speed"], key=inputs["speed"].key), **CALIBRATED}
+    return ColumnBook(MappingProxyType(columns), examples, MOST_POINTS, frozenset(CALIBRATED))
+
+
+# Largest number of operating points of a calibration.
+MOST_POINTS = 1000
+
+BEARING_POINTS = _points(CYCLE, "'speed [rpm]', 'capacitance [pF]' and 'uncertainty of capacitance [%]'")
+GEAR_POINTS = _points(GEAR_CYCLE, "'torque [N m]', 'capacitance [pF]' and 'uncertainty of capacitance [%]'")
 
 _UNCERTAINTY = "uncertainty"
 

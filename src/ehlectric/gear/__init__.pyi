@@ -7,6 +7,7 @@ from .gear_warnings import gear_warnings as gear_warnings
 from .gear_warnings import warning_codes as warning_codes
 from .geometry import GearPair as GearPair
 from .geometry import gear_pair as gear_pair
+from .measurable import GearModel as GearModel
 from .mesh_duty import MeshDuty as MeshDuty
 from .mesh_duty import MeshRows as MeshRows
 from .mesh_duty import check_mesh_duty as check_mesh_duty

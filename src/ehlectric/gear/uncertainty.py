@@ -194,7 +194,7 @@ class MeshDesign:
         for row in at:
             changes: dict[str, Any] = {}
             for part, change in zip(row.tolist(), self.computed, strict=False):
-                changes |= change.changes(_value(change, part))
+                changes |= change.changes(value_within(change, part))
             yield changes, low + (high - low) * float(row[len(self.computed)])
 
     def log_factors(self, at: Array) -> Array:
@@ -214,7 +214,7 @@ class MeshDesign:
         yield from (Names.of(change, self.assumed) for change in self.factors)
 
 
-def _value(change: Change, part: float) -> float:
+def value_within(change: Change, part: float) -> float:
     """Value of an input at a part of its range; the logarithm of the reference area is evenly distributed."""
     low, high = change.ends
     return low * (high / low) ** part if change.key == _AREA else low + (high - low) * part
@@ -266,7 +266,7 @@ def uncertainty_of(
     or where the mesh conducts at all points.
     """
     design = MeshDesign.of(solution)
-    meshes = _Meshes.of(solution, design.films)
+    meshes = Meshes.of(solution, design.films)
     rows: list[Array] = []
 
     def computed(at: Array) -> Array:
@@ -288,7 +288,7 @@ def uncertainty_of(
         lambda_ratios=table[solved, 1],
         voltages=(table[:, 2] * factors)[solved],
         conducting=conducting[solved],
-        capacitances=table[solved, 4],
+        capacitances=table[solved, 5],
         capacitance_film_error=meshes.capacitance_error,
     )
 
@@ -307,7 +307,7 @@ def chance_of(solution: GearSolution, samples: int) -> tuple[float, float, float
 
 
 @dataclass(frozen=True)
-class _Meshes:
+class Meshes:
     """Meshes of a gear pair at changed inputs, with tabulated films."""
 
     case: GearCase  # case without solved films
@@ -319,7 +319,7 @@ class _Meshes:
     log_capacitances: Array
 
     @classmethod
-    def of(cls, solution: GearSolution, films: tuple[float, float]) -> _Meshes:
+    def of(cls, solution: GearSolution, films: tuple[float, float]) -> Meshes:
         """Meshes around a solution; ``films``, ends of the factor on all films by their error."""
         case, atlas, scale = solution.case.model_copy(update={"ranges": None, "duty": None}), solution, 1.0
         if case.contacts == "solved":
@@ -343,11 +343,13 @@ class _Meshes:
         return *_numbers(case, mesh, factor), ratio * mesh.loads.mean(mesh.capacitance)
 
     def rows(self, changed: Sequence[tuple[Mapping[str, Any], float]]) -> Array:
-        """Margin, lambda ratio, breakdown voltage [V], whether the mesh conducts, and mean capacitance [F].
+        """Margin, lambda ratio, breakdown voltage [V], whether the mesh conducts, share of time in which it
+        does, and mean capacitance [F].
 
-        They are at changed inputs and factors on the films, shape (n, 5), and NaN where a pair has no result.
+        They are at changed inputs and factors on the films, shape (n, 6), and NaN where a pair has no result.
+        Margin and breakdown voltage are NaN without a voltage or a strength.
         """
-        rows, cases = np.full((len(changed), 5), math.nan), dict(self._cases(changed))
+        rows, cases = np.full((len(changed), 6), math.nan), dict(self._cases(changed))
         same = [k for k in cases if all(key.startswith(_NOT_IN_FILMS) for key in changed[k][0])]
         others = sorted(cases.keys() - set(same))
         for k in same:
@@ -369,17 +371,16 @@ class _Meshes:
 _FILM_FACTORS = 5
 
 
-def _numbers(case: GearCase, mesh: GearSolution, factor: float) -> tuple[float, float, float, float]:
-    """Margin, lambda ratio, breakdown voltage [V], and whether the mesh conducts, with films ``factor`` times
-    as thick.
+def _numbers(case: GearCase, mesh: GearSolution, factor: float) -> tuple[float, float, float, float, float]:
+    """Margin, lambda ratio, breakdown voltage [V], whether the mesh conducts, and the share of time in which
+    it does, with films ``factor`` times as thick.
     """
     loads, films = mesh.loads, mesh.films
     gear, strength, voltage = case.gear, strength_of(case), case.gear.contact.voltage
-    assert strength is not None
-    assert voltage is not None
     film = factor * float(np.nanmin(films.minimum))
-    share = -np.expm1(open_area(loads, films, gear.rq / factor) / reference_area_of(case))
-    conducts = state_at(loads.mean(share), gear.contact.conduction) == CONDUCTS
-    breakdown = 0.0 if conducts else strength * max(film - gear.summit_height * gear.rq, 0.0)
-    margin = MOST_MARGIN if conducts else breakdown / voltage
-    return margin, film / gear.rq, breakdown, float(conducts)
+    share = loads.mean(-np.expm1(open_area(loads, films, gear.rq / factor) / reference_area_of(case)))
+    conducts = state_at(share, gear.contact.conduction) == CONDUCTS
+    breakdown = math.nan if strength is None else strength * max(film - gear.summit_height * gear.rq, 0.0)
+    breakdown = 0.0 if conducts else breakdown
+    margin = MOST_MARGIN if conducts else breakdown / (voltage or math.nan)
+    return margin, film / gear.rq, breakdown, float(conducts), share

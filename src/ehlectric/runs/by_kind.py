@@ -273,11 +273,11 @@ def run_axle(
 
 
 # Kinds of files that a measurement can correct.
-CALIBRATED_KINDS: tuple[FileKind, ...] = ("bearing",)
+CALIBRATED_KINDS: tuple[FileKind, ...] = ("bearing", "gear")
 
 
 def run_calibration(
-    case: BearingCase,
+    case: BearingCase | GearCase,
     folder: str | Path,
     progress: Progress = silent,
     *,
