@@ -72,6 +72,7 @@ from .margin_cycle import moves as moves
 from .margin_cycle import row_probabilities as row_probabilities
 from .margin_cycle import worst_stretches as worst_stretches
 from .measurable import MARGIN as MARGIN
+from .measurable import SHAFT_CAPACITANCE as SHAFT_CAPACITANCE
 from .measurable import BearingModel as BearingModel
 from .measured_capacitance import bearing_factors as bearing_factors
 from .preparation import resolve_bearing as resolve_bearing

@@ -17,11 +17,11 @@ from ehlectric.bearing.bearing_discharges import (
     shaft_voltage,
 )
 from ehlectric.bearing.bearing_touching import duty_of
-from ehlectric.bearing.impedance import meter_capacitance
+from ehlectric.bearing.impedance import meter_capacitance, shaft_capacitance
 from ehlectric.bearing.many_points import gathered, many_of, solved_parts
 from ehlectric.bearing.margin import analyse_margin, margin_and_lambda
 from ehlectric.bearing.quick_contacts import quick_case
-from ehlectric.bearing.solution import BearingSolution, film_error, insulating
+from ehlectric.bearing.solution import BearingSolution, conducts, film_error
 from ehlectric.bearing.solving import quick_solution
 from ehlectric.bearing.uncertain_inputs import OF_TABLE, Change
 from ehlectric.bearing.uncertainty import FILMS, Design, Names
@@ -69,8 +69,9 @@ MEASURABLE: Mapping[str, Quantity] = MappingProxyType(
     }
 )
 
-# Name of the margin next to the measurable quantities.
-MARGIN = "margin"
+# Names of the margin, and of the capacitance by which the voltage of a motor is divided. Both are no
+# measurable quantities.
+MARGIN, SHAFT_CAPACITANCE = "margin", "shaft_capacitance"
 
 # Quantities that are 0 where surfaces touch, and quantities that are proportional to the dielectric strength.
 _ACROSS_FILMS = ("first_breakdown_voltage", "breakdown_voltage", "shaft_voltage", "bearing_voltage_ratio")
@@ -201,9 +202,9 @@ class BearingModel:
 
 def _number(solution: BearingSolution, name: str) -> Numbers | None:
     """Measurable quantity, or the margin, of a solution with points; None where no point has it."""
-    films = insulating(solution)
+    touching = conducts(solution)
     if name == MARGIN:
-        driven = not np.any(films) or first_margin(solution) is not None
+        driven = np.all(touching) or first_margin(solution) is not None
         return margin_and_lambda(solution)[0] if driven else None
-    value = MEASURABLE[name](solution)
-    return np.where(films, value, 0.0) if name in _ACROSS_FILMS and value is not None else value
+    value = {**MEASURABLE, SHAFT_CAPACITANCE: shaft_capacitance}[name](solution)
+    return np.where(touching, 0.0, value) if name in _ACROSS_FILMS and value is not None else value

@@ -63,7 +63,7 @@ def calibrate(
 
     Parameters
     ----------
-    case : BearingCase or GearCase
+    case : BearingCase, DriveCase or GearCase
         Case with its ranges, and with the table ``measured`` unless ``measured`` is given.
     measured : str, Path or pandas.DataFrame, optional
         File or table of measured operating points, such as the columns ``speed [rpm]``, ``capacitance [pF]``

@@ -9,9 +9,11 @@ from typing import Any, Protocol
 from ehlectric.arrays import Array
 from ehlectric.bearing import BearingModel, Names
 from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.measurements import BEARING_POINTS, GEAR_POINTS, ColumnBook
 from ehlectric.discharge.breakdown_rule import Chance
+from ehlectric.drive import DriveModel
 from ehlectric.errors import InputError
 from ehlectric.gear import GearModel
 from ehlectric.quantities.verdict import Verdict
@@ -42,11 +44,15 @@ class Model(Protocol):
         """Verdict on an updated case with the probability of breakdown."""
 
 
-_MODELS: Mapping[type, Any] = MappingProxyType({BearingCase: BearingModel.of, GearCase: GearModel.of})
+_MODELS: Mapping[type, Any] = MappingProxyType(
+    {BearingCase: BearingModel.of, DriveCase: DriveModel.of, GearCase: GearModel.of}
+)
 
 
 # Columns of a file of operating points, by the kind of the case.
-POINTS: Mapping[type, ColumnBook] = MappingProxyType({BearingCase: BEARING_POINTS, GearCase: GEAR_POINTS})
+POINTS: Mapping[type, ColumnBook] = MappingProxyType(
+    {BearingCase: BEARING_POINTS, DriveCase: BEARING_POINTS, GearCase: GEAR_POINTS}
+)
 
 
 def model_of(case: Any) -> Model:
@@ -56,5 +62,5 @@ def model_of(case: Any) -> Model:
             model: Model = of(case)
             return model
     raise InputError(
-        "measured", got=f"a {type(case).__name__}", takes="the case of a bearing or of a gear pair"
+        "measured", got=f"a {type(case).__name__}", takes="the case of a bearing, a drive or a gear pair"
     )

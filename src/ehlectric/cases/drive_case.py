@@ -15,6 +15,7 @@ from ehlectric.cases.drive_inputs import Breakdown, Circuit, Source
 from ehlectric.cases.duty_inputs import Duty
 from ehlectric.cases.key_names import refuse_deep
 from ehlectric.cases.keywords import with_keys
+from ehlectric.cases.measured_inputs import Measured
 from ehlectric.cases.roughness_inputs import find_files
 from ehlectric.cases.table import CaseFile, Table, Title
 from ehlectric.cases.table_edits import displace, flattened, set_keys
@@ -76,6 +77,8 @@ class DriveCase(CaseFile, book="drive_file"):
         Changes that are computed in addition to the drive, each with its title.
     duty : mapping, optional
         Duty cycle over which discharges are expected.
+    measured : mapping, optional
+        Measured values that correct the ranges of uncertain inputs.
     """
 
     if TYPE_CHECKING:
@@ -92,6 +95,7 @@ class DriveCase(CaseFile, book="drive_file"):
     non_drive_end: BearingCase = Field(default_factory=lambda given: given["drive_end"])
     remedies: tuple[Remedy, ...] = ()
     duty: Duty | None = None
+    measured: Measured | None = None
 
     @property
     def bearings(self) -> tuple[BearingCase, BearingCase]:
@@ -190,7 +194,14 @@ class DriveCase(CaseFile, book="drive_file"):
 
 with_keys(
     DriveCase,
-    {"drive": Operation, "source": Source, "circuit": Circuit, "breakdown": Breakdown, "duty": Duty},
+    {
+        "drive": Operation,
+        "source": Source,
+        "circuit": Circuit,
+        "breakdown": Breakdown,
+        "duty": Duty,
+        "measured": Measured,
+    },
 )
 
 
@@ -202,7 +213,7 @@ def with_files(table: Mapping[str, Any], folder: Path) -> dict[str, Any]:
     for end in ENDS:
         if isinstance(tables.get(end), Mapping) and "file" in tables[end]:
             tables[end] = _bearing_of(tables[end], folder, end)
-    for name in ("source", "duty"):
+    for name in ("source", "duty", "measured"):
         holder = tables.get(name)
         if isinstance(holder, Mapping) and isinstance(holder.get("file"), str):
             # It then stays valid where the case is written to another folder.
@@ -212,8 +223,8 @@ def with_files(table: Mapping[str, Any], folder: Path) -> dict[str, Any]:
 
 def _in_drive(bearing: BearingCase, changes: Mapping[str, Any]) -> BearingCase:
     """Bearing with changes, without the duty cycle and the motor of its own file, and what belongs to it."""
-    if bearing.duty is not None:
-        bearing = bearing.model_copy(update={"duty": None})
+    if bearing.duty is not None or bearing.measured is not None:
+        bearing = bearing.model_copy(update={"duty": None, "measured": None})
     if bearing.motor is not None:
         table = {key: part for key, part in open_tables(bearing).items() if key not in ("motor", "ranges")}
         table["discharge"].pop("pit", None)

@@ -17,6 +17,7 @@ from .drive_record import FILM as FILM
 from .drive_record import ON as ON
 from .drive_record import PEAK as PEAK
 from .drive_record import VOLTAGE as VOLTAGE
+from .measurable import DriveModel as DriveModel
 from .netlist import OPEN as OPEN
 from .netlist import SIGNATURE as SIGNATURE
 from .netlist import Arc as Arc

@@ -273,11 +273,11 @@ def run_axle(
 
 
 # Kinds of files that a measurement can correct.
-CALIBRATED_KINDS: tuple[FileKind, ...] = ("bearing", "gear")
+CALIBRATED_KINDS: tuple[FileKind, ...] = ("bearing", "drive", "gear")
 
 
 def run_calibration(
-    case: BearingCase | GearCase,
+    case: BearingCase | DriveCase | GearCase,
     folder: str | Path,
     progress: Progress = silent,
     *,

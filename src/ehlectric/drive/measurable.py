@@ -1,0 +1,234 @@
+"""Quantities of a drive that a user can measure, and the model that computes them at many inputs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+
+from ehlectric.arrays import Array
+from ehlectric.bearing import (
+    FILMS,
+    MARGIN,
+    MOTOR,
+    OF_TABLE,
+    SHAFT_CAPACITANCE,
+    BearingModel,
+    Change,
+    Names,
+    voltage_ratio,
+)
+from ehlectric.cases.drive_case import DriveCase
+from ehlectric.cases.input_keys import input_of
+from ehlectric.discharge.breakdown_rule import Chance
+from ehlectric.drive.preparation import prepare
+from ehlectric.drive.quick_estimate import expected, quick_drive
+from ehlectric.drive.summary import checked_summary
+from ehlectric.errors import InputError
+from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED
+from ehlectric.quantities.rows import value_at
+from ehlectric.quantities.verdict import Verdict
+
+# Quantities of the bearing at the drive end, and quantities of the circuit.
+_OF_BEARING = (
+    "capacitance",
+    "first_breakdown_voltage",
+    "breakdown_voltage",
+    "conducting_share",
+    "inner_ring_temperature",
+    "outer_ring_temperature",
+    "film",
+)
+_OF_CIRCUIT = ("shaft_voltage", "bearing_voltage_ratio")
+
+# Key of the peak of the source at an operating point.
+_PEAK = "motor.common_mode_voltage"
+
+# Inputs of the circuit that are uncertain.
+_CAPACITANCES = ("winding_rotor_capacitance", "rotor_frame_capacitance")
+
+# Quantities of the bearings that the circuit needs.
+_BOTH_BEARINGS = (SHAFT_CAPACITANCE, "breakdown_voltage")
+
+
+@dataclass(frozen=True)
+class _Input:
+    """Uncertain input of a drive."""
+
+    name: Names
+    ends: tuple[float, float]
+    places: Mapping[int, int]  # column of the model of a bearing, by the number of the bearing
+    change: Change | None  # of an input of a bearing; None of the circuit and the films
+
+
+@dataclass(frozen=True)
+class DriveModel:
+    """Drive before its simulation, at many values of its uncertain inputs: both bearings, and the capacitive
+    divider of the machine.
+    """
+
+    case: DriveCase
+    bearings: tuple[BearingModel, BearingModel]
+    inputs: tuple[_Input, ...]
+    peak: float  # largest voltage of the source [V]
+    divided: bool  # whether the capacitances divide the voltage: no grounding ring and no inductance
+
+    @classmethod
+    def of(cls, case: DriveCase) -> DriveModel:
+        """Model of a drive file. Raises InputError where its contacts must be solved."""
+        quick, refused = quick_drive(case.model_copy(update={"remedies": (), "duty": None, "measured": None}))
+        if quick is None:
+            raise InputError.worded("measured", f"needs contacts from the atlas, but {refused} excludes them")
+        first, second = quick.bearings
+        models = BearingModel.of(first), BearingModel.of(second)
+        circuit = quick.running_circuit
+        led = (
+            circuit.grounding_ring_resistance,
+            circuit.common_mode_inductance,
+            circuit.ground_inductance,
+        )
+        inputs = (*_of_bearings(quick, models), *_of_circuit(quick))
+        divided = all(value is None for value in led)
+        return cls(case, models, inputs, prepare(quick).highest_source, divided)
+
+    @property
+    def quantities(self) -> tuple[str, ...]:
+        """Names of the measurable quantities."""
+        return (*_OF_BEARING, *(_OF_CIRCUIT if self.divided else ()))
+
+    def names(self) -> tuple[Names, ...]:
+        """Names of the uncertain inputs, in the order of the columns."""
+        return tuple(entry.name for entry in self.inputs)
+
+    def values(self, place: int, parts: Array) -> Array:
+        """Values of an input at parts of its range, SI units, shape (n,)."""
+        low, high = self.inputs[place].ends
+        return low + (high - low) * parts
+
+    def numbers(
+        self, at: Array, points: Sequence[Mapping[str, float]], quantities: Sequence[str]
+    ) -> dict[str, Array]:
+        """Measurable quantities of the bearing at the drive end and of the circuit, or the margin of the
+        bearing that breaks down first, at p operating points and n values of the k inputs.
+
+        ``at``, inputs from 0 to 1, shape (n, k); ``points``, inputs of the operating points by key, SI units.
+        Returns quantities in SI units, shape (n, p), NaN without a result.
+        """
+        peaks = np.array([point.get(_PEAK, self.peak) for point in points])
+        places = [{key: value for key, value in point.items() if key != _PEAK} for point in points]
+        circuit = {MARGIN, *_OF_CIRCUIT} & set(quantities)
+        of_first = tuple(dict.fromkeys((*quantities, *(_BOTH_BEARINGS if circuit else ()))))
+        of_first = tuple(name for name in of_first if name not in (MARGIN, *_OF_CIRCUIT))
+        ends = [self.bearings[0].numbers(self._columns(0, at), places, of_first)]
+        numbers = dict(ends[0])
+        if circuit:
+            ends.append(self.bearings[1].numbers(self._columns(1, at), places, _BOTH_BEARINGS))
+            numbers |= self._circuit(at, ends, peaks)
+        return {name: numbers[name] for name in quantities}
+
+    def _columns(self, number: int, at: Array) -> Array:
+        """Columns of the model of a bearing, shape (n, width)."""
+        columns = {
+            entry.places[number]: at[:, place]
+            for place, entry in enumerate(self.inputs)
+            if number in entry.places
+        }
+        return np.stack([columns[place] for place in sorted(columns)], axis=-1)
+
+    def _circuit(self, at: Array, ends: Sequence[Mapping[str, Array]], peaks: Array) -> dict[str, Array]:
+        """Voltages by the capacitive divider, and the margin, shape (n, p)."""
+        known = {f"circuit.{key}": value for key, value in self.case.circuit.capacitances.items()}
+        columns = {key: known[f"circuit.{key}"] for key in _CAPACITANCES}
+        values: dict[str, Any] = dict(columns)
+        for place, entry in enumerate(self.inputs):
+            name = entry.name.key.partition(".")[2]
+            if entry.name.key.startswith("circuit."):
+                values[name] = self.values(place, at[:, place])[:, np.newaxis]
+        first, second = (end[SHAFT_CAPACITANCE] for end in ends)
+        winding, frame = (values[key] for key in _CAPACITANCES)
+        ratio = voltage_ratio(winding, frame, first, second)
+        # A voltage of 0 marks surfaces that touch, which short the shaft.
+        breakdown = np.minimum(*(end["breakdown_voltage"] for end in ends))
+        ratio = np.where(breakdown == 0.0, 0.0, ratio)
+        shaft = ratio * peaks
+        margin = np.where(breakdown == 0.0, 0.0, breakdown / np.where(shaft > 0.0, shaft, 1.0))
+        if not self.divided:
+            margin = np.full_like(margin, np.nan)
+        return {"bearing_voltage_ratio": ratio, "shaft_voltage": shaft, MARGIN: margin}
+
+    def updated(self, values: Mapping[str, float], ranges: Mapping[str, tuple[float, float]]) -> DriveCase:
+        """Case with other values of some inputs, by the keys of the columns, and other ranges of the inputs
+        of its bearings.
+        """
+        changes: dict[str, Any] = {}
+        kept: dict[str, dict[str, Any]] = {end: {} for end in ENDS}
+        for entry in self.inputs:
+            key = entry.name.key
+            if key not in values:
+                continue
+            if entry.change is None:
+                changes |= {key: values[key]} if key.startswith("circuit.") else {}
+                continue
+            prefix = BOTH if len(entry.places) == len(ENDS) else ENDS[next(iter(entry.places))]
+            if entry.change.key == OF_TABLE:
+                strengths = value_at(self.case.bearings[next(iter(entry.places))].to_dict(), OF_TABLE)
+                changes[f"{prefix}.{OF_TABLE}"] = [values[key] * strength for strength in strengths]
+                continue
+            for name, value in entry.change.changes(values[key]).items():
+                changes[f"{prefix}.{name}"] = value
+                if name in self.case.replaced:
+                    changes[REPLACED[name]] = value
+            for number in entry.places:
+                kept[ENDS[number]][entry.change.key] = [*ranges[key]]
+        for end in ENDS:
+            old = {span.key: [span.low, span.high] for span in getattr(self.case, end).ranges or ()}
+            if old or kept[end]:
+                changes[f"{end}.ranges"] = old | kept[end]
+        return self.case.model_copy(update={"measured": None}).replace(changes)
+
+    def verdict(self, case: DriveCase, chance: Chance | None) -> Verdict:
+        """Verdict by the capacitive divider of a drive that is not simulated, with the probability of
+        breakdown.
+        """
+        quick, _ = quick_drive(case)
+        assert quick is not None
+        verdict = expected(quick, checked_summary(prepare(quick)))
+        stated = () if chance is None else chance.statements()
+        return replace(verdict, reasons=(*verdict.reasons, *stated))
+
+
+def _of_bearings(case: DriveCase, models: tuple[BearingModel, BearingModel]) -> Iterator[_Input]:
+    """Inputs of both bearings: shared if the bearings are equal, or if the drive gives their value."""
+    equal = case.bearings[0] == case.bearings[1]
+    for number, model in enumerate(models[:1] if equal else models):
+        changes: dict[str, Change] = {change.key: change for change in model.changes}
+        for place, name in enumerate(model.names()):
+            key, places = name.key, {number: place}
+            shared = key in case.replaced and not equal
+            if equal:
+                places = {0: place, 1: place}
+            elif shared:
+                if number:
+                    continue
+                others = [other.key for other in models[1].names()]
+                places = {0: place, 1: others.index(key)}
+            drive_key = REPLACED[key] if key in case.replaced else f"{BOTH if equal else ENDS[number]}.{key}"
+            ends = changes[key].ends if key in changes else model.design.films
+            label = name.label if equal or shared else f"{name.label}, {ENDS[number].replace('_', ' ')}"
+            known = FILMS if key == FILMS and equal else drive_key
+            yield _Input(replace(name, key=known, label=label), ends, places, changes.get(key))
+
+
+def _of_circuit(case: DriveCase) -> Iterator[_Input]:
+    """Capacitances of the machine, which data sheets do not contain."""
+    for name in _CAPACITANCES:
+        value = case.circuit.capacitances[name]
+        key = f"circuit.{name}"
+        entry = input_of(key)
+        label = key if entry is None else entry.label
+        ends = (1.0 - MOTOR) * value, (1.0 + MOTOR) * value
+        reason = "engineering judgement: data sheets do not have it, and few measure it"
+        yield _Input(Names(key, label, *ends, assumed=True, reason=reason), ends, MappingProxyType({}), None)

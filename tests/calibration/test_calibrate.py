@@ -1,0 +1,207 @@
+"""Calibration of bearings, gear pairs and drives: simulated measurements with known inputs."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+import pytest
+from tests.helpers.places import EXAMPLES
+
+import ehlectric
+from ehlectric import BearingCase, DriveCase, GearCase, InputError
+from ehlectric.calibration.calibrate import given_values
+from ehlectric.calibration.models import model_of
+from ehlectric.cases.measured_inputs import Measured, measured_points
+from ehlectric.cases.measurements import BEARING_POINTS
+
+POINTS = pd.DataFrame(
+    {
+        "speed [rpm]": [1500, 3000],
+        "capacitance [pF]": [351.0, 258.5],
+        "uncertainty of capacitance [%]": [3, 3],
+        "shaft voltage [V]": [4.04, ""],
+        "uncertainty of shaft voltage [V]": [0.2, ""],
+        "remark": ["a", "b"],
+    }
+)
+
+
+@pytest.fixture(scope="module")
+def bearing():
+    return BearingCase.from_toml(EXAMPLES / "bearing_6208.toml").replace({"contacts": "atlas"})
+
+
+def test_empty_cells_are_not_measured():
+    given = measured_points(POINTS, BEARING_POINTS)
+    assert [(value.quantity, value.point) for value in given.values] == [
+        ("capacitance", 0),
+        ("shaft_voltage", 0),
+        ("capacitance", 1),
+    ]
+    assert given_values(given) == pytest.approx([351e-12, 4.04, 258.5e-12])
+    assert [value.uncertainty for value in given.values] == pytest.approx([10.53e-12, 0.2, 7.755e-12])
+    assert given.points[0]["bearing.inner_speed"] == pytest.approx(50.0 * np.pi)
+
+
+def test_values_of_a_table_and_of_its_file_belong_to_their_points(tmp_path):
+    POINTS.to_csv(tmp_path / "points.csv", index=False)
+    table = Measured.from_dict({"file": str(tmp_path / "points.csv"), "film": "200 nm +- 10 %"})
+    given = measured_points(table, BEARING_POINTS)
+    assert given.points[0] == {}
+    assert [value.point for value in given.values] == [0, 1, 1, 2]
+    assert given.values[0].uncertainty == pytest.approx(20e-9)
+
+
+def test_a_value_without_an_uncertainty_in_its_row_is_refused():
+    table = POINTS.assign(**{"uncertainty of shaft voltage [V]": ["", ""]})
+    with pytest.raises(InputError, match="uncertainty of shaft voltage"):
+        measured_points(table, BEARING_POINTS)
+
+
+@pytest.mark.parametrize(
+    ("name", "key"),
+    [
+        ("capacitance", "meter_capacitance"),
+        ("first_breakdown_voltage", "shaft_first_break"),
+        ("breakdown_voltage", "shaft_ring_to_ring_breakdown"),
+        ("shaft_voltage", "shaft_voltage"),
+        ("bearing_voltage_ratio", "bearing_voltage_ratio"),
+        ("margin", "margin"),
+    ],
+)
+def test_numbers_of_the_model_are_numbers_of_the_bearing(bearing, name, key):
+    """In the middle of all ranges, and at an operating point, numbers equal the numbers of the solved bearing
+    within 1e-3, the stated error of bearings with few loads.
+    """
+    model = model_of(bearing)
+    middle = np.full((1, len(model.names())), 0.5)
+    point = {"bearing.inner_speed": 200.0, "bearing.radial_load": 1500.0}
+    numbers = model.numbers(middle, [{}, point], (name,))[name][0]
+    for value, case in zip(numbers, (bearing, bearing.replace(point)), strict=True):
+        expected = ehlectric.solve_bearing(case).summary(probable=False)["bearing"][key]
+        assert value == pytest.approx(expected, rel=1e-3)
+
+
+def test_uncertain_inputs_of_a_point_deviate_from_its_values(bearing):
+    """At the ends of their ranges, a temperature deviates by 10 K, and a load by 20 %, as in the file."""
+    model = model_of(bearing)
+    names = [name.key for name in model.names()]
+    at = np.full((1, len(names)), 0.5)
+    at[0, names.index("bearing.temperature")] = at[0, names.index("bearing.radial_load")] = 1.0
+    point = {"bearing.temperature": 330.0, "bearing.radial_load": 1000.0, "bearing.axial_load": 200.0}
+    numbers = model.numbers(at, [point], ("capacitance",))["capacitance"]
+    changes = {"bearing.temperature": 340.0, "bearing.radial_load": 1200.0, "bearing.axial_load": 240.0}
+    expected = ehlectric.solve_bearing(bearing.replace(changes)).summary(probable=False)["bearing"]
+    assert numbers[0, 0] == pytest.approx(expected["meter_capacitance"], rel=1e-3)
+
+
+@pytest.mark.slow
+@pytest.mark.gate
+def test_a_calibrated_case_is_nearer_to_the_true_bearing(bearing):
+    """The temperature that a ring thermometer measures is the updated one, and the file has its range."""
+    case = bearing.replace({"measured.outer_ring_temperature": "76 degC +- 1 K"})
+    calibration = ehlectric.calibrate(case)
+    (temperature,) = (entry for entry in calibration.inputs if entry.key == "bearing.temperature")
+    low, median, high = temperature.posterior
+    assert median == pytest.approx(349.15, abs=0.2)
+    assert high - low == pytest.approx(2.0 * 1.645, rel=0.15)
+    assert calibration.case.bearing.temperature == pytest.approx(median)
+    assert calibration.case.measured is None
+    ranges = {entry.key: (entry.low, entry.high) for entry in calibration.case.ranges}
+    assert ranges["bearing.temperature"] == pytest.approx((low, high))
+    assert BearingCase.from_dict(calibration.case.to_dict()) == calibration.case
+    assert calibration.rows[0].decided == "bearing.temperature"
+    # Films are thinner at a higher temperature.
+    assert calibration.after.probability > calibration.before.probability
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("measured", "key", "contradicting"),
+    [
+        ({"outer_ring_temperature": "110 degC +- 1 K"}, "bearing.temperature", []),
+        ({"shaft_voltage": "4 V +- 2 %", "bearing_voltage_ratio": "0.02 +- 0.0002"}, "", [0, 1]),
+    ],
+)
+def test_what_nothing_explains_is_reported(bearing, measured, key, contradicting):
+    """A temperature of 110 °C is beyond 80 °C, and 4 V of 300 V are no ratio of 0.02."""
+    case = bearing.replace({f"measured.{name}": value for name, value in measured.items()})
+    calibration = ehlectric.calibrate(case)
+    assert not calibration.explained
+    assert calibration.case is None
+    assert calibration.verdict.level == "grey"
+    assert calibration.unexplained.key == key
+    assert list(calibration.unexplained.contradicting) == contradicting
+    if key:
+        # By the slope of the logarithm at 80 °C.
+        needed = 353.15 * (1.0 + np.log(383.15 / 353.15))
+        assert calibration.unexplained.needed == pytest.approx(needed, abs=0.5)
+        assert calibration.rows[0].nearest == pytest.approx(353.15, abs=0.5)
+
+
+@pytest.mark.slow
+def test_a_gear_pair_is_calibrated_by_its_capacitance():
+    """The simulated capacitance of flanks that are 8 K colder."""
+    case = GearCase.from_toml(EXAMPLES / "gear_pair.toml")
+    bulk = case.gear.operation.bulk_temperature
+    cold = case.replace({"gear.operation.bulk_temperature": bulk - 8.0})
+    capacitance = ehlectric.solve_gear(cold, probable=False).summary()["mesh"]["capacitance"]
+    calibration = ehlectric.calibrate(case.replace({"measured.capacitance": f"{capacitance} F +- 3 %"}))
+    (temperature,) = (entry for entry in calibration.inputs if entry.key.endswith("bulk_temperature"))
+    low, median, high = temperature.posterior
+    assert low < bulk - 8.0 < high
+    assert median < bulk - 4.0
+    assert GearCase.from_dict(calibration.case.to_dict()) == calibration.case
+
+
+@pytest.mark.slow
+def test_a_drive_is_calibrated_by_its_shaft_voltage():
+    """The simulated voltage of a rotor with a larger capacitance to the winding."""
+    case = DriveCase.from_toml(EXAMPLES / "drive.toml").replace({"remedies": []})
+    coupled = case.replace({"circuit.winding_rotor_capacitance": 65e-12})
+    voltage = ehlectric.check(coupled).summary["drive_end"]["voltage_at_peak"]
+    calibration = ehlectric.calibrate(case.replace({"measured.shaft_voltage": f"{voltage} V +- 3 %"}))
+    inputs = {entry.key: entry for entry in calibration.inputs}
+    low, median, high = inputs["circuit.winding_rotor_capacitance"].posterior
+    assert low < 65e-12 < high
+    assert median > 50e-12
+    assert calibration.case.circuit.winding_rotor_capacitance == pytest.approx(median)
+    assert DriveCase.from_dict(calibration.case.to_dict()) == calibration.case
+
+
+@pytest.mark.parametrize(
+    ("changes", "named"),
+    [
+        ({"measured.shaft_voltage_rms": "4 V +- 1 V"}, "shaft_voltage_rms"),
+        ({"bearing.element_material": "silicon-nitride", "measured.capacitance": "9 pF +- 1 pF"}, "measured"),
+    ],
+)
+def test_a_quantity_that_the_model_lacks_is_refused(bearing, changes, named):
+    with pytest.raises(InputError, match=named):
+        ehlectric.calibrate(bearing.replace(changes))
+
+
+@pytest.mark.slow
+def test_true_inputs_of_bearings_lie_in_the_interval_of_90_per_cent(bearing):
+    """Of 50 simulated measurements with known inputs, 40 to 49 have the true inputs in their intervals."""
+    from ehlectric.calibration.posterior import infer
+
+    model, random = model_of(bearing), np.random.default_rng(11)
+    names = [name.key for name in model.names()]
+    quantities = ("capacitance", "shaft_voltage", "first_breakdown_voltage")
+    columns = [names.index(key) for key in ("bearing.temperature", "motor.winding_rotor_capacitance")]
+
+    def predict(at):
+        numbers = model.numbers(at, [{}], quantities)
+        return np.concatenate([numbers[name] for name in quantities], axis=-1)
+
+    inside = np.zeros(len(names), dtype=int)
+    for _ in range(50):
+        true = random.random(len(names))
+        values = predict(true[np.newaxis])[0]
+        errors = np.array([0.03, 0.05, 0.1]) * values
+        measured = values + errors * random.standard_normal(3)
+        posterior = infer(predict, len(names), measured, errors, samples=256)
+        low, _, high = posterior.quantiles((0.05, 0.5, 0.95)).T
+        inside += (low <= true) & (true <= high)
+    assert all(40 <= inside[place] <= 49 for place in columns), inside
