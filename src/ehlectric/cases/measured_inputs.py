@@ -71,7 +71,7 @@ class MeasuredPoints:
 
 
 def measured_points(measured: Measured | str | Path | pd.DataFrame, book: ColumnBook) -> MeasuredPoints:
-    """Measured values of a table [measured], or of a file or a table of pandas with the columns of ``book``.
+    """Measured values of a table [measured], a file, or a table of pandas, with the columns in ``book``.
     Raises InputError if the file cannot be read, or has a value without an uncertainty.
     """
     points: list[dict[str, float]] = []

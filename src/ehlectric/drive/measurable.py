@@ -111,8 +111,8 @@ class DriveModel:
     def numbers(
         self, at: Array, points: Sequence[Mapping[str, float]], quantities: Sequence[str]
     ) -> dict[str, Array]:
-        """Measurable quantities of the bearing at the drive end and of the circuit, or the margin of the
-        bearing that breaks down first, at p operating points and n values of the k inputs.
+        """Measurable quantities of the bearing at the drive end and the circuit, or the smaller margin of
+        both bearings, at p operating points and n values for the k inputs.
 
         ``at``, inputs from 0 to 1, shape (n, k); ``points``, inputs of the operating points by key, SI units.
         Returns quantities in SI units, shape (n, p), NaN without a result.
@@ -160,8 +160,8 @@ class DriveModel:
         return {"bearing_voltage_ratio": ratio, "shaft_voltage": shaft, MARGIN: margin}
 
     def updated(self, values: Mapping[str, float], ranges: Mapping[str, tuple[float, float]]) -> DriveCase:
-        """Case with other values of some inputs, by the keys of the columns, and other ranges of the inputs
-        of its bearings.
+        """Case with other values of some inputs, by the keys of the columns, and other ranges in the files of
+        both bearings.
         """
         changes: dict[str, Any] = {}
         kept: dict[str, dict[str, Any]] = {end: {} for end in ENDS}
