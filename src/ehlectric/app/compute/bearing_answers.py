@@ -301,12 +301,18 @@ def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> Beari
 
     Raises InputError if the tables are no valid case, or neither the atlas nor a formula describes its films.
     """
-    return answer_of(solved_quickly(without_cycle(table, session)), analysed=False, curves=False)
+    return _quick(_quick_key(without_cycle(table, session)))
 
 
 def curves_answer(table: Mapping[str, Any], session: Path | None = None) -> BearingAnswer:
     """Answer about a bearing as ``quick_answer`` has it, with the curves over the speed."""
-    return answer_of(solved_quickly(without_cycle(table, session)), analysed=False)
+    key = _quick_key(without_cycle(table, session))
+    result, quick = _solved(key), _quick(key)
+    figures, left_out = _curves(result, quick_summary(result)) if result.converged else ({}, ())
+    if left_out:
+        # Numbers that the warnings concern have them.
+        return answer_of(result, analysed=False)
+    return replace(quick, has_curves=True, figures={**quick.figures, **figures})
 
 
 def whole_quick_answer(table: Mapping[str, Any], session: Path | None = None) -> BearingAnswer:
@@ -365,14 +371,25 @@ def solved_quickly(case: BearingCase) -> BearingResult:
 
     Heat that would be solved, in many seconds, is taken from a formula.
     """
+    return _solved(_quick_key(case))
+
+
+def _quick_key(case: BearingCase) -> CaseKey:
+    """Key of a case with contacts that are not solved."""
     changed = heat_by_formula(case).replace({"contacts": quick_way(case.contacts)})
-    return _solved(key_of(changed, without_effect=()))
+    return key_of(changed, without_effect=())
 
 
 @lru_cache(maxsize=4)
 def _solved(key: CaseKey) -> BearingResult:
     """Bearing of a case, which the whole answer has again after the first one."""
     return solve_bearing(key.case, workers=1)
+
+
+@lru_cache(maxsize=4)
+def _quick(key: CaseKey) -> BearingAnswer:
+    """Answer without curves and analysis, to which the curves are added."""
+    return answer_of(_solved(key), analysed=False, curves=False)
 
 
 def answer_of(
@@ -394,13 +411,8 @@ def answer_of(
         warnings += result.uncertainty.warnings
     figures = _figures(result, summary) if result.converged else {}
     if curves and result.converged:
-        key = key_of(result.case, without_effect=())
-        points, left_out = _over_speed(key, summary["bearing"]["lambda_ratio"])
-        warnings += tuple(left_out)
-        at_case = (result.case.bearing.inner_speed, summary)
-        bound = capacitance_is_bound(result.solution)
-        over = OverSpeed.of(points, at_case)
-        figures |= _speed_figures(over, bound=bound) if len(points) > 1 else {}
+        further, left_out = _curves(result, summary)
+        warnings, figures = (*warnings, *left_out), {**figures, **further}
     placed = limited_to(page_warnings_of(warnings), BEARING_CARDS)
     return BearingAnswer(
         title=result.case.title,
@@ -426,6 +438,18 @@ def answer_of(
         effects=effects_table(summary),
         duty=shown_duty(result.duty, summary) if analysed and result.duty is not None else None,
     )
+
+
+def _curves(
+    result: BearingResult, summary: Mapping[str, Any]
+) -> tuple[dict[str, Figure], tuple[ResultWarning, ...]]:
+    """Figures over the speed, and warnings about speeds and voltages that they lack."""
+    key = key_of(result.case, without_effect=())
+    points, left_out = _over_speed(key, summary["bearing"]["lambda_ratio"])
+    if len(points) < 2:
+        return {}, tuple(left_out)
+    over = OverSpeed.of(points, (result.case.bearing.inner_speed, dict(summary)))
+    return _speed_figures(over, bound=capacitance_is_bound(result.solution)), tuple(left_out)
 
 
 @lru_cache(maxsize=4)
