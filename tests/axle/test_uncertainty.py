@@ -31,11 +31,11 @@ def uncertainty(solution):
 
 
 def test_the_first_element_by_hand():
-    """Largest U/V_b; summits that touch, with the larger voltage, come first; what conducts never does."""
+    """Largest U/V_b of elements with a breakdown voltage: neither summits that touch nor what conducts."""
     voltages = np.array([[2.0, 3.0, 0.0], [2.0, 3.0, 1.0], [2.0, 3.0, 1.0], [0.0, 0.0, 0.0]])
     limits = np.array([[1.0, 3.0, 1.0], [0.0, 0.0, 1.0], [INF, 6.0, 0.0], [1.0, 0.0, 1.0]])
     firsts = _firsts(voltages, limits)
-    assert firsts.tolist() == [0, 1, 2, -1]
+    assert firsts.tolist() == [0, 2, 1, -1]
     first, second, third = _chances(("a", "b", "c"), voltages, limits, np.isinf(limits), firsts)
     assert (first.first, second.first, third.first) == (0.25, 0.25, 0.25)
     assert (first.breakdown, second.breakdown, third.breakdown) == (0.5, 0.5, 0.5)

@@ -210,6 +210,7 @@ def test_kinds_of_the_examples():
         "drive_map": "sweep",
         "e_axle": "axle",
         "e_axle_map": "sweep",
+        "duty_e_axle": "axle",
         "e_axle_stage_1": "gear",
         "grounding_brush": "drive",
         "grounding_brush_speeds": "sweep",

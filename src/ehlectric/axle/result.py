@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from ehlectric.axle.axle_duty import AxleDuty, check_axle_duty, run_axle_duty
 from ehlectric.axle.axle_verdict import axle_verdict
 from ehlectric.axle.solution import AxleSolution, solve_elements
 from ehlectric.axle.stored import layout_of
@@ -47,6 +48,8 @@ class AxleResult(Shown):
     probable : bool
         Whether the verdict and the summary contain the probabilities of all elements, which take several
         seconds.
+    stored_duty : AxleDuty, optional
+        Result of the duty cycle that was stored with the solution.
     """
 
     result_kind: ClassVar[ResultKind] = "axle"
@@ -56,6 +59,7 @@ class AxleResult(Shown):
     seconds: float = field(default=0.0, compare=False)
     version: str = __version__
     probable: bool = True
+    stored_duty: AxleDuty | None = field(default=None, compare=False)
 
     @property
     def case(self) -> AxleCase:
@@ -67,11 +71,27 @@ class AxleResult(Shown):
         """Warnings about where the result is unreliable, each with the name of its bearing or mesh."""
         return self.solution.warnings
 
+    @property
+    def all_warnings(self) -> tuple[ResultWarning, ...]:
+        """Warnings about the axle and its duty cycle."""
+        return (*self.warnings, *(() if self.duty is None else self.duty.warnings))
+
+    @read_only_property
+    def duty(self) -> AxleDuty | None:
+        """Result of the duty cycle of the case; None without one.
+
+        It is computed when it is first asked for, at some milliseconds for each operating point. Raises an
+        InputError where the file of the cycle cannot be used.
+        """
+        return run_axle_duty(self.case) if self.stored_duty is None else self.stored_duty
+
     @read_only_property
     def verdict(self) -> Verdict:
         """Verdict: the element that breaks down first, and when another one is first."""
         pending = not self.probable and has_chance(self.case)
-        return axle_verdict(self.solution, self.uncertainty, pending=pending)
+        verdict = axle_verdict(self.solution, self.uncertainty, pending=pending)
+        cycle = None if self.duty is None else self.duty.statement
+        return verdict if cycle is None else replace(verdict, reasons=(*verdict.reasons, cycle))
 
     @property
     def uncertainty(self) -> AxleUncertainty | None:
@@ -99,6 +119,7 @@ class AxleResult(Shown):
             **self._heads(),
             **axle_summary(self.solution),
             **({} if self.uncertainty is None else {"uncertainty": self.uncertainty.summary()}),
+            **({} if self.duty is None else {"duty": self.duty.summary()}),
             "remedies": [
                 {"title": remedy.title, **axle_summary(solution)}
                 for remedy, solution in zip(self.case.remedies, self.remedies, strict=False)
@@ -111,7 +132,7 @@ class AxleResult(Shown):
         return {
             "version": self.version,
             "title": self.case.title,
-            **texts_and_codes(self.warnings),
+            **texts_and_codes(self.all_warnings),
             **self.verdict.as_data(),
             "inputs": self.case.to_dict(),
         }
@@ -124,7 +145,7 @@ class AxleResult(Shown):
     def layout(self) -> Layout:
         """Return variables and attributes of axle.nc."""
         solutions = (self.solution, *self.remedies)
-        return layout_of(solutions, self.seconds, self.version, probable=self.probable)
+        return layout_of(solutions, self.seconds, self.version, probable=self.probable, duty=self.duty)
 
     def to_xarray(self) -> xr.Dataset:
         """Return the dataset of the result, as axle.nc contains it; SI units."""
@@ -173,9 +194,10 @@ def solve_axle(
     Raises
     ------
     InputError
-        If a bearing cannot carry its load, gears cannot run together, or the oil has no value at its
-        temperature.
+        If a bearing cannot carry its load, gears cannot run together, the oil has no value at its
+        temperature, or the file of a duty cycle cannot be used.
     """
+    check_axle_duty(case)
     start = time.perf_counter()
     variants = case.variants()
     solution = solve_elements(case, progress)

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ehlectric.axle.result import AxleResult, solve_axle
-from ehlectric.axle.stored import SCHEMA, solutions_of
+from ehlectric.axle.stored import SCHEMA, duty_of, solutions_of
 from ehlectric.axle.summary import ELEMENT_COLUMNS, SHAFT_COLUMNS
 from ehlectric.cases.axle_case import AxleCase
 from ehlectric.runtime.file_rules import check_format, number_of, refusing, text_of
@@ -33,7 +33,7 @@ def solve_to_folder(
     load_library()
     result = solve_axle(case, progress=progress)
     files = save(result, folder, replaced=(*FILES, *others))
-    return RunOutcome(result, result.summary(), tuple(files), result.warnings)
+    return RunOutcome(result, result.summary(), tuple(files), result.all_warnings)
 
 
 def save(result: AxleResult, folder: str | Path, *, replaced: Sequence[str] = ()) -> list[Path]:
@@ -50,6 +50,8 @@ def save(result: AxleResult, folder: str | Path, *, replaced: Sequence[str] = ()
         SHAFTS: _csv(summary["shafts"], SHAFT_COLUMNS),
         NETCDF: content_of(layout := result.layout()),
     }
+    if result.duty is not None:
+        contents |= result.duty.contents()
     with alone_in(folder, FILES, locks=[RESULT_LOCK]) as folder:
         files = write_together(folder, contents, (*FILES, *replaced))
     check_readable(layout, folder / NETCDF, result_of)
@@ -65,7 +67,8 @@ def result_of(dataset: xr.Dataset, path: Path) -> AxleResult:
         solution, *remedies = solutions_of(dataset)
         seconds, version = number_of(dataset.attrs, "seconds"), text_of(dataset.attrs, "version")
         probable = number_of(dataset.attrs, "probable", "0 or 1") == 1.0
-    return AxleResult(solution, tuple(remedies), seconds, version, probable)
+        duty = duty_of(dataset, solution.case)
+    return AxleResult(solution, tuple(remedies), seconds, version, probable, duty)
 
 
 def _csv(rows: Sequence[Mapping[str, Any]], columns: Mapping[str, str]) -> Content:

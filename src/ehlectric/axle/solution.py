@@ -16,6 +16,7 @@ from typing import Literal, cast
 
 import numpy as np
 
+from ehlectric.arrays import Array
 from ehlectric.axle.adjusted_rows import AdjustedRows
 from ehlectric.axle.network import HOUSING, WINDING, Film, Network, rank
 from ehlectric.axle.shaft_loads import BearingLoads, ForceAt, bearing_loads, forces_of_mesh
@@ -138,6 +139,19 @@ class AxleSolution:
         rise_time = self.case.source.rise_time or 0.0
         return rank(self.network(conduction), self.breakdown_voltages, self.case.edge, rise_time)
 
+    def voltages_and_limits(self) -> tuple[Array, Array]:
+        """Return voltages and breakdown voltages of all elements after the edge of the case [V].
+
+        Both have the shape (elements,). A breakdown voltage is 0 where summits touch, and infinite for an
+        element that conducts or does not break down.
+        """
+        network, potentials, films = self.network(), self.potentials(), self.films()
+        limits = [
+            math.inf if film.conducts else _limit(each.breakdown_voltage, touching=each.touching)
+            for each, film in zip(self.elements, films, strict=True)
+        ]
+        return np.array([abs(network.voltage(film, potentials)) for film in films]), np.array(limits)
+
     @cached_property
     def changed_ranks(self) -> tuple[str, ...]:
         """Names of elements whose rank depends on whether all meshes conduct or none does, among the elements
@@ -147,6 +161,13 @@ class AxleSolution:
         first = [name for name in always if name in never]
         second = [name for name in never if name in always]
         return tuple(name for name in second if first.index(name) != second.index(name))
+
+
+def _limit(voltage: float | None, *, touching: bool) -> float:
+    """Breakdown voltage, 0 where summits touch, infinite for an element that does not break down."""
+    if voltage is None:
+        return 0.0 if touching else math.inf
+    return voltage
 
 
 def forces_on_shafts(case: AxleCase) -> dict[str, list[tuple[str, ForceAt]]]:

@@ -7,17 +7,18 @@ remedies. Names, speeds and torques follow from the case.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ehlectric.arrays import Array
+from ehlectric.axle.axle_duty import STATES, AxleDuty
 from ehlectric.axle.solution import AxleSolution, Element
 from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.axle_inputs import HOUSING
-from ehlectric.quantities.result_warnings import CODES_OF_TEXTS, TEXTS, warnings_of
-from ehlectric.runtime.file_rules import UnfitError, case_of, is_list, is_text, json_of
+from ehlectric.quantities.result_warnings import CODES_OF_TEXTS, TEXTS, ResultWarning, warnings_of
+from ehlectric.runtime.file_rules import UnfitError, case_of, is_list, is_number, is_table, is_text, json_of
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.netcdf import Layout
 
@@ -42,7 +43,14 @@ _NUMBERS = {
 }
 
 
-def layout_of(solutions: Sequence[AxleSolution], seconds: float, version: str, *, probable: bool) -> Layout:
+def layout_of(
+    solutions: Sequence[AxleSolution],
+    seconds: float,
+    version: str,
+    *,
+    probable: bool,
+    duty: AxleDuty | None = None,
+) -> Layout:
     """Variables and attributes of an axle.nc, SI units, from which ``solutions_of`` makes equal solutions.
 
     ``solutions`` of the axle, and of the axle with each of its remedies; ``probable``, whether the result
@@ -51,7 +59,10 @@ def layout_of(solutions: Sequence[AxleSolution], seconds: float, version: str, *
     count = max(len(solution.elements) for solution in solutions)
     warnings = [[[each.code, each.text] for each in solution.warnings] for solution in solutions]
     return Layout(
-        {name: (_DIMENSIONS, _column(solutions, name, count)) for name in _NUMBERS},
+        {
+            **{name: (_DIMENSIONS, _column(solutions, name, count)) for name in _NUMBERS},
+            **_duty_variables(duty),
+        },
         {
             "schema": SCHEMA,
             "version": version,
@@ -59,8 +70,65 @@ def layout_of(solutions: Sequence[AxleSolution], seconds: float, version: str, *
             "warnings": _text(warnings),
             "seconds": seconds,
             "probable": int(probable),
+            **({} if duty is None else {"duty": _text(_duty_attributes(duty))}),
         },
     )
+
+
+# Variables of a duty cycle with their dimensions.
+_ROWS, _OF_ELEMENTS = ("row",), ("row", "element")
+_DUTY: Mapping[str, tuple[str, ...]] = {
+    **dict.fromkeys(("time", "speed", "torque", "temperature"), _ROWS),
+    **dict.fromkeys(("voltages", "limits", "states"), _OF_ELEMENTS),
+}
+
+
+def _duty_variables(duty: AxleDuty | None) -> dict[str, Any]:
+    """Variables of the rows of a duty cycle; none without one."""
+    if duty is None:
+        return {}
+    return {
+        f"duty_{name}": (dims, np.asarray(getattr(duty, name), dtype=float)) for name, dims in _DUTY.items()
+    }
+
+
+def _duty_attributes(duty: AxleDuty) -> dict[str, Any]:
+    warnings = [[each.code, each.text] for each in duty.warnings]
+    return {"source": duty.source, "points": duty.points, "warnings": warnings}
+
+
+def duty_of(dataset: xr.Dataset, case: AxleCase) -> AxleDuty | None:
+    """Duty cycle of a dataset of ``layout_of``; None without one. Raises UnfitError as ``solutions_of``."""
+    if "duty" not in dataset.attrs:
+        return None
+    about = json_of(
+        dataset.attrs,
+        "duty",
+        lambda value: is_table(value, {"source": is_text, "points": is_number, "warnings": _are_warnings}),
+    )
+    columns = {}
+    for name, dims in _DUTY.items():
+        variable = f"duty_{name}"
+        if variable not in dataset or tuple(dataset[variable].dims) != dims:
+            raise UnfitError(f"{variable} is missing, or has other dimensions")
+        columns[name] = np.asarray(dataset[variable].values, dtype=float)
+    states, elements = columns.pop("states"), case.keys_of_elements()
+    if states.shape[1] != len(elements) or not np.all(np.isin(states, range(len(STATES)))):
+        raise UnfitError("duty_states is not the state of each element")
+    return AxleDuty(
+        source=about["source"],
+        names=tuple(elements.values()),
+        keys=tuple(elements),
+        states=states.astype(int),
+        points=int(about["points"]),
+        warnings=_warnings(about["warnings"]),
+        **columns,
+    )
+
+
+def _warnings(rows: Sequence[Sequence[str]]) -> tuple[ResultWarning, ...]:
+    """Warnings from rows of code and text."""
+    return warnings_of({CODES_OF_TEXTS: [row[0] for row in rows], TEXTS: [row[1] for row in rows]})
 
 
 def _column(solutions: Sequence[AxleSolution], name: str, count: int) -> Array:
@@ -97,9 +165,7 @@ def solutions_of(dataset: xr.Dataset) -> tuple[AxleSolution, ...]:
             of_variant,
             of_variant.turning(),
             tuple(_elements(of_variant, {name: column[k] for name, column in columns.items()})),
-            warnings_of(
-                {CODES_OF_TEXTS: [row[0] for row in warnings[k]], TEXTS: [row[1] for row in warnings[k]]}
-            ),
+            _warnings(warnings[k]),
         )
         for k, of_variant in enumerate(cases[:variants])
     )

@@ -2,15 +2,15 @@
 
 At each point of a Sobol design the whole axle is solved: loads, films, network and voltages. An element with
 the voltage U and the breakdown voltage V_b breaks down if U is at least V_b; an element whose summits touch
-breaks down at any voltage, and counts as the first. Else the first element has the largest r = U/V_b. Which
-of two elements A and B is first depends on
+breaks down at any voltage. The first element has the largest r = U/V_b of all elements that have a breakdown
+voltage. Which of two elements A and B is first depends on
 
     D = (r_A - r_B)/(r_A + r_B),
 
-which does not contain the dielectric strength. It is 1 if the summits of A touch. The shares of the inputs in
-the variance of D rank the measurements that decide which of the two elements is first. In the same way the
-inputs have shares in the variance of r/(1 + r) of the first element. Both functions are bounded: a logarithm
-would not be near the inputs at which summits touch.
+which does not contain the dielectric strength. The shares of the inputs in the variance of D rank the
+measurements that decide which of the two elements is first. In the same way the inputs have shares in the
+variance of r/(1 + r) of the first element. Both functions are bounded: a logarithm would not be near the
+inputs at which summits touch.
 """
 
 from __future__ import annotations
@@ -330,17 +330,9 @@ class _Rows:
             self.limits.append(np.full(count, np.nan))
             self.conducting.append(np.zeros(count, dtype=bool))
             return
-        network, potentials = solution.network(), solution.potentials()
-        films = solution.films()
-        self.voltages.append(np.array([abs(network.voltage(film, potentials)) for film in films]))
-        self.limits.append(
-            np.array(
-                [
-                    math.inf if film.conducts else _limit(each.breakdown_voltage, touching=each.touching)
-                    for each, film in zip(solution.elements, films, strict=True)
-                ]
-            )
-        )
+        voltages, limits = solution.voltages_and_limits()
+        self.voltages.append(voltages)
+        self.limits.append(limits)
         self.conducting.append(np.array([each.state == CONDUCTS for each in solution.elements]))
 
     def margins(self) -> Array:
@@ -350,13 +342,6 @@ class _Rows:
         least = np.min(np.divide(limits, voltages, out=np.full_like(limits, np.inf), where=ranked), axis=1)
         margins = np.where(np.any(ranked, axis=1), least, MOST_MARGIN)
         return np.where(np.any(np.isnan(voltages), axis=1), np.nan, margins)
-
-
-def _limit(voltage: float | None, *, touching: bool) -> float:
-    """Breakdown voltage, 0 where summits touch, infinite for an element that does not break down."""
-    if voltage is None:
-        return 0.0 if touching else math.inf
-    return voltage
 
 
 def uncertainty_of(
@@ -428,17 +413,13 @@ def _add(rows: _Rows, design: AxleDesign, at: Array) -> None:
         rows.add(outcome if isinstance(outcome, AxleSolution) else None)
 
 
-# Breakdown voltage with which elements whose summits touch are compared with each other [V].
-_TOUCHING = 1e-12
-
-
 def _firsts(voltages: Array, limits: Array) -> IntArray:
     """Numbers of the first elements at all points, -1 where no element has a voltage and a breakdown voltage.
 
-    Of several elements whose summits touch, the element with the largest voltage is first.
+    As in the ranking of an axle, an element whose summits touch has no breakdown voltage.
     """
-    ranked = np.isfinite(limits) & (voltages > 0.0)
-    ratios = np.where(ranked, voltages / np.maximum(limits, _TOUCHING), -1.0)
+    ranked = np.isfinite(limits) & (limits > 0.0) & (voltages > 0.0)
+    ratios = np.divide(voltages, limits, out=np.full_like(limits, -1.0), where=ranked)
     return np.asarray(np.where(np.any(ranked, axis=1), np.argmax(ratios, axis=1), -1))
 
 
@@ -470,12 +451,11 @@ def _deciding(
         return None
     both = order[:2]
     (first, second), (low, high) = voltages[:, both].T, limits[:, both].T
-    # (r_A - r_B)/(r_A + r_B) times both breakdown voltages: an element that conducts has r = 0.
+    # (r_A - r_B)/(r_A + r_B) times both breakdown voltages.
     with np.errstate(invalid="ignore"):
         ratios = first * high, second * low
         difference = (ratios[0] - ratios[1]) / (ratios[0] + ratios[1])
-    difference = np.where(np.isinf(low), -1.0, np.where(np.isinf(high), 1.0, difference))
-    known = np.isfinite(difference)
+    known = np.isfinite(difference) & np.all(limits[:, both] > 0.0, axis=1)
     if np.mean(known) < _LEAST_COMPARED or not np.ptp(difference[known]):
         return None
     shares = variance_shares(2.0 * at[known, : design.number] - 1.0, difference[known])

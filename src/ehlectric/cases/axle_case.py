@@ -35,6 +35,7 @@ from ehlectric.cases.case_oil import Lubricant
 from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.cases.drive_case import Remedy
 from ehlectric.cases.drive_inputs import Breakdown, Circuit, Source
+from ehlectric.cases.duty_inputs import Duty
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.gear_inputs import Gear
 from ehlectric.cases.input_ranges import (
@@ -46,6 +47,7 @@ from ehlectric.cases.input_ranges import (
     table_of_ranges,
 )
 from ehlectric.cases.key_names import refuse_deep
+from ehlectric.cases.roughness_inputs import find_files
 from ehlectric.cases.stated_ranges import with_stated_ranges
 from ehlectric.cases.table import CaseFile, Table, Title, number_of
 from ehlectric.cases.table_edits import displace, set_keys
@@ -122,6 +124,8 @@ class AxleCase(CaseFile, book="axle_file"):
         Changes that are computed in addition to the axle, each with its title.
     ranges : mapping, optional
         Ranges of uncertain inputs by dotted key, each a list of two values.
+    duty : mapping, optional
+        Duty cycle: the path of its ``file``.
     """
 
     if TYPE_CHECKING:
@@ -144,6 +148,7 @@ class AxleCase(CaseFile, book="axle_file"):
     discharge: Discharge = Discharge()
     remedies: tuple[Remedy, ...] = ()
     ranges: tuple[InputRange, ...] | None = None
+    duty: Duty | None = None
 
     @model_validator(mode="before")
     @classmethod
@@ -787,11 +792,15 @@ def _second_path(key: str, name: str, speed: float, known: float) -> InputError:
 
 
 def with_gear_files(table: Mapping[str, Any], folder: Path) -> dict[str, Any]:
-    """Tables of an axle with the tables of the gear files that its meshes name, relative to a folder."""
-    meshes = table.get("mesh")
+    """Tables of an axle with the tables of its gear files, and the path of its duty cycle; file names are
+    relative to a folder.
+    """
+    tables = deepcopy(dict(table))
+    find_files(tables, folder)
+    meshes = tables.get("mesh")
     if not isinstance(meshes, list):
-        return dict(table)
-    return {**table, "mesh": [_with_pair(number, mesh, folder) for number, mesh in enumerate(meshes, 1)]}
+        return tables
+    return {**tables, "mesh": [_with_pair(number, mesh, folder) for number, mesh in enumerate(meshes, 1)]}
 
 
 def _with_pair(number: int, mesh: Any, folder: Path) -> Any:

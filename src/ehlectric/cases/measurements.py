@@ -94,6 +94,7 @@ MEASURED = ColumnBook.of(
     MOST_ROWS,
 )
 CYCLE = ColumnBook.of("duty", "'time [s]', 'speed [rpm]' and 'radial load [N]'", MOST_ROWS_OF_CYCLE)
+AXLE_CYCLE = ColumnBook.of("axle_duty", "'time [s]', 'speed [rpm]' and 'torque [N m]'", MOST_ROWS_OF_CYCLE)
 GEAR_CYCLE = ColumnBook.of("gear_duty", "'time [s]', 'speed [rpm]' and 'torque [N m]'", MOST_ROWS_OF_CYCLE)
 
 

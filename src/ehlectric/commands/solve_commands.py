@@ -417,6 +417,7 @@ def _axle_tables(outcome: RunOutcome[object]) -> Iterator[Table]:
     from ehlectric.tables.axle_tables import (
         chance_rows,
         chances_table,
+        duty_table,
         elements_table,
         remedies_table,
         shafts_table,
@@ -425,6 +426,8 @@ def _axle_tables(outcome: RunOutcome[object]) -> Iterator[Table]:
 
     yield elements_table(outcome.summary)
     yield shafts_table(outcome.summary)
+    if "duty" in outcome.summary:
+        yield duty_table(outcome.summary)
     if "uncertainty" in outcome.summary:
         yield chances_table(outcome.summary)
         yield table_of(chance_rows(outcome.summary))

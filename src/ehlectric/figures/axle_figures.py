@@ -11,7 +11,8 @@ from matplotlib.patches import Patch
 
 from ehlectric.axle import AxleResult
 from ehlectric.errors import printable
-from ehlectric.figures.figure_names import AXLE_FIGURE_FILES, FORCES_FIGURE
+from ehlectric.figures.axle_duty import axle_duty, duty_finding
+from ehlectric.figures.figure_names import AXLE_DUTY_FIGURE, AXLE_FIGURE_FILES, FORCES_FIGURE
 from ehlectric.figures.network_picture import network_picture
 from ehlectric.figures.shaft_forces import shaft_forces
 from ehlectric.figures.style import drawing_of, legend_above, new_panels, note, style, titled
@@ -85,15 +86,21 @@ def _torques(result: AxleResult) -> str:
 FIGURES: Mapping[str, tuple[Callable[[AxleResult], Axes], Callable[[AxleResult], str]]] = dict(
     zip(
         AXLE_FIGURE_FILES,
-        ((_draw_elements, _first), (network_picture, _first), (shaft_forces, _torques)),
+        (
+            (_draw_elements, _first),
+            (network_picture, _first),
+            (shaft_forces, _torques),
+            (axle_duty, duty_finding),
+        ),
         strict=True,
     )
 )
 
 
 def drawings_of(result: AxleResult) -> list[str]:
-    """Names of the figures of an axle; an axle without gears has no figure of forces."""
-    return [name for name in FIGURES if name != FORCES_FIGURE or result.case.mesh]
+    """Names of the figures of an axle: no forces without gears, and no duty cycle without its table."""
+    present = {FORCES_FIGURE: bool(result.case.mesh), AXLE_DUTY_FIGURE: result.case.duty is not None}
+    return [name for name in FIGURES if present.get(name, True)]
 
 
 def figure(result: AxleResult, name: str) -> Figure:

@@ -18,7 +18,7 @@ from ehlectric.quantities.lubrication_states import AT_TIMES, CONDUCTS, INSULATE
 from ehlectric.quantities.palette import AMBER, BLUE, GREEN, GREY, ORANGE, PURPLE, SKY
 
 # Colours of names by their order; further names have colours of ``_MANY``.
-_NAMED, _MANY = (BLUE, ORANGE, GREEN, PURPLE, AMBER, SKY), "tab20"
+_NAMED, _MANY = (BLUE, ORANGE, GREEN, PURPLE, AMBER, SKY), "tab20b"
 
 # Colours of electrical states, as on maps of the share of time.
 _STATES = {CONDUCTS: GREY, AT_TIMES: ORANGE, INSULATES: BLUE}
@@ -35,7 +35,10 @@ def colours_of_names(names: Sequence[str]) -> list[str]:
     >>> colours_of_names(["insulates", "conducts"]) == [BLUE, GREY]
     True
     """
-    many = [to_hex(colormaps[_MANY](number)) for number in range(20)]
+    # Five hues of four tones: neighbours differ in hue.
+    many = [
+        to_hex(colormaps[_MANY](4 * (number % 5) + number // 5)) for number in (3, 2, 0, 1, *range(4, 20))
+    ]
     colours = [*_NAMED, *many]
     return [_STATES.get(name, colours[number % len(colours)]) for number, name in enumerate(names)]
 

@@ -48,6 +48,7 @@ from ehlectric.tables.axle_tables import (
     axle_rows,
     chance_rows,
     chances_table,
+    duty_table,
     elements_table,
     remedies_table,
     shafts_table,
@@ -190,6 +191,8 @@ def _axle(result: AxleResult) -> Part:
     )
     elements = cell_table(elements_table(summary), "Bearings and meshes, the first to break down first")
     further = [elements, cell_table(shafts_table(summary), "Shafts", "shaft")]
+    if "duty" in summary:
+        further.append(cell_table(duty_table(summary), "Shares of the duty cycle"))
     if "uncertainty" in summary:
         further.append(cell_table(chances_table(summary), "Probabilities of bearings and meshes"))
     if summary["remedies"]:

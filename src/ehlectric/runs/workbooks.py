@@ -75,7 +75,7 @@ def workbook(result: AnyResult | SweepResults) -> bytes:
     _fill(book, "table", _table(frame, result, case))
     if isinstance(result, BearingResult):
         _fill_over_speed(book, result.case, tables)
-    if isinstance(result, BearingResult | DriveResult | GearResult) and result.duty is not None:
+    if isinstance(result, BearingResult | DriveResult | GearResult | AxleResult) and result.duty is not None:
         _fill(book, "duty cycle", _duty(result))
     file = BytesIO()
     book.save(file)
@@ -164,7 +164,7 @@ def _table(
     return _columns(columns)
 
 
-def _duty(result: BearingResult | DriveResult | GearResult) -> Iterator[Iterable[Any]]:
+def _duty(result: BearingResult | DriveResult | GearResult | AxleResult) -> Iterator[Iterable[Any]]:
     """Rows of the duty cycle, below heads with units."""
     assert result.duty is not None
     columns = {}
@@ -172,6 +172,8 @@ def _duty(result: BearingResult | DriveResult | GearResult) -> Iterator[Iterable
         match result:
             case GearResult():
                 key = "gear.bulk_temperature"
+            case AxleResult():
+                key = "inputs.drive.temperature"
             case BearingResult():
                 key = f"bearing.{name}"
             case _:

@@ -357,8 +357,8 @@ class Sweep(Tabled, Table):
     @classmethod
     def _alone(cls, case: SolvedCase) -> SolvedCase:
         """Case without remedies and duty cycle, which a sweep does not solve: what they change may vary."""
-        if isinstance(case, AxleCase) and case.remedies:
-            return case.model_copy(update={"remedies": ()})
+        if isinstance(case, AxleCase) and (case.remedies or case.duty is not None):
+            return case.model_copy(update={"remedies": (), "duty": None})
         if isinstance(case, DriveCase) and (case.remedies or case.duty is not None):
             return case.model_copy(update={"remedies": (), "duty": None})
         return case

@@ -134,6 +134,31 @@ def chances_table(summary: Summary) -> Table:
     return columns_table(heads, rows, wrapped=(0,))
 
 
+def duty_cells(summary: Summary) -> Iterator[tuple[str, ...]]:
+    """Yield the heads of the table of a duty cycle, then a row for each bearing and mesh, the element that is
+    the first for the longest time on top. None without a duty cycle.
+    """
+    table = summary.get("duty")
+    if table is None:
+        return
+    yield "share of the cycle [%]", "first", "U ≥ V_b", "summits touch", "conducts", "largest U/V_b", "at"
+    for row in sorted(table["elements"], key=lambda each: -each["first_share"]):
+        shares = (row[f"{key}_share"] for key in ("first", "breakdown", "touching", "conducting"))
+        time = row["largest_time"]
+        yield (
+            printable(row["element"]),
+            *(readable(100.0 * share, 2) for share in shares),
+            _cell(row["largest_ratio"]),
+            "–" if time is None else f"{readable(time)} s",
+        )
+
+
+def duty_table(summary: Summary) -> Table:
+    """Table of the duty cycle of all bearings and meshes, for the terminal."""
+    heads, *rows = duty_cells(summary)
+    return columns_table(heads, rows, wrapped=(0,))
+
+
 def chance_rows(summary: Summary) -> Iterator[Row]:
     """Rows of the uncertain inputs, and of the inputs that decide which element is first."""
     yield from shares_of_spread(summary)
