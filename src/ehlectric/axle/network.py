@@ -23,22 +23,18 @@ with the modes G phi_k = s_k C phi_k and phi_k'C phi_k = 1. Without conductances
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
+from functools import cached_property
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
 from ehlectric.cases.axle_inputs import HOUSING as HOUSING
+from ehlectric.drive import FRAME, WINDING, StateSpace, state_space
+from ehlectric.drive import Element as CircuitElement
 from ehlectric.errors import InputError
-
-Floats = NDArray[np.floating[Any]]
-
-# Name of the node that the source drives.
-WINDING = "winding"
 
 
 @dataclass(frozen=True)
@@ -85,14 +81,16 @@ class Network:
         >>> round(Network(("rotor",), shaft).potentials(300.0)["rotor"], 9)
         18.75
         """
-        matrix, charge = self._matrix(), self._charge() * edge
-        if rise_time == 0.0 or not matrix.size:
-            return self._named(self._spread(np.linalg.solve(matrix, charge)))
-        rates, modes = scipy.linalg.eigh(self._assembled(lambda each: each.conductance), matrix)
+        system = self.system
+        share = -system.jump
+        if rise_time == 0.0 or not share.size:
+            return self._named(share * edge)
+        conductance = -system.capacitance @ system.rates
+        rates, modes = scipy.linalg.eigh(0.5 * (conductance + conductance.T), system.capacitance)
         # (1 - exp(-x))/x, which is 1 for x = 0.
         decay = np.maximum(rates, 0.0) * rise_time
         remaining = np.where(decay > 0.0, -np.expm1(-decay) / np.where(decay > 0.0, decay, 1.0), 1.0)
-        return self._named(self._spread(modes @ (remaining * (modes.T @ charge))))
+        return self._named(modes @ (remaining * (modes.T @ (system.capacitance @ share * edge))))
 
     def voltage(self, element: Film, potentials: Mapping[str, float]) -> float:
         """Voltage of an element at potentials of the shafts [V]."""
@@ -100,67 +98,59 @@ class Network:
 
     def breakdown(self, element: Film, potentials: Mapping[str, float], rest: float = 0.0) -> Breakdown:
         """Breakdown of an element at potentials of the shafts [V], down to a rest voltage [V]."""
-        incidence = self._merge.T @ self._incidence(element)
-        response = np.linalg.solve(self._matrix(), incidence)
+        system = self.system
+        across = system.potential(self.nodes[element.first]) - system.potential(self.nodes[element.second])
+        response = np.linalg.solve(system.capacitance, across)
         voltage = self.voltage(element, potentials)
-        capacitance = 1.0 / float(incidence @ response)
+        capacitance = 1.0 / float(across @ response)
         charge = capacitance * (voltage - rest)
-        before = np.array([potentials[shaft] for shaft in self.shafts])
+        change = self._named(response * charge)
         return Breakdown(
             voltage,
             charge,
             capacitance,
             0.5 * capacitance * (voltage**2 - rest**2),
-            self._named(before - self._spread(response * charge)),
+            {shaft: potentials[shaft] - change[shaft] for shaft in self.shafts},
         )
 
-    @property
-    def _merge(self) -> Array:
-        """Matrix T from the potentials of groups of shafts to all shafts, shape (shafts, groups).
+    @cached_property
+    def nodes(self) -> dict[str, str]:
+        """Nodes of the circuit by the names of shafts, housing and winding.
 
-        Shafts that conducting elements connect are a group; a group with the housing has the potential 0.
+        Shafts that conducting elements connect are one node.
         """
-        group = {node: node for node in (*self.shafts, HOUSING)}
+        nodes = {shaft: f"shaft {shaft}" for shaft in self.shafts} | {HOUSING: FRAME}
         for element in self.elements:
             if element.conducts:
-                kept, gone = sorted((group[element.first], group[element.second]), key=lambda n: n != HOUSING)
-                group = {node: kept if name == gone else name for node, name in group.items()}
-        names = sorted({group[shaft] for shaft in self.shafts} - {HOUSING}, key=self.shafts.index)
-        return np.array([[float(group[shaft] == name) for name in names] for shaft in self.shafts])
+                kept, gone = sorted((nodes[element.first], nodes[element.second]), key=lambda n: n != FRAME)
+                nodes = {name: kept if node == gone else node for name, node in nodes.items()}
+        return nodes | {WINDING: WINDING}
 
-    def _incidence(self, element: Film) -> Array:
-        """Incidence of an element at the shafts, shape (shafts,)."""
-        return np.array([float(shaft == element.first) - (shaft == element.second) for shaft in self.shafts])
-
-    def _matrix(self) -> Array:
-        """Capacitances of the groups of shafts [F], shape (groups, groups)."""
-        matrix = self._assembled(lambda each: each.capacitance)
-        if matrix.size and np.linalg.matrix_rank(matrix, tol=1e-12 * np.max(np.abs(matrix))) < len(matrix):
-            raise InputError.worded("shaft", "a shaft has no path of capacitances to the housing")
-        return matrix
-
-    def _assembled(self, value: Callable[[Film], float]) -> Array:
-        """Matrix of a value of all elements between the groups of shafts, shape (groups, groups)."""
-        rows = [(self._incidence(each), value(each)) for each in self.elements if not each.conducts]
-        whole = np.sum([number * np.outer(row, row) for row, number in rows], axis=0)
-        merge = self._merge
-        matrix: Array = merge.T @ whole @ merge
-        return matrix
-
-    def _charge(self) -> Array:
-        """Capacitances of the winding to the groups of shafts [F], shape (groups,)."""
-        total = np.zeros(len(self.shafts))
+    def circuit(self) -> Iterator[CircuitElement]:
+        """Capacitors and conductors of all elements that do not conduct, between their nodes."""
         for element in self.elements:
-            if WINDING in (element.first, element.second):
-                total += element.capacitance * np.abs(self._incidence(element))
-        return self._merge.T @ total
+            first, second = self.nodes[element.first], self.nodes[element.second]
+            if first != second:
+                yield CircuitElement("capacitor", first, second, element.capacitance)
+                if element.conductance:
+                    yield CircuitElement("conductor", first, second, element.conductance)
 
-    def _spread(self, of_groups: Floats) -> Array:
-        """Values of groups at all shafts, shape (shafts,)."""
-        return np.asarray(self._merge @ of_groups)
+    @cached_property
+    def system(self) -> StateSpace:
+        """State equations of the network; the winding is driven."""
+        elements = [*self.circuit()]
+        connected = {node for each in elements for node in (each.first, each.second)} | {FRAME}
+        try:
+            if connected.issuperset(self.nodes[shaft] for shaft in self.shafts):
+                return state_space(elements, (WINDING, FRAME))
+        except ValueError:
+            pass
+        raise InputError.worded("shaft", "a shaft has no path of capacitances to the housing")
 
     def _named(self, values: Array) -> dict[str, float]:
-        return dict(zip(self.shafts, values.tolist(), strict=True))
+        """Values of the free nodes of the circuit by the shafts; 0 for the housing."""
+        by_node = dict(zip(self.system.nodes, values.tolist(), strict=True))
+        return {shaft: by_node.get(self.nodes[shaft], 0.0) for shaft in self.shafts}
 
 
 def rank(

@@ -18,6 +18,11 @@ from .drive_record import ON as ON
 from .drive_record import PEAK as PEAK
 from .drive_record import VOLTAGE as VOLTAGE
 from .measurable import DriveModel as DriveModel
+from .motor_circuit import FRAME as FRAME
+from .motor_circuit import WINDING as WINDING
+from .motor_circuit import Element as Element
+from .motor_circuit import StateSpace as StateSpace
+from .motor_circuit import state_space as state_space
 from .netlist import OPEN as OPEN
 from .netlist import SIGNATURE as SIGNATURE
 from .netlist import Arc as Arc

@@ -99,7 +99,7 @@ def state_space(elements: Sequence[Element], source: tuple[str, str]) -> StateSp
     inductance = np.array([element.value for element in inductors])
     resistance = np.array([element.resistance for element in inductors])
     matrix, charge = into.T @ c @ into, into.T @ c @ drive
-    if np.linalg.matrix_rank(matrix, tol=1e-12 * np.max(np.abs(matrix), initial=1e-300)) < len(free):
+    if free and np.linalg.matrix_rank(matrix, tol=1e-12 * np.max(np.abs(matrix))) < len(free):
         raise ValueError("a node has no path of capacitors to the frame or the source")
     leak, through = into.T @ g @ into, into.T @ n
     k = np.linalg.solve(matrix, charge)
