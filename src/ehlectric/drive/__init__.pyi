@@ -4,6 +4,15 @@ from .bearing_remedies import at_shaft_voltage as at_shaft_voltage
 from .bearing_remedies import grounded_verdict as grounded_verdict
 from .bearing_remedies import grounded_voltage as grounded_voltage
 from .bearing_remedies import with_remedy as with_remedy
+from .circuit_states import CircuitStates as CircuitStates
+from .circuit_states import states_in_time as states_in_time
+from .discharges.films_and_source import Films as Films
+from .discharges.films_and_source import Segments as Segments
+from .discharges.films_and_source import films_of as films_of
+from .discharges.simulation import Measuring as Measuring
+from .discharges.simulation import simulate as simulate
+from .drive_bearings import BearingElement as BearingElement
+from .drive_bearings import bearing_element as bearing_element
 from .drive_cycle import DriveDuty as DriveDuty
 from .drive_cycle import DriveDutyRows as DriveDutyRows
 from .drive_netlist_files import about_source as about_source
@@ -18,6 +27,7 @@ from .drive_record import ON as ON
 from .drive_record import PEAK as PEAK
 from .drive_record import VOLTAGE as VOLTAGE
 from .measurable import DriveModel as DriveModel
+from .drive_record import Record as Record
 from .motor_circuit import FRAME as FRAME
 from .motor_circuit import WINDING as WINDING
 from .motor_circuit import Element as Element

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 
 import numpy as np
@@ -12,12 +13,16 @@ from ehlectric.drive.motor_circuit import (
     FRAME,
     ROTOR,
     Complex,
+    Element,
     Integers,
     Modes,
     StateSpace,
-    drive_system,
+    bearing_elements,
     film_nodes,
     modes_of,
+    motor_elements,
+    source_nodes,
+    state_space,
 )
 
 # What a film does in a state of the circuit: it insulates, conducts through an arc, or touches.
@@ -110,16 +115,36 @@ def _with(values: tuple[int, ...], place: int, value: int) -> tuple[int, ...]:
     return (*values[:place], value, *values[place + 1 :])
 
 
+def states_in_time(
+    fixed: Sequence[Element],
+    films: Sequence[tuple[Nodes, BearingElement]],
+    shafts: Sequence[Nodes],
+    source: Nodes,
+    breakdown: Breakdown,
+    ring: complex | None = None,
+) -> CircuitStates:
+    """Circuit states of films between nodes, with elements that do not change.
+
+    ``shafts``, nodes between which the voltages of shafts lie; ``source``, positive and negative node of the
+    source; ``ring``, rate at which it rings [1/s].
+    """
+    arc = 1.0 / breakdown.arc_resistance if breakdown.arc_resistance else math.inf
+    conductances = [(0.0, arc, 1.0 / film.touch_resistance) for _, film in films]
+
+    def system_in(places: tuple[int, ...], doing: tuple[int, ...]) -> StateSpace:
+        elements = list(fixed)
+        for b, (nodes, film) in enumerate(films):
+            elements += bearing_elements(film, nodes, places[b], conductances[b][doing[b]])
+        return state_space(elements, source)
+
+    positions = [film.capacitance.size for _, film in films]
+    return CircuitStates(system_in, positions, [nodes for nodes, _ in films], shafts, ring)
+
+
 def drive_states(
     circuit: Circuit, bearings: Sequence[BearingElement], breakdown: Breakdown, ring: complex | None = None
 ) -> CircuitStates:
     """Circuit states of a drive; ``ring``, rate at which its source rings [1/s]."""
-    arc = 1.0 / breakdown.arc_resistance
-    conductances = [(0.0, arc, 1.0 / bearing.touch_resistance) for bearing in bearings]
-
-    def system_in(places: tuple[int, ...], doing: tuple[int, ...]) -> StateSpace:
-        conducting = [conductances[b][does] for b, does in enumerate(doing)]
-        return drive_system(circuit, bearings, places, conducting)
-
-    positions = [bearing.capacitance.size for bearing in bearings]
-    return CircuitStates(system_in, positions, film_nodes(bearings), [(ROTOR, FRAME)], ring)
+    films = list(zip(film_nodes(bearings), bearings, strict=True))
+    fixed, source = list(motor_elements(circuit)), source_nodes(circuit)
+    return states_in_time(fixed, films, [(ROTOR, FRAME)], source, breakdown, ring)

@@ -35,7 +35,7 @@ _LATER = stored("", "V", "finite or NaN", needed=False)
 
 @dataclass(frozen=True, eq=False)
 class Record:
-    """Record of a simulated time."""
+    """Record of a simulated time; of a drive with two films, and of an axle with any number of them."""
 
     duration: float = field(metadata=stored("", "s", "positive"))  # time that was measured [s]
     # The first events of both films, a row for each with the columns above; times from the start of the
@@ -66,8 +66,9 @@ class Record:
     touching: Array = field(metadata=stored("bearing", "V", "not negative", name="touching_voltage"))
     # Time for which an arc burnt in each film, with arcs that burnt before and after [s], shape (2,).
     burning: Array = field(metadata=stored("bearing", "s", "not negative", name="burning_time"))
-    # Time [s], voltage of the source without its ringing, and voltage across both films [V], in a short
-    # stretch; straight between the rows, shape (m, 4).
+    # Time [s], voltage of the source without its ringing, voltage across each film, and voltage of each shaft
+    # [V], in a short stretch; straight between the rows, shape (m, 2 + films + shafts). The record of a drive
+    # has only the columns of both films.
     trace: Array
     # Number of events of each film at a positive voltage of the shaft, shape (2,).
     positive: Array = field(
@@ -82,6 +83,8 @@ class Record:
     shaft_highest: float = field(default=math.nan, metadata=_LATER)
     source_lowest: float = field(default=math.nan, metadata=_LATER)
     source_highest: float = field(default=math.nan, metadata=_LATER)
+    # The same four values of each shaft against the frame [V], shape (shafts, 4).
+    shafts: Array = field(default_factory=lambda: np.zeros((0, 4)))
 
 
 # Probability that a rate lies within its bounds.

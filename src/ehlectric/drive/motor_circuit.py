@@ -246,7 +246,7 @@ def bearing_elements(
         if math.isfinite(bearing.path.resistance):
             yield Element("conductor", nodes[1], FRAME, float(1.0 / bearing.path.resistance))
     if bearing.path.parallel:
-        yield Element("capacitor", ROTOR, FRAME, float(bearing.path.parallel))
+        yield Element("capacitor", nodes[0], FRAME, float(bearing.path.parallel))
 
 
 def oscillations(circuit: Circuit, bearings: Sequence[BearingElement]) -> list[tuple[float, float]]:
@@ -269,6 +269,9 @@ Integers = NDArray[np.int64]
 
 # Condition number of the modes above which two of them are taken as one that has no diagonal form.
 _ALIKE = 1e9
+
+# Relative difference of two conductances that is rounding.
+_SYMMETRIC = 1e-9
 
 # Relative change of the rates that parts two modes of the same rate, with an effect of its own size.
 _APART = 1e-10
@@ -343,15 +346,31 @@ def modes_of(system: StateSpace, voltages: Sequence[tuple[str, str]], ring: comp
 def _diagonal(rates: Array, charge: Array) -> tuple[Complex, Complex, Complex]:
     """Eigenvalues, eigenvectors and their inverse; equal rates without a diagonal form are parted.
 
-    In states that are scaled by the root of their energy, losses make the matrices symmetric, and exchange
+    Without inductances -C A is the symmetric matrix of conductances, so that a diagonal form exists: with the
+    Cholesky factor C = L L', L^-1 C A L^-T is symmetric. It is used where eigenvectors of equal rates are
+    nearly parallel, such as of several shafts that nothing discharges. Otherwise, in states that are scaled by the root of their energy, losses make the matrices symmetric, and exchange
     between capacitors and inductors makes them antisymmetric, so that the eigenvectors are well conditioned.
     """
     energy = np.sqrt(np.diagonal(charge))
     scaled = energy[:, None] * rates / energy[None, :]
     eigenvalues, shapes = (part.astype(complex) for part in np.linalg.eig(scaled))
     if np.linalg.cond(shapes) > _ALIKE:
+        leak = charge @ rates
+        if np.max(np.abs(leak - leak.T)) <= _SYMMETRIC * np.max(np.abs(leak)):
+            return _diagonal_without_inductances(leak, charge)
         order = np.arange(1, energy.size + 1)
         eigenvalues, shapes = (
             part.astype(complex) for part in np.linalg.eig(scaled * (1.0 + _APART * order[:, None]))
         )
     return eigenvalues, shapes / energy[:, None], np.linalg.inv(shapes) * energy[None, :]
+
+
+def _diagonal_without_inductances(leak: Array, charge: Array) -> tuple[Complex, Complex, Complex]:
+    """Eigenvalues, eigenvectors and their inverse from C A and C, both symmetric."""
+    factor = np.linalg.cholesky(charge)
+    unit = np.linalg.inv(factor)
+    eigenvalues, vectors = np.linalg.eigh(0.5 * unit @ (leak + leak.T) @ unit.T)
+    values, shapes, inverse = (
+        part.astype(complex) for part in (eigenvalues, unit.T @ vectors, vectors.T @ factor.T)
+    )
+    return values, shapes, inverse

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from ehlectric.bearing import life_summary
 from ehlectric.cases.drive_case import DriveCase
@@ -13,6 +14,7 @@ from ehlectric.drive.inverter import steps_of
 from ehlectric.drive.preparation import PreparedDrive, prepare
 from ehlectric.drive.source_pieces import edges, sampled
 from ehlectric.drive.warnings import bearing_warnings
+from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.results import LIMITS
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.progress import Progress, silent
@@ -41,7 +43,7 @@ def solve(case: DriveCase, progress: Progress = silent, *, workers: int | None =
     return DriveSolution(
         case=case,
         elements=ready.elements,
-        record=record,
+        record=replace(record, trace=record.trace[:, : 2 + len(ENDS)]),
         divider=ready.divider,
         highest_source=ready.highest_source,
         converged=all(bearing.converged for bearing in ready.bearings),

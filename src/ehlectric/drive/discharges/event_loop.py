@@ -190,8 +190,8 @@ class March(NamedTuple):
     limits: Array  # limits of the voltage [V], shape (l,)
     above: Array  # time at which the absolute voltage is above each limit [s], shape (w, l)
     means: Array  # triangular means of the voltage of a shaft over the measured time [V], shape (k,)
-    # Time [s], voltage of the source without its ringing, and voltages of films [V], until the table is full,
-    # shape (k, 2 + w).
+    # Time [s], voltage of the source without its ringing, and all voltages [V], until the table is full,
+    # shape (k, 2 + v).
     trace: Array
     events: Array  # table that takes the events, shape (k, 8)
 
@@ -434,12 +434,12 @@ def _move_elements(rows: Complex, squares: Complex, links: Integers, film: Array
         if after < 0:
             at[MISSING], at[CHANGE] = b, MOVED
             return False
-        for i in range(n):
+        for i in range(n if after != before else 0):
             charges[i] = 0.0
             for j in range(n):
                 plain = x[j] - rows[before, JUMP_ROW, j].real * volts
                 charges[i] += squares[before, CHARGES, i, j].real * plain
-        for i in range(n):
+        for i in range(n if after != before else 0):
             value = rows[after, JUMP_ROW, i].real * volts
             for j in range(n):
                 value += squares[after, UNCHARGE, i, j].real * charges[j]
@@ -566,8 +566,8 @@ def _measure(march: March, rough: float, level: float, slope: float, t: float, e
         now[SOURCE_HIGH] = max(now[SOURCE_HIGH], max(source, level + slope * to))
         if row < trace.shape[0] and now[TRACE_FROM] <= start + t < now[TRACE_TO]:
             trace[row, 0], trace[row, 1] = start + t, source
-            for b in range(films):
-                trace[row, 2 + b] = volts[FIRST, b]
+            for b in range(volts.shape[1]):
+                trace[row, 2 + b] = volts[FIRST if b < films else BEFORE, b]
             at[TRACED] = row + 1
         begins = (start + t - now[FIRST_MEAN]) / now[SPACING]
         if begins > _MEASURED:

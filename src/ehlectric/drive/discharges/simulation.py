@@ -290,7 +290,7 @@ def _at_rest(circuits: CircuitStates, films: Films, random: _Random, measuring: 
         limits=np.array(measuring.limits),
         above=np.zeros((circuits.film_voltages, len(measuring.limits))),
         means=np.zeros(0),
-        trace=np.zeros((TRACE, 2 + circuits.film_voltages)),
+        trace=np.zeros((TRACE, 2 + voltages)),
         events=np.zeros((_EVENTS, COLUMNS)),
     )
     _start_films(march, circuits, films, random)
@@ -363,7 +363,8 @@ def _measured_anew(march: March, measuring: Measuring) -> March:
 def _traced(measuring: Measuring, circuits: CircuitStates, march: March) -> Array:
     """Rows of the trace that are filled; times from the start of the measured time."""
     rows = march.trace[: int(march.at[TRACED])]
-    trace: Array = rows[:, [0, 1, *(2 + row for row in circuits.row_of_film)]]
+    columns = [*circuits.row_of_film, *circuits.row_of_shaft]
+    trace: Array = rows[:, [0, 1, *(2 + row for row in columns)]]
     trace[:, 0] -= measuring.start
     return trace
 
@@ -372,7 +373,8 @@ def _record(
     measuring: Measuring, circuits: CircuitStates, march: March, log: _Log, trace: Array | None
 ) -> Record:
     films, now = circuits.row_of_film, march.now
-    shaft = march.meter[circuits.row_of_shaft[0]]
+    shafts = march.meter[circuits.row_of_shaft]
+    shaft = shafts[0]
     return Record(
         duration=measuring.duration,
         events=np.vstack(log.kept) if log.kept else np.zeros((0, COLUMNS)),
@@ -396,4 +398,12 @@ def _record(
         rms=np.sqrt(march.meter[films, SQUARE] / measuring.duration),
         burning=log.burning,
         trace=_traced(measuring, circuits, march) if trace is None else trace,
+        shafts=np.column_stack(
+            [
+                shafts[:, SUM] / measuring.duration,
+                np.sqrt(shafts[:, SUM_OF_SQUARES] / measuring.duration),
+                shafts[:, LOWEST_VOLTAGE],
+                shafts[:, HIGHEST_VOLTAGE],
+            ]
+        ),
     )

@@ -1,0 +1,181 @@
+"""Discharges of axles in time: numbers of a separate program, and balances."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from ehlectric.axle.films_in_time import AxleInTime, TimedFilm
+from ehlectric.axle.network import HOUSING, WINDING, Film, Network
+from ehlectric.drive import Measuring, Segments
+from ehlectric.drive.drive_record import ENERGY, FILM, ON, VOLTAGE
+from tests.helpers.drives import arc, element
+
+NANO = 1e-9
+SHAFTS = ("1", "2", "3")
+ENDS = {
+    "b1": ("1", HOUSING),
+    "m12": ("1", "2"),
+    "b2": ("2", HOUSING),
+    "m23": ("2", "3"),
+    "b3": ("3", HOUSING),
+}
+CAPACITANCES = {"b1": 0.5, "m12": 1.0, "b2": 5.0, "m23": 4.0, "b3": 11.0}
+LIMITS = {"b1": 3.0, "m12": 1.8, "b2": 2.0, "m23": 0.74, "b3": 1.0}
+PERIOD, RELAXATION, EDGE = 1e-4, 2e-4, 800.0 / 3.0
+
+
+class Ideal(AxleInTime):
+    """Axle whose discharges take no time, and end at 0 V."""
+
+    def films_in_time(self):
+        films = super().films_in_time()
+        return films._replace(arc=0.0 * films.arc, extinction=0.0 * films.extinction)
+
+
+def axle(*, kind=Ideal, shafts=SHAFTS, conducting=(), without=(), scale=1.0, relaxation=RELAXATION,
+         breakdown=None, **capacitances):  # fmt: skip
+    """Three shafts with capacitances [nF] times a scale, and the time in which films discharge [s]."""
+    values = {name: scale * NANO * value for name, value in (CAPACITANCES | capacitances).items()}
+    fixed = [
+        Film("winding", WINDING, "1", scale * 0.1 * NANO),
+        Film("rotor and frame", "1", HOUSING, scale * 1.0 * NANO),
+        *(Film(name, *ENDS[name], values[name], conducts=True) for name in conducting),
+    ]
+    films = [
+        TimedFilm(
+            name, *ends, element(values[name], breakdown=LIMITS[name], conductance=values[name] / relaxation)
+        )
+        for name, ends in ENDS.items()
+        if name not in (*conducting, *without)
+    ]
+    return kind(Network(shafts, tuple(fixed)), tuple(films), breakdown or arc())
+
+
+def axle_network(of):
+    """Network with the capacitances of all films."""
+    films = (Film(each.name, each.first, each.second, each.film.capacitance[0]) for each in of.films)
+    return Network(of.network.shafts, (*of.network.elements, *films))
+
+
+def steps(count):
+    """Periods of the carrier with three steps up and three down, from 0 V on."""
+    times = np.array([0.0, 0.10, 0.25, 0.40, 0.60, 0.75, 0.90, 1.0]) * PERIOD
+    levels = EDGE * np.array([0.0, 1.0, 2.0, 3.0, 2.0, 1.0, 0.0])
+    return Segments(np.tile(np.diff(times), count), np.tile(levels, count), np.zeros(7 * count),
+                    np.zeros(7 * count, dtype=complex))  # fmt: skip
+
+
+def march(of, *, before=10, measured=40, trace=0.0):
+    measuring = Measuring(before * PERIOD, measured * PERIOD, 40.0, (1.0,), trace)
+    chunks = [steps(count) for count in (before, measured) if count]
+    return of.march(iter(chunks), measuring, 0)
+
+
+def events_of(of, record):
+    """Events in a period of the carrier, and their mean energy [nJ], by the names of the films."""
+    numbers = np.sum(record.counts, axis=1) / 40.0
+    with np.errstate(invalid="ignore"):
+        energy = record.sums[:, ENERGY] / np.sum(record.counts, axis=1) / NANO
+    names = [each.name for each in of.active]
+    return dict(zip(names, numbers, strict=True)), dict(zip(names, energy, strict=True))
+
+
+def hybrid(of):
+    """The same axle with bearings of the rotor that do not break down."""
+    none = np.array([np.inf])
+    films = (
+        replace(each, film=replace(each.film, breakdown=none)) if each.name == "b1" else each
+        for each in of.films
+    )
+    return Ideal(of.network, tuple(films), of.breakdown)
+
+
+@pytest.mark.parametrize(
+    ("of", "expected", "energies"),
+    [
+        (axle(without=("m12", "m23")), {"b1": 6}, {"b1": 222.2222}),
+        (axle(), {"b1": 0, "m12": 10, "b2": 0, "m23": 10, "b3": 4}, {"m12": 68.5959}),
+        (hybrid(axle(b1=0.02)), {"b1": 0, "m12": 6, "b2": 0, "m23": 10, "b3": 6}, {"m12": 147.938}),
+        (axle(conducting=("m12",)), {"b1": 0, "b2": 0, "m23": 10, "b3": 6}, {"m23": 14.8559}),
+    ],
+    ids=["without a gearbox", "insulating", "hybrid bearings", "conducting mesh"],
+)
+def test_discharges_of_a_separate_program(of, expected, energies):
+    """Events in a period of the carrier, and mean energies [nJ], in the periods 10 to 49."""
+    numbers, energy = events_of(of, march(of))
+    assert {name: numbers[name] for name in expected} == expected
+    for name, value in energies.items():
+        assert energy[name] == pytest.approx(value, rel=5e-6)
+
+
+def test_the_first_discharge_of_a_separate_program():
+    """The first edge leaves 9.5181 V on the first mesh."""
+    first = march(axle(), before=0, measured=1).events[0]
+    assert [each.name for each in axle().active][int(first[FILM])] == "m12"
+    assert first[VOLTAGE] == pytest.approx(9.5181, abs=5e-5)
+    assert first[ON] == pytest.approx(0.1 * PERIOD, rel=1e-12)
+
+
+@pytest.mark.parametrize("kind", [Ideal, AxleInTime])
+def test_the_energy_of_the_source_is_stored_or_discharged(kind):
+    """Without leakage, to 1e-9: at each jump from V to W the winding takes a charge at (V + W)/2.
+
+    Between jumps it gives the charge C_w dv of the potential v of the rotor at the voltage of the source.
+    """
+    of = axle(kind=kind, relaxation=np.inf)
+    record = march(of, before=0, measured=3, trace=np.inf)
+    capacitances = {each.name: each.film.capacitance[0] for each in of.films}
+    winding, frame = 0.1 * NANO, 1.0 * NANO
+    share = next(iter(axle_network(of).potentials(1.0).values()))
+    given, before, rotor = 0.0, 0.0, 0.0
+    for level in np.split(record.trace, 1 + np.flatnonzero(np.diff(record.trace[:, 1]))):
+        source, jump = level[0, 1], level[0, 1] - before
+        given += 0.5 * (source + before) * winding * jump * (1.0 - share)
+        after = level[-1, -3]
+        given -= source * winding * (after - rotor - share * jump)
+        before, rotor = source, after
+    last = record.trace[-1]
+    volts = dict(zip((each.name for each in of.active), last[2:7], strict=True))
+    stored = sum(0.5 * value * volts[name] ** 2 for name, value in capacitances.items())
+    stored += 0.5 * frame * rotor**2 + 0.5 * winding * (before - rotor) ** 2
+    assert len(record.events) > 20
+    assert given == pytest.approx(stored + np.sum(record.sums[:, ENERGY]), rel=1e-9)
+
+
+def test_half_of_all_capacitances_is_half_of_all_energies():
+    whole, half = (march(axle(scale=scale)) for scale in (1.0, 0.5))
+    assert np.array_equal(whole.counts, half.counts)
+    assert half.events[:, ENERGY] == pytest.approx(0.5 * whole.events[:, ENERGY], rel=1e-9)
+
+
+def test_the_order_of_the_shafts_changes_nothing():
+    plain, other = (march(axle(shafts=shafts)) for shafts in (SHAFTS, ("3", "1", "2")))
+    assert other.events == pytest.approx(plain.events, rel=1e-9, abs=1e-20)
+    assert other.shafts[[1, 2, 0]] == pytest.approx(plain.shafts, rel=1e-9, abs=1e-12)
+
+
+def test_a_large_capacitance_is_a_conducting_mesh():
+    """Its film never has a voltage at which it breaks down."""
+    merged, coupled = axle(conducting=("m12",)), axle(m12=1e9, relaxation=RELAXATION)
+    numbers, energy = events_of(merged, march(merged))
+    others, energies = events_of(coupled, march(coupled))
+    assert others == numbers | {"m12": 0}
+    assert energies["m23"] == pytest.approx(energy["m23"], rel=1e-6)
+    assert energies["b3"] == pytest.approx(energy["b3"], rel=1e-6)
+
+
+def test_short_arcs_are_discharges_that_take_no_time():
+    """A resistance of 0.1 ohm and an extinction at 1 mV: energies of the first events, to 1e-3."""
+    breakdown = arc(arc_resistance=0.1, extinction_voltage=1e-3)
+    films = tuple(replace(each, film=replace(each.film)) for each in axle().films)
+    only_mesh = tuple(
+        each if each.name == "m12" else replace(each, film=replace(each.film, breakdown=np.array([np.inf])))
+        for each in films
+    )
+    network = axle().network
+    ideal, short = (
+        march(kind(network, only_mesh, breakdown), before=0, measured=5) for kind in (Ideal, AxleInTime)
+    )
+    assert short.events[:, ENERGY] == pytest.approx(ideal.events[:, ENERGY], rel=1e-3)
+    assert np.all(short.events[:, FILM] == 1)
