@@ -347,9 +347,12 @@ def _diagonal(rates: Array, charge: Array) -> tuple[Complex, Complex, Complex]:
     """Eigenvalues, eigenvectors and their inverse; equal rates without a diagonal form are parted.
 
     Without inductances -C A is the symmetric matrix of conductances, so that a diagonal form exists: with the
-    Cholesky factor C = L L', L^-1 C A L^-T is symmetric. It is used where eigenvectors of equal rates are
-    nearly parallel, such as of several shafts that nothing discharges. Otherwise, in states that are scaled by the root of their energy, losses make the matrices symmetric, and exchange
-    between capacitors and inductors makes them antisymmetric, so that the eigenvectors are well conditioned.
+    Cholesky factor C = L L', L^-1 C A L^-T is symmetric. It is used if eigenvectors of equal rates are nearly
+    parallel, such as for several shafts that nothing discharges.
+
+    Otherwise, in states that are scaled by the root of their energy, losses make the matrices symmetric, and
+    exchange between capacitors and inductors makes them antisymmetric, so that the eigenvectors are well
+    conditioned.
     """
     energy = np.sqrt(np.diagonal(charge))
     scaled = energy[:, None] * rates / energy[None, :]
