@@ -12,7 +12,6 @@ from .discharges.films_and_source import films_of as films_of
 from .discharges.simulation import Measuring as Measuring
 from .discharges.simulation import simulate as simulate
 from .drive_bearings import BearingElement as BearingElement
-from .drive_bearings import bearing_element as bearing_element
 from .drive_cycle import DriveDuty as DriveDuty
 from .drive_cycle import DriveDutyRows as DriveDutyRows
 from .drive_netlist_files import about_source as about_source
