@@ -35,7 +35,7 @@ _LATER = stored("", "V", "finite or NaN", needed=False)
 
 @dataclass(frozen=True, eq=False)
 class Record:
-    """Record of a simulated time; of a drive with two films, and of an axle with any number of them."""
+    """Record of a simulated time: a drive has two films, and an axle any number."""
 
     duration: float = field(metadata=stored("", "s", "positive"))  # time that was measured [s]
     # The first events of both films, a row for each with the columns above; times from the start of the
