@@ -32,7 +32,8 @@ import scipy
 
 from ehlectric.arrays import Array
 from ehlectric.cases.axle_inputs import HOUSING as HOUSING
-from ehlectric.drive import FRAME, WINDING, StateSpace, state_space
+from ehlectric.drive import FRAME, StateSpace, state_space
+from ehlectric.drive import WINDING as WINDING
 from ehlectric.drive import Element as CircuitElement
 from ehlectric.errors import InputError
 
@@ -90,7 +91,8 @@ class Network:
         # (1 - exp(-x))/x, which is 1 for x = 0.
         decay = np.maximum(rates, 0.0) * rise_time
         remaining = np.where(decay > 0.0, -np.expm1(-decay) / np.where(decay > 0.0, decay, 1.0), 1.0)
-        return self._named(modes @ (remaining * (modes.T @ (system.capacitance @ share * edge))))
+        given = modes.T @ (system.capacitance @ share * edge)
+        return self._named(np.asarray(modes @ (remaining * given)))
 
     def voltage(self, element: Film, potentials: Mapping[str, float]) -> float:
         """Voltage of an element at potentials of the shafts [V]."""
@@ -104,7 +106,7 @@ class Network:
         voltage = self.voltage(element, potentials)
         capacitance = 1.0 / float(across @ response)
         charge = capacitance * (voltage - rest)
-        change = self._named(response * charge)
+        change = self._named(np.asarray(response * charge))
         return Breakdown(
             voltage,
             charge,
