@@ -25,8 +25,8 @@ from .drive_record import FILM as FILM
 from .drive_record import ON as ON
 from .drive_record import PEAK as PEAK
 from .drive_record import VOLTAGE as VOLTAGE
-from .measurable import DriveModel as DriveModel
 from .drive_record import Record as Record
+from .measurable import DriveModel as DriveModel
 from .motor_circuit import FRAME as FRAME
 from .motor_circuit import WINDING as WINDING
 from .motor_circuit import Element as Element
