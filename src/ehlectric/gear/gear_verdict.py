@@ -30,8 +30,7 @@ _INSULATING, _CONDUCTING = 0.01, 0.99
 
 def state_of(solution: GearSolution) -> str:
     """State of the mesh: what its conduction is set to, or by the share of time in which it conducts."""
-    share = solution.loads.mean(solution.contact_time_share())
-    return state_at(share, solution.case.gear.contact.conduction)
+    return state_at(solution.mean_contact_share, solution.case.gear.contact.conduction)
 
 
 def state_at(share: float, conduction: Conduction) -> str:
@@ -83,7 +82,7 @@ def gear_verdict(
     at = _operating_point(solution)
     state = state_of(solution)
     breakdown = solution.breakdown_voltage
-    share = solution.loads.mean(solution.contact_time_share())
+    share = solution.mean_contact_share
     ratio = float(solution.films.minimum[solution.thinnest]) / solution.rq
     assumed = tuple(_assumptions(solution))
     given = solution.case.gear.contact.conduction != "by-film"

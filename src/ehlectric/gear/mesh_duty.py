@@ -336,7 +336,7 @@ def _solved(case: GearCase, keys: tuple[str, ...], table: Array) -> PointValues:
 
 def _numbers(solution: GearSolution) -> tuple[float, ...]:
     """Quantities of a solved mesh in the order of ``_NAMES``; NaN for what it does not have."""
-    share = solution.loads.mean(solution.contact_time_share())
+    share = solution.mean_contact_share
     exposure = -math.log1p(-share) if share < 1.0 else math.inf
     values = (
         float(solution.films.minimum[solution.thinnest]) / solution.rq,

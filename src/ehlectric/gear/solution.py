@@ -108,13 +108,13 @@ class GearSolution:
         """Gap under the highest summits on all lines [m]; 0 where they touch, NaN without contact."""
         return np.maximum(self.films.minimum - self.summits, 0.0)
 
-    @property
+    @cached_property
     def breakdown_voltage(self) -> Array | None:
         """Smallest breakdown voltage of all lines at each phase, shape (p,) [V]; 0 where summits touch."""
         strength = self.strength
         return None if strength is None else strength * self.loads.least(self.gap)
 
-    @property
+    @cached_property
     def capacitance(self) -> Array:
         """Capacitance of the mesh at each phase, shape (p,) [F], with the flanks behind the working ones."""
         lines = self.loads.along(self.capacitance_of_lines)
@@ -139,6 +139,11 @@ class GearSolution:
         ``area_factor``, factor on the reference area.
         """
         return -np.expm1(self._open / (area_factor * reference_area_of(self.case)))
+
+    @cached_property
+    def mean_contact_share(self) -> float:
+        """Mean over a phase of the share of time in which the mesh conducts by metallic contact."""
+        return self.loads.mean(self.contact_time_share())
 
     @cached_property
     def _open(self) -> Array:

@@ -89,7 +89,7 @@ def _mesh(solution: GearSolution) -> dict[str, Any]:
     first = None if voltage is None else float(np.min(voltage)) or None
     where = None if first is None else discharge_places(solution)
     relaxation = solution.relaxation_time
-    shares = [loads.mean(solution.contact_time_share(f)) for f in (1.0, AREA_FACTOR, 1.0 / AREA_FACTOR)]
+    low, high = (loads.mean(solution.contact_time_share(f)) for f in (AREA_FACTOR, 1.0 / AREA_FACTOR))
     return {
         "state": state,
         "minimum_thickness": thinnest,
@@ -103,9 +103,9 @@ def _mesh(solution: GearSolution) -> dict[str, Any]:
         "lambda_gf": lambda_gf(solution),
         "max_pressure": float(np.nanmax(films.max_pressure)),
         "contact_area": loads.mean(loads.along(2.0 * films.half_width)),
-        "contact_time_share": shares[0],
-        "contact_time_share_low": shares[1],
-        "contact_time_share_high": shares[2],
+        "contact_time_share": solution.mean_contact_share,
+        "contact_time_share_low": low,
+        "contact_time_share_high": high,
         "capacitance": mean,
         "capacitance_low": float(np.min(capacitance)),
         "capacitance_high": float(np.max(capacitance)),

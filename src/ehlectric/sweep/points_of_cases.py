@@ -42,7 +42,7 @@ def gear_columns(case: GearCase, given: Mapping[str, Any], number: int) -> tuple
             for solution in some:
                 yield solution if isinstance(solution, Exception) else (gear_summary(solution), next(codes))
 
-    return _evaluated(case, given, number, partial(changed_pair, quick), solved)
+    return _evaluated(case, given, number, partial(changed_pair, quick, parsed=True), solved)
 
 
 def axle_columns(case: AxleCase, given: Mapping[str, Any], number: int) -> tuple[Columns, dict[str, Array]]:
