@@ -79,35 +79,39 @@ class AxleRemedies:
 
     def __init__(self, session: Session, change: Callable[[str, Any], Awaitable[None]]) -> None:
         self._session, self._change = session, change
-        self._titles: tuple[str, ...] = ()
+        self._boxes: dict[str, tuple[ui.checkbox, ui.label]] = {}
         with (
             ui.element("div").classes("form").props('role="form" aria-label="Mitigation measures"'),
             GroupBox("Remedies", title="Mitigation measures to compare", opened=True, first=True),
         ):
             ui.label("Each measure is computed in addition to the axle.").classes("field-help")
-            self._boxes = ui.element("div")
+            self._usual, self._others = ui.element("div"), ui.element("div")
         self.refresh()
 
     def refresh(self) -> None:
-        """Show the remedies of the present inputs."""
-        given = remedies_of(self._session.inputs)
-        presets: Mapping[str, Mapping[str, Any]] = remedy_presets(self._session.inputs)
-        self._boxes.clear()
-        with self._boxes:
-            for title, changes in presets.items():
-                with ui.element("div").classes("remedy"):
-                    box = ui.checkbox(title, value=title in given, on_change=partial(self._switched, title))
-                    box.props("dense").props["data-testid"] = f"remedy-{title.lower().replace(' ', '-')}"
-                    shown = given.get(title, changes)
-                    ui.label(", ".join(f"{key} = {value}" for key, value in shown.items())).classes(
-                        "field-note"
-                    )
+        """Show the remedies of the present inputs. Boxes stay, unless other shafts or meshes have others."""
+        inputs = self._session.inputs
+        given = remedies_of(inputs)
+        presets: Mapping[str, Mapping[str, Any]] = remedy_presets(inputs)
+        if [*presets] != [*self._boxes]:
+            self._usual.clear()
+            with self._usual:
+                self._boxes = {title: self._box(title) for title in presets}
+        for title, (box, note) in self._boxes.items():
+            box.set_value(title in given)
+            note.text = _text(given.get(title, presets[title]))
+        self._others.clear()
+        with self._others:
             for title, changes in given.items():
                 if title not in presets:
-                    text = ", ".join(f"{key} = {value}" for key, value in changes.items())
-                    removable(
-                        f"{title}: {text}", f"the mitigation measure {title}", partial(self._remove, title)
-                    )
+                    remove = partial(self._remove, title)
+                    removable(f"{title}: {_text(changes)}", f"the mitigation measure {title}", remove)
+
+    def _box(self, title: str) -> tuple[ui.checkbox, ui.label]:
+        with ui.element("div").classes("remedy"):
+            box = ui.checkbox(title, on_change=partial(self._switched, title)).props("dense")
+            box.props["data-testid"] = f"remedy-{title.lower().replace(' ', '-')}"
+            return box, ui.label().classes("field-note")
 
     async def _switched(self, title: str, event: Any) -> None:
         inputs = self._session.inputs
@@ -119,7 +123,10 @@ class AxleRemedies:
 
     async def _remove(self, title: str) -> None:
         await self._change(REMEDIES, without_remedy(self._session.inputs, title) or None)
-        self.refresh()
+
+
+def _text(changes: Mapping[str, Any]) -> str:
+    return ", ".join(f"{key} = {value}" for key, value in changes.items())
 
 
 class AxlePage(AnswerPage[AxleAnswer]):
