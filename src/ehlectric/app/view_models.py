@@ -711,10 +711,33 @@ class GearAnswer(PageAnswer):
     duty: DutyAnswer | None = None
 
 
+@dataclass(frozen=True)
+class NetworkPart:
+    """Bearing, mesh, link or capacitance in the picture of a network."""
+
+    name: str
+    value: str  # capacitance or resistance, or that it conducts
+    voltage: str  # voltage after an edge, and breakdown voltage; empty for links and capacitances
+    bar: float | None  # length of the bar of U/V_b from 0 to 1, 0.5 at breakdown; None without one
+    first: bool  # whether it breaks down first
+    conducts: bool
+
+
+@dataclass(frozen=True)
+class NetworkNode:
+    """Shaft in the picture of a network, with its parts to the housing and to further shafts."""
+
+    name: str
+    voltage: str
+    to_housing: tuple[NetworkPart, ...]
+    to_shafts: tuple[NetworkPart, ...]
+
+
 @dataclass(frozen=True, kw_only=True)
 class AxleAnswer(PageAnswer):
     """Answer about an axle."""
 
+    network: tuple[NetworkNode, ...]  # shafts, those nearer to the rotor first
     elements: Table  # loads, films and voltages of all bearings and meshes
     shafts: Table  # speeds, torques and voltages of all shafts
     # U/V_b of all elements and voltages of all shafts, as they are and with each remedy; None before the

@@ -7,18 +7,15 @@ element between both. Elements between two shafts are in lanes between the boxes
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import FancyBboxPatch, Patch, Rectangle
 
-from ehlectric.axle import HOUSING, WINDING, AxleResult, AxleSolution, Element, Film
-from ehlectric.cases.axle_inputs import LinkKind
+from ehlectric.axle import HOUSING, AxleResult, AxleSolution
 from ehlectric.errors import printable
+from ehlectric.figures.network_elements import NetworkElement, elements_of_network, lanes_of
 from ehlectric.figures.style import broken, legend_above, new_panels, text_colour
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.palette import BLACK, BLUE, LIGHT_GREY, ORANGE, WHITE
@@ -36,27 +33,15 @@ _LINE, _SMALL, _LARGE, _ROOM = 0.14, 7.0, 8.0, 0.15
 # Places of the symbol of an element and of its texts, from the left end of its line.
 _SYMBOL, _TEXT = 0.2, 0.36
 
-# Size of a bar, and ratios U/V_b at its ends and at its mark; its scale is logarithmic.
-_BAR, _BAR_HIGH, _DECADES = 1.2, 0.07, 2.0
+# Size of a bar.
+_BAR, _BAR_HIGH = 1.2, 0.07
 
 # Half distance and half height of the plates of a capacitor, and half length of the body of a resistor.
 _GAP, _PLATE, _BODY = 0.03, 0.1, 0.12
 
 
-@dataclass(frozen=True)
-class _Shown:
-    """Element of the network as the picture shows it."""
-
-    film: Film
-    name: str
-    value: str  # capacitance or resistance, or that it conducts
-    voltage: str
-    ratio: float | None  # U/V_b
-    first: bool  # whether it breaks down first
-
-    @property
-    def colour(self) -> str:
-        return ORANGE if self.first else BLUE if self.ratio is not None else BLACK
+def _colour(each: NetworkElement) -> str:
+    return ORANGE if each.first else BLUE if each.ratio is not None else BLACK
 
 
 def network_picture(result: AxleResult) -> Axes:
@@ -64,9 +49,9 @@ def network_picture(result: AxleResult) -> Axes:
     solution = result.solution
     shafts = list(solution.turning)
     # Elements with a film come before the other ones.
-    shown = sorted(_shown(solution), key=lambda each: not each.voltage)
-    to_housing = {shaft: [each for each in shown if _ends(each.film) == {shaft, HOUSING}] for shaft in shafts}
-    between = [(each, lane) for each, lane in _lanes(shown, shafts)]
+    shown = sorted(elements_of_network(solution), key=lambda each: not each.voltage)
+    to_housing = {shaft: [each for each in shown if each.ends == {shaft, HOUSING}] for shaft in shafts}
+    between = [(each, lane) for each, lane in lanes_of(shown, shafts)]
     lanes = max((lane for _, lane in between), default=0)
     rungs = max(len(each) for each in to_housing.values())
     width, below = _COLUMN * len(shafts), _RUNG * (rungs + 0.6)
@@ -96,74 +81,6 @@ def network_picture(result: AxleResult) -> Axes:
     return ax
 
 
-def _ends(film: Film) -> set[str]:
-    return {film.first, film.second}
-
-
-def _shown(solution: AxleSolution) -> Iterator[_Shown]:
-    """Elements of the network with their names, values and voltages."""
-    network, potentials = solution.network(), solution.potentials()
-    elements = {element.name: element for element in solution.elements}
-    ranking = [name for name, ratio in solution.ranking() if ratio > 0.0]
-    kinds = [link.kind for link in solution.case.link]
-    for film in network.elements:
-        if WINDING in _ends(film):
-            continue
-        voltage = abs(network.voltage(film, potentials))
-        element = elements.get(film.name)
-        limit = None if element is None else element.breakdown_voltage
-        yield _Shown(
-            film,
-            _name(film, element, kinds),
-            _value(film),
-            _voltages(film, element, voltage),
-            None if limit is None or film.conducts else voltage / limit,
-            first=film.name in ranking[:1],
-        )
-
-
-def _name(film: Film, element: Element | None, kinds: list[LinkKind]) -> str:
-    """Name of an element without the names of its shafts, which the picture shows."""
-    if element is not None:
-        return film.name.removesuffix(f" of {film.first}") if element.kind == "bearing" else "mesh"
-    first, _, number = film.name.partition(" ")
-    if first == "link" and number.isdecimal():
-        return kinds[int(number) - 1]
-    return {"grounding ring": "ring", "rotor and frame": "frame"}.get(film.name, "shaft")
-
-
-def _value(film: Film) -> str:
-    if film.conducts:
-        return "conducts"
-    parts = [amount(film.capacitance, "F")] if film.capacitance else []
-    parts += [amount(1.0 / film.conductance, "ohm")] if film.conductance else []
-    return ", ".join(parts)
-
-
-def _voltages(film: Film, element: Element | None, voltage: float) -> str:
-    """Voltage and breakdown voltage of a bearing or a mesh; no text for others."""
-    if element is None or film.conducts:
-        return ""
-    if element.breakdown_voltage is None:
-        return f"{readable(voltage, 3)} V, {'summits touch' if element.touching else 'no breakdown voltage'}"
-    ratio = voltage / element.breakdown_voltage
-    return f"{readable(voltage, 3)} V / {readable(element.breakdown_voltage, 3)} V = {readable(ratio, 3)}"
-
-
-def _lanes(shown: list[_Shown], shafts: list[str]) -> Iterator[tuple[_Shown, int]]:
-    """Elements between two shafts, each with its lane: 0 between neighbours, further ones above."""
-    taken: dict[int, list[tuple[int, int]]] = {}
-    for each in shown:
-        if not _ends(each.film) <= {*shafts}:
-            continue
-        start, end = sorted(shafts.index(name) for name in _ends(each.film))
-        lane = 0 if end == start + 1 else 1
-        while any(start < last and first < end for first, last in taken.get(lane, [])):
-            lane += 1
-        taken.setdefault(lane, []).append((start, end))
-        yield each, lane
-
-
 def _draw_shaft(ax: Axes, left: float, level: float, name: str, potential: float) -> None:
     """Draw the box of a shaft with its voltage."""
     x = left + _RAILS[0]
@@ -190,7 +107,7 @@ def _draw_shaft(ax: Axes, left: float, level: float, name: str, potential: float
     )
 
 
-def _draw_ladder(ax: Axes, left: float, level: float, elements: list[_Shown]) -> None:
+def _draw_ladder(ax: Axes, left: float, level: float, elements: list[NetworkElement]) -> None:
     """Draw the elements between a shaft and the housing below the box of the shaft."""
     start, end = (left + rail for rail in _RAILS)
     top = level - 0.5 * _BOX_HIGH
@@ -206,10 +123,10 @@ def _draw_ladder(ax: Axes, left: float, level: float, elements: list[_Shown]) ->
             ax.plot([end - half, end + half], [ground - 0.05 * number] * 2, color=BLACK, lw=1.2)
 
 
-def _draw_element(ax: Axes, each: _Shown, ends: tuple[float, float], height: float) -> None:
+def _draw_element(ax: Axes, each: NetworkElement, ends: tuple[float, float], height: float) -> None:
     """Draw the line of an element with its symbol: a capacitor, a resistor, or only a line if it conducts."""
     at = ends[0] + _SYMBOL
-    look: dict[str, Any] = {"color": each.colour, "lw": 2.2 if each.first else 1.2}
+    look: dict[str, Any] = {"color": _colour(each), "lw": 2.2 if each.first else 1.2}
     if each.film.conducts:
         ax.plot(ends, [height] * 2, **look)
     elif each.film.conductance and not each.film.capacitance:
@@ -227,23 +144,20 @@ def _draw_element(ax: Axes, each: _Shown, ends: tuple[float, float], height: flo
             ax.plot([x, x], [height - _PLATE, height + _PLATE], **look)
 
 
-def _describe(ax: Axes, each: _Shown, x: float, height: float) -> None:
+def _describe(ax: Axes, each: NetworkElement, x: float, height: float) -> None:
     """Write name and value above the line of an element, and its voltages and their bar below."""
     weight = "bold" if each.first else "normal"
     _write(ax, (x, height + 0.05), f"{printable(each.name)}, {each.value}", va="bottom", weight=weight)
     if each.voltage:
-        _write(ax, (x, height - 0.05), each.voltage, va="top", color=each.colour, weight=weight)
+        _write(ax, (x, height - 0.05), each.voltage, va="top", color=_colour(each), weight=weight)
     if each.ratio is not None:
         _draw_bar(ax, x, height - 0.05 - _LINE - _BAR_HIGH, each)
 
 
-def _draw_bar(ax: Axes, x: float, y: float, each: _Shown) -> None:
+def _draw_bar(ax: Axes, x: float, y: float, each: NetworkElement) -> None:
     """Draw U/V_b as a bar with a logarithmic scale, and a mark at 1."""
-    assert each.ratio is not None
-    decades = math.log10(each.ratio) if each.ratio > 0.0 else -_DECADES
-    part = min(max(0.5 * (1.0 + decades / _DECADES), 0.0), 1.0)
     ax.add_patch(Rectangle((x, y), _BAR, _BAR_HIGH, facecolor=LIGHT_GREY, edgecolor="none"))
-    ax.add_patch(Rectangle((x, y), part * _BAR, _BAR_HIGH, facecolor=each.colour, edgecolor="none"))
+    ax.add_patch(Rectangle((x, y), each.bar * _BAR, _BAR_HIGH, facecolor=_colour(each), edgecolor="none"))
     ax.plot([x + 0.5 * _BAR] * 2, [y - 0.03, y + _BAR_HIGH + 0.03], color=BLACK, lw=1.2)
 
 
@@ -260,7 +174,7 @@ def _draw_winding(ax: Axes, left: float, level: float, solution: AxleSolution) -
     _write(ax, (x - 0.2, top + 0.03), f"winding,\n{amount(solution.case.edge, 'V')} edge", va="bottom")
 
 
-def _draw_between(ax: Axes, each: _Shown, lane: int, level: float, columns: list[int]) -> None:
+def _draw_between(ax: Axes, each: NetworkElement, lane: int, level: float, columns: list[int]) -> None:
     """Draw an element between two shafts."""
     first, second = sorted(columns)
     start = _COLUMN * first + _RAILS[0] - 0.06 + _BOX
@@ -270,7 +184,7 @@ def _draw_between(ax: Axes, each: _Shown, lane: int, level: float, columns: list
         height = level + 0.5 * _BOX_HIGH + _LANE * (lane - 0.35)
         start, end = start - 0.1 * (1 + lane), end + 0.1 * (1 + lane)
         for x in (start, end):
-            ax.plot([x, x], [level + 0.5 * _BOX_HIGH, height], color=each.colour, lw=1.2)
+            ax.plot([x, x], [level + 0.5 * _BOX_HIGH, height], color=_colour(each), lw=1.2)
     _draw_element(ax, each, (start, end), height)
     _describe(ax, each, start + _TEXT, height)
 

@@ -25,6 +25,7 @@ def ratios_figure(result: AxleResult) -> Figure:
     ratios = {name: ratio for name, ratio in solution.ranking() if ratio > 0.0}
     bounds = [dict(solution.ranking(conduction)) for conduction in ("always", "never")]
     names = list(ratios)
+    labels = {name: f"{name}: {readable(ratios[name], 3)}" for name in names}
     positive = [value for table in (ratios, *bounds) for value in table.values() if value > 0.0]
     ends = (min([*positive, 1.0]) / _ROOM, max([*positive, 1.0]) * _ROOM)
     data = [
@@ -32,11 +33,9 @@ def ratios_figure(result: AxleResult) -> Figure:
             "type": "bar",
             "orientation": "h",
             "x": [float(f"{value:.4g}") for value in ratios.values()],
-            "y": names,
+            "y": [*labels.values()],
             "marker": {"color": [ORANGE, *[BLUE] * (len(names) - 1)]},
-            "text": [readable(value, 3) for value in ratios.values()],
-            "textposition": "inside",
-            "hovertemplate": "%{y}: %{x}<extra></extra>",
+            "hovertemplate": "%{y}<extra></extra>",
         }
     ]
     for name in names:
@@ -47,7 +46,7 @@ def ratios_figure(result: AxleResult) -> Figure:
                     "type": "scatter",
                     "mode": "lines+markers",
                     "x": both,
-                    "y": [name, name],
+                    "y": [labels[name]] * 2,
                     "line": {"color": INK, "width": 2},
                     "marker": {"symbol": "line-ns-open", "size": 9, "color": INK},
                     "hoverinfo": "skip",

@@ -8,8 +8,18 @@ from typing import Any
 
 from ehlectric.app.charts.axle_charts import ratios_figure
 from ehlectric.app.compute.answer_parts import axle_of, gauge_text, lines_of, page_warnings_of
-from ehlectric.app.view_models import AxleAnswer, Deciding, Gauge, Number, Table
-from ehlectric.axle import AxleResult, solve_axle
+from ehlectric.app.view_models import (
+    AxleAnswer,
+    Deciding,
+    Gauge,
+    NetworkNode,
+    NetworkPart,
+    Number,
+    Table,
+)
+from ehlectric.axle import HOUSING, AxleResult, solve_axle
+from ehlectric.errors import printable
+from ehlectric.figures.network_elements import elements_of_network
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.rows import Summary
 from ehlectric.quantities.verdict import Verdict
@@ -18,8 +28,8 @@ from ehlectric.tables.axle_tables import axle_rows, element_cells, remedy_cells,
 
 _TEXTS = data_file("ehlectric.app", "page_texts.toml")["axle"]
 
-# Smallest change of a ratio that is a change [%].
-_CHANGE = 1.0
+# Smallest change of a number that is a change [%], and signs of changes.
+_CHANGE, _SIGNS = 1.0, {-1: " ▼", 0: "", 1: " ▲"}
 
 
 def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> AxleAnswer:
@@ -37,8 +47,6 @@ def whole_answer(table: Mapping[str, Any], session: Path | None = None) -> AxleA
 def answer_of(result: AxleResult, *, whole: bool) -> AxleAnswer:
     """Answer of a solved axle; it is ``whole`` with its remedies."""
     summary, verdict = result.summary(), result.verdict
-    remedies = summary["remedies"]
-    heads, *rows = remedy_cells(summary) if remedies else ((),)
     return AxleAnswer(
         title=result.case.title,
         verdict=verdict,
@@ -52,11 +60,44 @@ def answer_of(result: AxleResult, *, whole: bool) -> AxleAnswer:
         seconds=summary["seconds"],
         whole=whole or not result.case.remedies,
         solvable=False,
+        network=tuple(_network(result)),
         elements=_table(_TEXTS["elements"], element_cells(summary)),
         shafts=_table(_TEXTS["shafts"], shaft_cells(summary)),
-        remedies=Table(_TEXTS["remedies"], heads, tuple(rows)) if remedies else None,
-        effects=tuple(_effects(summary)),
+        remedies=_remedies(summary) if summary["remedies"] else None,
+        effects=tuple(_effects(result, summary)),
     )
+
+
+def _network(result: AxleResult) -> Iterator[NetworkNode]:
+    """Shafts with their parts; a part between two shafts belongs to the shaft that is nearer to the rotor."""
+    solution, case = result.solution, result.case
+    shown = sorted(elements_of_network(solution), key=lambda each: not each.voltage)
+    shafts, potentials = list(solution.turning), solution.potentials()
+    bases = dict(zip(case.names_of_bearings(), case.bearing, strict=True))
+    for number, shaft in enumerate(shafts):
+        further = {HOUSING, *shafts[number + 1 :]}
+        parts: dict[bool, list[NetworkPart]] = {True: [], False: []}
+        for each in shown:
+            others = each.ends - {shaft}
+            if len(others) == 1 and others <= further:
+                words = [each.name]
+                if (mounted := bases.get(each.film.name)) is not None:
+                    words.append(str(mounted.keys.get("designation") or mounted.keys.get("base") or ""))
+                elif HOUSING not in each.ends:
+                    words.append(f"to {next(iter(others))}")
+                parts[HOUSING in each.ends].append(
+                    NetworkPart(
+                        " ".join(filter(None, words)),
+                        each.value,
+                        each.voltage,
+                        None if each.ratio is None else each.bar,
+                        first=each.first,
+                        conducts=each.film.conducts,
+                    )
+                )
+        yield NetworkNode(
+            shaft, f"{readable(potentials[shaft], 3)} V", tuple(parts[True]), tuple(parts[False])
+        )
 
 
 def _table(caption: str, cells: Iterator[tuple[str, ...]]) -> Table:
@@ -96,31 +137,82 @@ def _deciding(summary: Summary, verdict: Verdict) -> Deciding:
     return Deciding("first.margin", facts, gauge, "ratios")
 
 
-def _effects(summary: Summary) -> Iterator[str]:
+def _effects(result: AxleResult, summary: Summary) -> Iterator[str]:
     """Sentence on the effect of each remedy on all elements."""
-    texts = _TEXTS["effects"]
-    now = _ratios(summary)
+    texts, now = _TEXTS["effects"], _ratios(summary)
     for remedy in summary["remedies"]:
         then, rank = _ratios(remedy), remedy["rank"]["by-film"]
-        both = [name for name in now if name in then]
-        change = {name: 100.0 * (then[name] / now[name] - 1.0) for name in both if now[name] > 0.0}
-        parts = [
-            texts[word].format(elements=", ".join(names))
-            for word, names in (
-                ("lower", [name for name, value in change.items() if value < -_CHANGE]),
-                ("higher", [name for name, value in change.items() if value > _CHANGE]),
-                ("gone", [name for name in now if name not in then]),
-                ("new", [name for name in then if name not in now]),
-            )
-            if names
-        ] or [texts["none"]]
-        if change and all(value < -_CHANGE for value in change.values()) and len(change) == len(now):
+        changes = {name: _change(now[name], then[name]) for name in now if name in then}
+        if len(changes) == len(now) and {*changes.values()} == {-1}:
             parts = [texts["all_lower"]]
-        first = rank[0] if rank and then.get(rank[0], 0.0) > 0.0 else None
-        if first is not None:
-            word = "first_above" if then[first] > 1.0 else "first_below"
-            parts.append(texts[word].format(element=first, ratio=readable(then[first])))
+        else:
+            groups = {
+                "lower": [name for name, sign in changes.items() if sign < 0],
+                "higher": [name for name, sign in changes.items() if sign > 0],
+                "gone": [name for name in now if name not in then],
+                "new": [name for name in then if name not in now],
+            }
+            parts = [
+                texts[word].format(elements=", ".join(_grouped(result, names)))
+                for word, names in groups.items()
+                if names
+            ] or [texts["none"]]
+        if rank and then[rank[0]] > 0.0:
+            word = "first_above" if then[rank[0]] > 1.0 else "first_below"
+            parts.append(texts[word].format(element=rank[0], ratio=readable(then[rank[0]])))
         yield f"{remedy['title']}: {' '.join(parts)}"
+
+
+def _change(before: float, after: float) -> int:
+    """Sign of a change; 0 of one that is within 1 %."""
+    if abs(after - before) <= 0.01 * _CHANGE * before:
+        return 0
+    return 1 if after > before else -1
+
+
+def _grouped(result: AxleResult, names: list[str]) -> Iterator[str]:
+    """Names of elements, with one name for both bearings of a shaft."""
+    bearings = result.case.names_of_bearings()
+    done: set[str] = set()
+    for name in names:
+        shaft = result.case.bearing[bearings.index(name)].shaft if name in bearings else None
+        pair = [] if shaft is None else [bearings[number] for number in result.case.bearings_of(shaft)]
+        if len(pair) == 2 and {*pair} <= {*names}:
+            done.update(pair[1:] if name == pair[0] else ())
+            if name == pair[0]:
+                yield f"both bearings of {shaft}"
+        elif name not in done:
+            yield name
+
+
+def _remedies(summary: Summary) -> Table:
+    """Table of the remedies, with a sign at each change of more than 1 %."""
+    heads, *rows = remedy_cells(summary)
+    now, *others = (_by_row(each) for each in (summary, *summary["remedies"]))
+    marked = [
+        (
+            name,
+            first,
+            *(
+                f"{cell}{_sign(now.get(name), other.get(name))}"
+                for cell, other in zip(cells, others, strict=True)
+            ),
+        )
+        for name, first, *cells in rows
+    ]
+    return Table(_TEXTS["remedies"], heads, tuple(marked))
+
+
+def _by_row(summary: Summary) -> dict[str, float]:
+    """Numbers of the table of the remedies by the names of its rows."""
+    return {
+        **{printable(name): ratio for name, ratio in _ratios(summary).items()},
+        **{f"U of {printable(row['shaft'])} [V]": row["voltage"] for row in summary["shafts"]},
+    }
+
+
+def _sign(before: float | None, after: float | None) -> str:
+    return "" if before is None or after is None else _SIGNS[_change(before, after)]
 
 
 def _ratios(summary: Summary) -> dict[str, float]:

@@ -14,6 +14,7 @@ from ehlectric.app.form_fields.field_defaults import field_at
 from ehlectric.app.form_fields.gear_fields import GEAR_GROUPS
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.quantities.inputs import form
+from ehlectric.quantities.units import in_unit, rounded
 
 # Name of the node whose potential is 0.
 HOUSING = "housing"
@@ -327,8 +328,26 @@ def with_shaft(inputs: Inputs) -> Inputs:
         "bearing": [*bearings, *copies],
     }
     if meshes:
-        changes["mesh"] = [*meshes, {**deepcopy(meshes[-1]), "gears": [last, name]}]
+        copied = deepcopy(meshes[-1])
+        places = copied.get("at")
+        if isinstance(places, list) and len(places) == 2:
+            copied["at"] = [_next_to(places[1], copied)] * 2
+        changes["mesh"] = [*meshes, {**copied, "gears": [last, name]}]
     return inputs.changed(changes)
+
+
+# Distances between two gears, and between two bearings, on a shaft [mm].
+_BETWEEN_GEARS, _BETWEEN_BEARINGS = 10.0, 100.0
+
+
+def _next_to(place: Any, mesh: Mapping[str, Any]) -> Any:
+    """Place of a gear next to the last gear of a mesh; the place itself without a known width."""
+    width = in_unit(str(Inputs(mesh).value("pair.gear.face_width")), "mm")
+    at = in_unit(str(place), "mm")
+    if width is None or at is None:
+        return place
+    step = width + _BETWEEN_GEARS
+    return f"{rounded(at - step if at >= step else at + step)} mm"
 
 
 def without_shaft(inputs: Inputs, number: int) -> Inputs:
@@ -378,11 +397,13 @@ def without_table(inputs: Inputs, name: str, number: int) -> Inputs:
 
 
 def with_bearing(inputs: Inputs, shaft: str) -> Inputs:
-    """Inputs with a further bearing on a shaft, a copy of its first bearing or of the first of all."""
+    """Inputs with a further bearing on a shaft, at another place: a copy of its first bearing."""
     bearings = _tables(inputs, "bearing")
     on_shaft = [bearing for bearing in bearings if bearing.get("shaft") == shaft]
     copied = deepcopy((on_shaft or bearings or [{"base": "6208"}])[0])
     copied.pop("locating", None)
+    if (at := in_unit(str(copied.get("at")), "mm")) is not None:
+        copied["at"] = f"{rounded(at + _BETWEEN_BEARINGS)} mm"
     return inputs.changed({"bearing": [*bearings, {**copied, "shaft": shaft}]})
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable, Mapping
+from collections.abc import Awaitable, Callable, Iterable, Mapping
 from functools import partial
 from html import escape
 from typing import Any, ClassVar
@@ -33,12 +33,43 @@ from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.answer_page import AnswerPage, AnswerView
 from ehlectric.app.pages.form import Form
 from ehlectric.app.pages.frame import AXLE, PATHS
-from ehlectric.app.pages.page_parts import GroupBox, button, removable
+from ehlectric.app.pages.page_parts import GroupBox, button, mark, page_texts, removable
 from ehlectric.app.pages.result_parts import behind, table_html
 from ehlectric.app.session import Session
-from ehlectric.app.view_models import AxleAnswer
+from ehlectric.app.view_models import AxleAnswer, NetworkNode, NetworkPart
 
 REMEDIES = "remedies"
+
+
+# Colours and signs of the parts of a network are in axle.css. A bar is 100 wide and 8 high.
+_BAR = (
+    '<svg class="net-bar" viewBox="0 0 100 8" preserveAspectRatio="none" aria-hidden="true">'
+    '<rect class="all" width="100" height="8"/><rect class="part" width="{width:.1f}" height="8"/>'
+    '<line x1="50" x2="50" y1="0" y2="8"/></svg>'
+)
+
+
+def network_html(nodes: Iterable[NetworkNode]) -> str:
+    """Picture of a network: a row for each shaft with its parts to the housing, and rows between shafts."""
+    rows = []
+    for node in nodes:
+        name = f"<div class=net-node><b>{escape(node.name)}</b> <span>{escape(node.voltage)}</span></div>"
+        parts = "".join(map(_part_html, node.to_housing))
+        rows.append(f"<section class=net-shaft>{name}<ul>{parts}</ul></section>")
+        if node.to_shafts:
+            parts = "".join(map(_part_html, node.to_shafts))
+            rows.append(f"<ul class=net-between>{parts}</ul>")
+    return f"<div class=network>{''.join(rows)}</div>"
+
+
+def _part_html(part: NetworkPart) -> str:
+    """Part of a network: name and value, its voltages, and the bar of U/V_b."""
+    look = " ".join(word for word in ("first", "conducts") if getattr(part, word))
+    sign = "<em>first</em> " if part.first else ""
+    bar = "" if part.bar is None else _BAR.format(width=100.0 * part.bar)
+    voltage = f"<div class=net-voltage>{escape(part.voltage)}</div>" if part.voltage else ""
+    head = f"{sign}<b>{escape(part.name)}</b> {escape(part.value)}"
+    return f'<li class="{look}"><div>{head}</div>{voltage}{bar}</li>'
 
 
 class AxleView(AnswerView[AxleAnswer]):
@@ -48,9 +79,13 @@ class AxleView(AnswerView[AxleAnswer]):
     keys = ("first.margin", "first.voltage", "first.breakdown_voltage", "edge.voltage")
     leading = ("ratios",)
 
+    def build_below_panel(self) -> None:
+        """Build the picture of the network, and the place of the remedies."""
+        self._network = ui.html("", sanitize=False).props('data-testid="network"')
+        self._remedies = ui.html("", sanitize=False).props('data-testid="remedies-table"')
+
     def build(self) -> None:
         """Build the parts of the answer below its numbers."""
-        self._remedies = ui.html("", sanitize=False).props('data-testid="remedies-table"')
         self._elements, self._shafts = (
             ui.html("", sanitize=False).props(f'data-testid="{name}"') for name in ("elements", "shafts")
         )
@@ -62,6 +97,16 @@ class AxleView(AnswerView[AxleAnswer]):
         self.body.props["data-whole"] = str(answer.whole).lower()
         self.body.update()
         self.panel.lead("ratios", answer.figures.get("ratios"))
+        caption = escape(page_texts("axle")["network"])
+        self._network.content = f"<h2>Network</h2><p class=soft>{caption}</p>{network_html(answer.network)}"
+        # The table before stays in its place until the remedies are computed.
+        mark(self._remedies, "stale", on=not answer.whole)
+        if answer.whole:
+            self._show_remedies(answer)
+        self._elements.content = f"<h2>Bearings and meshes</h2>{table_html(answer.elements)}"
+        self._shafts.content = behind("Speeds, torques and voltages of the shafts", table_html(answer.shafts))
+
+    def _show_remedies(self, answer: AxleAnswer) -> None:
         effects = "".join(f"<li>{escape(text)}</li>" for text in answer.effects)
         remedies = answer.remedies
         self._remedies.content = (
@@ -70,8 +115,6 @@ class AxleView(AnswerView[AxleAnswer]):
             else f"<h2>Mitigation measures</h2><ul data-testid=effects>{effects}</ul>{table_html(remedies)}"
         )
         self._remedies.set_visibility(remedies is not None)
-        self._elements.content = f"<h2>Bearings and meshes</h2>{table_html(answer.elements)}"
-        self._shafts.content = behind("Speeds, torques and voltages of the shafts", table_html(answer.shafts))
 
 
 class AxleRemedies:
@@ -210,9 +253,11 @@ class AxlePage(AnswerPage[AxleAnswer]):
         """Show the present inputs in the form, whose groups are made anew where elements were added or
         removed.
         """
-        if shape_of(self.session.inputs) != self._shape:
-            self._build_groups()
-        super().shown_again()
+        # A button or a field of the form that is made anew has no place on the page any more.
+        with self._place:
+            if shape_of(self.session.inputs) != self._shape:
+                self._build_groups()
+            super().shown_again()
 
     async def change(self, key: str, value: Any) -> None:
         """Take over a changed input, and answer."""

@@ -1,0 +1,102 @@
+"""Elements of the network of an axle with their texts, as pictures of the network show them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from ehlectric.axle import WINDING, AxleSolution, Element, Film
+from ehlectric.cases.axle_inputs import LinkKind
+from ehlectric.quantities.formats import amount
+from ehlectric.readable import readable
+
+# Decades of U/V_b on each side of breakdown that a bar shows.
+DECADES = 2.0
+
+
+@dataclass(frozen=True)
+class NetworkElement:
+    """Element of the network as the picture shows it."""
+
+    film: Film
+    name: str
+    value: str  # capacitance or resistance, or that it conducts
+    voltage: str
+    ratio: float | None  # U/V_b
+    first: bool  # whether it breaks down first
+
+    @property
+    def ends(self) -> set[str]:
+        """Names of the nodes at both ends."""
+        return {self.film.first, self.film.second}
+
+    @property
+    def bar(self) -> float:
+        """Length of the bar of U/V_b on a logarithmic scale, from 0 to 1; 0.5 is breakdown."""
+        decades = math.log10(self.ratio) if self.ratio else -DECADES
+        return min(max(0.5 * (1.0 + decades / DECADES), 0.0), 1.0)
+
+
+def elements_of_network(solution: AxleSolution) -> Iterator[NetworkElement]:
+    """Elements of the network with their names, values and voltages."""
+    network, potentials = solution.network(), solution.potentials()
+    elements = {element.name: element for element in solution.elements}
+    ranking = [name for name, ratio in solution.ranking() if ratio > 0.0]
+    kinds = [link.kind for link in solution.case.link]
+    for film in network.elements:
+        if WINDING in (film.first, film.second):
+            continue
+        voltage = abs(network.voltage(film, potentials))
+        element = elements.get(film.name)
+        limit = None if element is None else element.breakdown_voltage
+        yield NetworkElement(
+            film,
+            _name(film, element, kinds),
+            _value(film),
+            _voltages(film, element, voltage),
+            None if limit is None or film.conducts else voltage / limit,
+            first=film.name in ranking[:1],
+        )
+
+
+def _name(film: Film, element: Element | None, kinds: list[LinkKind]) -> str:
+    """Name of an element without the names of its shafts, which the picture shows."""
+    if element is not None:
+        return film.name.removesuffix(f" of {film.first}") if element.kind == "bearing" else "mesh"
+    first, _, number = film.name.partition(" ")
+    if first == "link" and number.isdecimal():
+        return kinds[int(number) - 1]
+    return {"grounding ring": "ring", "rotor and frame": "frame"}.get(film.name, "shaft")
+
+
+def _value(film: Film) -> str:
+    if film.conducts:
+        return "conducts"
+    parts = [amount(film.capacitance, "F")] if film.capacitance else []
+    parts += [amount(1.0 / film.conductance, "ohm")] if film.conductance else []
+    return ", ".join(parts)
+
+
+def _voltages(film: Film, element: Element | None, voltage: float) -> str:
+    """Voltage and breakdown voltage of a bearing or a mesh; no text for others."""
+    if element is None or film.conducts:
+        return ""
+    if element.breakdown_voltage is None:
+        return f"{readable(voltage, 3)} V, {'summits touch' if element.touching else 'no breakdown voltage'}"
+    ratio = voltage / element.breakdown_voltage
+    return f"{readable(voltage, 3)} V / {readable(element.breakdown_voltage, 3)} V = {readable(ratio, 3)}"
+
+
+def lanes_of(shown: list[NetworkElement], shafts: list[str]) -> Iterator[tuple[NetworkElement, int]]:
+    """Elements between two shafts, each with its lane: 0 between neighbours, further ones above."""
+    taken: dict[int, list[tuple[int, int]]] = {}
+    for each in shown:
+        if not each.ends <= {*shafts}:
+            continue
+        start, end = sorted(shafts.index(name) for name in each.ends)
+        lane = 0 if end == start + 1 else 1
+        while any(start < last and first < end for first, last in taken.get(lane, [])):
+            lane += 1
+        taken.setdefault(lane, []).append((start, end))
+        yield each, lane

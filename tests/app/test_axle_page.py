@@ -1,0 +1,167 @@
+"""Page of an axle as a user sees it: from designations and a drawing to the first element."""
+
+import re
+
+import pytest
+
+from ehlectric.readable import readable
+from tests.app.driving import field, type_into, wait_for_address, wait_for_number
+from tests.app.outputs import downloaded, summary_by_command
+from tests.helpers.places import EXAMPLES
+from tests.helpers.processes import wait_until
+
+pytestmark = pytest.mark.browser
+
+
+def whole(page):
+    page.locator("[data-testid=answer][data-whole=true][aria-busy=false]").wait_for()
+
+
+@pytest.fixture
+def axle(open_page, app_server):
+    page = open_page(app_server, "/axle")
+    whole(page)
+    return page
+
+
+def opened(page, group):
+    """Open a group of the form."""
+    box = page.get_by_test_id(f"group-{group}")
+    if not box.evaluate("box => box.open"):
+        box.locator("summary").first.click()
+    return box
+
+
+def choose(page, key, text):
+    """Type a designation into a searched list, and accept it."""
+    box = field(page, key)
+    box.fill(text)
+    box.press("Enter")
+
+
+def elements(page):
+    """Rows of the table of all bearings and meshes, by their names."""
+    rows = page.get_by_test_id("elements").locator("tbody tr").all()
+    texts = [row.locator("td").all_inner_texts() for row in rows]
+    return {row[0]: row[1:] for row in texts}
+
+
+@pytest.mark.slow
+@pytest.mark.gate
+def test_designations_and_a_drawing_lead_to_the_numbers_of_the_command(axle, tmp_path):
+    page = axle
+    opened(page, "bearing-1-of-rotor")
+    choose(page, "bearing.1.base", "6308")
+    wait_for_address(page, "6308")
+    opened(page, "bearing-2-of-intermediate")
+    type_into(page, "bearing.4.at", "105")
+    wait_for_address(page, "105 mm")
+    opened(page, "gear-mesh-1")
+    type_into(page, "mesh.1.pair.gear.teeth.2", "68")
+    type_into(page, "mesh.1.pair.gear.profile_shift.1", "")
+    type_into(page, "mesh.1.pair.gear.centre_distance", "")
+    for gear in (1, 2):
+        more = page.get_by_test_id("group-gear-mesh-1").locator("details summary")
+        if not field(page, f"mesh.1.pair.gear.tip_diameter.{gear}").is_visible():
+            more.click()
+        type_into(page, f"mesh.1.pair.gear.tip_diameter.{gear}", "")
+    type_into(page, "drive.torque", "40")
+    wait_for_address(page, "40 N*m")
+    summary = summary_by_command("drive", downloaded(page, "download-toml", tmp_path), tmp_path)
+    first = summary["rank"]["by-film"][0]
+    ratios = {row["element"]: row["voltage_ratio"] for row in summary["elements"]}
+    wait_for_number(page, "first.margin", 1.0 / ratios[first])
+    for row in summary["elements"]:
+        shown = elements(page)[row["element"]]
+        assert shown[-1] == ("–" if row["voltage_ratio"] is None else readable(row["voltage_ratio"]))
+        assert shown[3] == readable(1e9 * row["capacitance"])
+    network = page.get_by_test_id("network")
+    assert network.locator("li.first").count() == 1
+    assert network.get_by_text("bearing 1 6308").count() == 1
+    head = page.get_by_test_id("group-bearing-1-of-rotor").locator("summary").first.inner_text()
+    assert "6308" in head
+
+
+@pytest.mark.slow
+def test_a_ticked_measure_has_a_column_and_a_sentence_on_all_elements(axle):
+    page = axle
+    box = page.get_by_test_id("remedy-ring-on-the-output-shaft")
+    box.focus()
+    page.keyboard.press("Space")
+    sentence = page.get_by_test_id("effects").locator("li", has_text="Ring on the output shaft:")
+    sentence.wait_for()
+    assert "both bearings of output" in sentence.inner_text()
+    heads = page.get_by_test_id("remedies-table").get_by_role("columnheader").all_inner_texts()
+    assert "Ring on the output shaft" in heads
+    assert box.evaluate("box => box.contains(document.activeElement)")
+    assert box.get_attribute("aria-checked") == "true"
+    page.get_by_test_id("undo").click()
+    sentence.wait_for(state="detached")
+    assert box.get_attribute("aria-checked") == "false"
+
+
+@pytest.mark.slow
+def test_shafts_and_links_are_added_renamed_and_removed(axle):
+    page = axle
+    network = page.get_by_test_id("network")
+    page.get_by_test_id("add-shaft").click()
+    network.get_by_text("shaft 4", exact=True).wait_for()
+    opened(page, "shaft-shaft-4")
+    type_into(page, "shaft.4.name", "wheel")
+    network.get_by_text("wheel", exact=True).wait_for()
+    assert "mesh to wheel" in network.inner_text()
+    page.get_by_test_id("add-link").click()
+    network.get_by_text("ring", exact=True).wait_for()
+    opened(page, "shaft-wheel")
+    page.get_by_test_id("remove-shaft-4").click()
+    network.get_by_text("wheel", exact=True).wait_for(state="detached")
+    assert page.get_by_test_id("group-link-1").count() == 0
+    page.get_by_test_id("undo").click()
+    network.get_by_text("wheel", exact=True).wait_for()
+    opened(page, "bearing-2-of-wheel")
+    page.get_by_test_id("remove-bearing-8").click()
+    page.get_by_test_id("notice").filter(has_text="1 on shaft 'wheel'").wait_for()
+    opened(page, "shaft-wheel")
+    page.get_by_test_id("add-bearing-4").click()
+    page.get_by_test_id("notice").wait_for(state="hidden")
+
+
+@pytest.mark.slow
+def test_a_refusal_stands_next_to_the_field_of_its_element(axle):
+    page = axle
+    opened(page, "bearing-1-of-intermediate")
+    type_into(page, "bearing.3.at", "far")
+    page.get_by_test_id("error-bearing-3-at").filter(has_text="a number").wait_for()
+    type_into(page, "bearing.3.at", "0")
+    page.get_by_test_id("error-bearing-3-at").wait_for(state="hidden")
+    choose(page, "bearing.3.base", "99999")
+    page.get_by_test_id("error-bearing-3-base").filter(has_text="designation").wait_for()
+    page.get_by_test_id("undo").click()
+    opened(page, "gear-mesh-2")
+    type_into(page, "mesh.2.pair.gear.teeth.1", "many")
+    page.get_by_test_id("error-mesh-2-pair-gear-teeth-1").filter(has_text="a whole number").wait_for()
+    page.get_by_test_id("undo").click()
+    whole(page)
+    assert field(page, "mesh.2.pair.gear.teeth.1").input_value() == "19"
+
+
+@pytest.mark.slow
+def test_an_axle_opens_with_its_gear_files(page):
+    upload = page.get_by_test_id("upload-case").locator("input[type=file]")
+    upload.set_input_files(EXAMPLES / "e_axle.toml")
+    page.get_by_role("status").filter(has_text="e_axle_stage_1.toml, e_axle_stage_2.toml").wait_for()
+    upload.set_input_files([EXAMPLES / f"e_axle_stage_{number}.toml" for number in (1, 2)])
+    page.wait_for_url(re.compile("/axle"))
+    page.get_by_test_id("verdict").filter(has_text="Breakdown expected").wait_for()
+    opened(page, "gear-mesh-2")
+    assert field(page, "mesh.2.pair.gear.teeth.2").input_value() == "73"
+
+
+@pytest.mark.slow
+def test_only_one_shaft_is_the_rotor_and_one_bearing_of_a_shaft_carries_its_axial_force(axle):
+    page = axle
+    opened(page, "bearing-2-of-output")
+    page.get_by_test_id("field-bearing-6-locating").select_option("yes")
+    opened(page, "bearing-1-of-output")
+    assert wait_until(lambda: page.get_by_test_id("field-bearing-5-locating").input_value() == "no")
+    whole(page)
