@@ -5,10 +5,11 @@ import tomllib
 import pytest
 
 from ehlectric import InputError
-from ehlectric.app.compute.axle_answers import quick_answer, whole_answer
+from ehlectric.app.compute.axle_answers import quick_answer, remedied_answer, whole_answer
 from ehlectric.app.compute.page_files import uploaded, write
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.frame import AXLE
+from ehlectric.app.view_models import PENDING
 from ehlectric.axle import solve_axle
 from ehlectric.cases.axle_case import AxleCase
 from ehlectric.readable import readable
@@ -23,8 +24,8 @@ def contents(*names):
 
 def test_an_answer_has_the_numbers_of_the_command():
     """Expected: ``solve_axle`` of the files of the example."""
-    summary = solve_axle(AxleCase.from_toml(EXAMPLES / FILES[0])).summary()
-    answer = whole_answer(AXLE.table)
+    summary = solve_axle(AxleCase.from_toml(EXAMPLES / FILES[0]), probable=False).summary()
+    answer = remedied_answer(AXLE.table)
     rows = {row[0]: row[1:] for row in answer.elements.rows}
     for row in summary["elements"]:
         expected = (row["capacitance"], row["breakdown_voltage"], row["voltage"], row["voltage_ratio"])
@@ -47,18 +48,29 @@ def test_an_answer_has_the_numbers_of_the_command():
 
 def test_sentences_state_the_effect_of_each_remedy_on_all_elements():
     """A ring from the rotor to the housing lowers the voltage of every element: the rotor feeds all nodes."""
-    ring, hybrid, *_ = whole_answer(AXLE.table).effects
+    ring, hybrid, *_ = remedied_answer(AXLE.table).effects
     assert ring.startswith("Ring on the rotor: lowers U/V_b of all elements.")
     assert "no element breaks down" in ring
     assert "raises U/V_b of both bearings of intermediate" in hybrid
     assert "leaves both bearings of rotor without a breakdown voltage" in hybrid
 
 
-def test_a_quick_answer_has_no_remedies():
-    answer = quick_answer(AXLE.table)
-    assert not answer.whole
-    assert answer.remedies is None
-    assert answer.verdict == whole_answer(AXLE.table).verdict
+def test_remedies_and_probabilities_follow_the_quick_answer():
+    quick, remedied = quick_answer(AXLE.table), remedied_answer(AXLE.table)
+    assert [quick.remedied, quick.whole, remedied.remedied, remedied.whole] == [False, False, True, False]
+    assert (quick.remedies, quick.chances, remedied.chances) == (None, None, None)
+    assert quick.verdict == remedied.verdict
+    assert PENDING in dict(quick.deciding.facts).values()
+
+
+def test_a_whole_answer_has_the_probabilities_of_the_command():
+    """Expected: ``solve_axle`` of the files of the example."""
+    answer = whole_answer(AXLE.table)
+    table = solve_axle(AxleCase.from_toml(EXAMPLES / FILES[0])).summary()["uncertainty"]
+    chances = {row[0]: row[1:] for row in answer.chances.rows}
+    for row in table["elements"]:
+        assert chances[row["element"]][0] == readable(100.0 * row["first_probability"], 2)
+    assert answer.verdict.interval == (table["margin_low"], table["margin_high"])
 
 
 def test_files_of_an_axle_come_with_their_gear_files(tmp_path):
@@ -72,8 +84,8 @@ def test_files_of_an_axle_come_with_their_gear_files(tmp_path):
 def test_a_downloaded_axle_is_one_file_with_the_numbers_of_the_page(tmp_path):
     path = tmp_path / "axle.toml"
     path.write_text(AXLE.toml(), "utf-8")
-    summary = solve_axle(AxleCase.from_toml(path)).summary()
-    answer = whole_answer(tomllib.loads(AXLE.toml()))
+    summary = solve_axle(AxleCase.from_toml(path), probable=False).summary()
+    answer = quick_answer(tomllib.loads(AXLE.toml()))
     assert [row[0] for row in answer.elements.rows][:2] == summary["rank"]["by-film"][:2]
     written = write(AXLE.table, "", tmp_path, lambda *_: None)
     assert {"summary.json", "elements.csv", "shafts.csv"} <= {*written.names}

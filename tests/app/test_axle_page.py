@@ -13,14 +13,14 @@ from tests.helpers.processes import wait_until
 pytestmark = pytest.mark.browser
 
 
-def whole(page):
-    page.locator("[data-testid=answer][data-whole=true][aria-busy=false]").wait_for()
+def answered(page):
+    page.locator("[data-testid=answer][aria-busy=false]").wait_for()
 
 
 @pytest.fixture
 def axle(open_page, app_server):
     page = open_page(app_server, "/axle")
-    whole(page)
+    answered(page)
     return page
 
 
@@ -141,7 +141,7 @@ def test_a_refusal_stands_next_to_the_field_of_its_element(axle):
     type_into(page, "mesh.2.pair.gear.teeth.1", "many")
     page.get_by_test_id("error-mesh-2-pair-gear-teeth-1").filter(has_text="a whole number").wait_for()
     page.get_by_test_id("undo").click()
-    whole(page)
+    answered(page)
     assert field(page, "mesh.2.pair.gear.teeth.1").input_value() == "19"
 
 
@@ -164,4 +164,4 @@ def test_only_one_shaft_is_the_rotor_and_one_bearing_of_a_shaft_carries_its_axia
     page.get_by_test_id("field-bearing-6-locating").select_option("yes")
     opened(page, "bearing-1-of-output")
     assert wait_until(lambda: page.get_by_test_id("field-bearing-5-locating").input_value() == "no")
-    whole(page)
+    answered(page)

@@ -569,6 +569,9 @@ RANGE_FOLLOWS = "its range within the stated ranges follows"
 # Code of the statement that an answer about a gear pair does not contain its probability of breakdown.
 WITHOUT_PROBABILITY = "mesh-without-probability"
 
+# Code of the statement that an answer about an axle does not contain the probabilities of its elements.
+AXLE_WITHOUT_PROBABILITY = "axle-without-probability"
+
 
 @dataclass(frozen=True)
 class Table:
@@ -739,8 +742,10 @@ class AxleAnswer(PageAnswer):
 
     network: tuple[NetworkNode, ...]  # shafts, those nearer to the rotor first
     elements: Table  # loads, films and voltages of all bearings and meshes
+    chances: Table | None  # probabilities of all elements; None before they are computed
     shafts: Table  # speeds, torques and voltages of all shafts
     # U/V_b of all elements and voltages of all shafts, as they are and with each remedy; None before the
     # remedies are solved, and without remedies.
     remedies: Table | None
+    remedied: bool  # whether the remedies are solved, or the axle has none
     effects: tuple[str, ...]  # sentence about each remedy

@@ -9,6 +9,8 @@ from typing import Any
 from ehlectric.app.charts.axle_charts import ratios_figure
 from ehlectric.app.compute.answer_parts import axle_of, gauge_text, lines_of, page_warnings_of
 from ehlectric.app.view_models import (
+    AXLE_WITHOUT_PROBABILITY,
+    PENDING,
     AxleAnswer,
     Deciding,
     Gauge,
@@ -24,46 +26,57 @@ from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.rows import Summary
 from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import ratio_text, readable
-from ehlectric.tables.axle_tables import axle_rows, element_cells, remedy_cells, shaft_cells
+from ehlectric.tables.axle_tables import axle_rows, chance_cells, element_cells, remedy_cells, shaft_cells
 
 _TEXTS = data_file("ehlectric.app", "page_texts.toml")["axle"]
+
+# Statements of the verdict that say no more than the margin with its facts.
+_SAID = (AXLE_WITHOUT_PROBABILITY,)
 
 # Smallest change of a number that is a change [%], and signs of changes.
 _CHANGE, _SIGNS = 1.0, {-1: " ▼", 0: "", 1: " ▲"}
 
 
 def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> AxleAnswer:
-    """Answer about an axle without its remedies. Raises InputError if the tables are no valid axle, a bearing
-    cannot carry its load, or gears cannot run together.
+    """Answer about an axle without its remedies and without probabilities. Raises InputError if the tables
+    are no valid axle, a bearing cannot carry its load, or gears cannot run together.
     """
-    return answer_of(solve_axle(axle_of(table, session), remedies=False, probable=False), whole=False)
+    return answer_of(solve_axle(axle_of(table, session), remedies=False, probable=False))
+
+
+def remedied_answer(table: Mapping[str, Any], session: Path | None = None) -> AxleAnswer:
+    """Answer about an axle and its remedies, without probabilities; see ``quick_answer``."""
+    return answer_of(solve_axle(axle_of(table, session), probable=False))
 
 
 def whole_answer(table: Mapping[str, Any], session: Path | None = None) -> AxleAnswer:
-    """Answer about an axle and its remedies; see ``quick_answer``."""
-    return answer_of(solve_axle(axle_of(table, session)), whole=True)
+    """Answer about an axle and its remedies, with probabilities; see ``quick_answer``."""
+    return answer_of(solve_axle(axle_of(table, session)))
 
 
-def answer_of(result: AxleResult, *, whole: bool) -> AxleAnswer:
-    """Answer of a solved axle; it is ``whole`` with its remedies."""
+def answer_of(result: AxleResult) -> AxleAnswer:
+    """Answer of a solved axle."""
     summary, verdict = result.summary(), result.verdict
+    remedied = len(result.remedies) == len(result.case.remedies)
     return AxleAnswer(
         title=result.case.title,
         verdict=verdict,
         meaning=_meaning_of(verdict),
         how=_TEXTS["how"],
         shown=tuple(_numbers(summary)),
-        deciding=_deciding(summary, verdict),
+        deciding=_deciding(summary, verdict, probable=result.probable),
         lines=lines_of(axle_rows(summary)),
         warnings=page_warnings_of(result.warnings),
         figures={"ratios": ratios_figure(result)},
         seconds=summary["seconds"],
-        whole=whole or not result.case.remedies,
+        whole=remedied and result.probable,
         solvable=False,
         network=tuple(_network(result)),
         elements=_table(_TEXTS["elements"], element_cells(summary)),
+        chances=_table(_TEXTS["chances"], chance_cells(summary)) if "uncertainty" in summary else None,
         shafts=_table(_TEXTS["shafts"], shaft_cells(summary)),
         remedies=_remedies(summary) if summary["remedies"] else None,
+        remedied=remedied,
         effects=tuple(_effects(result, summary)),
     )
 
@@ -123,18 +136,21 @@ def _numbers(summary: Summary) -> Iterator[Number]:
     yield Number("edge.voltage", labels["edge"], readable(summary["edge"]["voltage"]), "V")
 
 
-def _deciding(summary: Summary, verdict: Verdict) -> Deciding:
-    """Margin of the first element, with its name and its voltages."""
+def _deciding(summary: Summary, verdict: Verdict, *, probable: bool) -> Deciding:
+    """Margin of the first element, with its name and its interval, which follows unless ``probable``."""
     first = next((row for row in summary["elements"] if row["rank"] == 1), None)
     margin, interval = verdict.margin, verdict.interval
-    if first is None or margin is None or interval is None:
+    if first is None or margin is None:
         return Deciding("edge.voltage", figure="ratios")
-    facts = (
-        ("first element", first["element"]),
-        ("margin, within what is uncertain", " to ".join(map(ratio_text, interval))),
-    )
+    labels = _TEXTS["facts"]
+    facts = [(labels["first"], first["element"])]
+    if not probable:
+        interval = None
+        facts.append((labels["interval"], PENDING))
+    elif interval is not None:
+        facts.append((labels["interval"], " to ".join(map(ratio_text, interval))))
     gauge = Gauge(gauge_text(margin, facts), margin, interval)
-    return Deciding("first.margin", facts, gauge, "ratios")
+    return Deciding("first.margin", tuple(facts), gauge, "ratios", _SAID)
 
 
 def _effects(result: AxleResult, summary: Summary) -> Iterator[str]:

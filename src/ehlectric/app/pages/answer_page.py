@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar, Generic, Literal, TypeVar
@@ -23,7 +24,7 @@ from ehlectric.app.pages.result_parts import FigureBox, NoteList, NumberBox, Pan
 from ehlectric.app.pages.solving import Solving
 from ehlectric.app.processes import Returned
 from ehlectric.app.session import Session
-from ehlectric.app.view_models import PageAnswer, notes_of
+from ehlectric.app.view_models import PENDING, PageAnswer, notes_of
 from ehlectric.app.work import Work, key_of
 from ehlectric.errors import InputError
 
@@ -305,3 +306,32 @@ class AnswerView(Generic[A]):
     def show_figure(self, name: str, place: FigureBox, answer: A) -> None:
         """Show a figure of an answer at its position, unless it is shown next to the verdict."""
         place.show(None if name == answer.deciding.figure else answer.figures.get(name))
+
+
+class ProbableView(AnswerView[A]):
+    """Place of an answer whose probability of breakdown follows with the whole answer."""
+
+    without: ClassVar[str]  # code of the statement that the probability is not computed
+
+    def __init__(self) -> None:
+        self._pending: A | None = None  # shown answer whose probability follows
+        super().__init__()
+
+    def stop(self) -> None:
+        """Show that the probability is not computed, as after a wrong input."""
+        super().stop()
+        if self._pending is not None:
+            facts = tuple(fact for fact in self._pending.deciding.facts if fact[1] != PENDING)
+            said = tuple(code for code in self._pending.deciding.said if code != self.without)
+            deciding = replace(self._pending.deciding, facts=facts, said=said)
+            self.tell(replace(self._pending, whole=True, deciding=deciding))
+            self.panel.dim(dimmed=False)
+            self._pending = None
+
+    def show(self, answer: A) -> None:
+        """Show an answer."""
+        super().show(answer)
+        self.body.props["data-whole"] = str(answer.whole).lower()
+        self.body.update()
+        self.panel.dim(dimmed=not answer.whole)
+        self._pending = None if answer.whole else answer

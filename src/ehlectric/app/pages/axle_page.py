@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 
 from nicegui import ui
 
-from ehlectric.app.calls import AXLE_QUICK, AXLE_WHOLE
+from ehlectric.app.calls import AXLE_QUICK, AXLE_REMEDIED, AXLE_WHOLE
 from ehlectric.app.form_fields.axle_fields import (
     LISTS,
     axle_groups,
@@ -30,13 +30,13 @@ from ehlectric.app.form_fields.axle_fields import (
 )
 from ehlectric.app.form_fields.drive_fields import remedies_of, with_remedy, without_remedy
 from ehlectric.app.page_inputs import Inputs
-from ehlectric.app.pages.answer_page import AnswerPage, AnswerView
+from ehlectric.app.pages.answer_page import AnswerPage, ProbableView
 from ehlectric.app.pages.form import Form
 from ehlectric.app.pages.frame import AXLE, PATHS
 from ehlectric.app.pages.page_parts import GroupBox, button, mark, page_texts, removable
 from ehlectric.app.pages.result_parts import behind, table_html
 from ehlectric.app.session import Session
-from ehlectric.app.view_models import AxleAnswer, NetworkNode, NetworkPart
+from ehlectric.app.view_models import AXLE_WITHOUT_PROBABILITY, AxleAnswer, NetworkNode, NetworkPart
 
 REMEDIES = "remedies"
 
@@ -72,12 +72,13 @@ def _part_html(part: NetworkPart) -> str:
     return f'<li class="{look}"><div>{head}</div>{voltage}{bar}</li>'
 
 
-class AxleView(AnswerView[AxleAnswer]):
+class AxleView(ProbableView[AxleAnswer]):
     """Place of an answer about an axle."""
 
     rows_name = "Numbers of the axle"
     keys = ("first.margin", "first.voltage", "first.breakdown_voltage", "edge.voltage")
     leading = ("ratios",)
+    without = AXLE_WITHOUT_PROBABILITY
 
     def build_below_panel(self) -> None:
         """Build the picture of the network, and the place of the remedies."""
@@ -86,24 +87,27 @@ class AxleView(AnswerView[AxleAnswer]):
 
     def build(self) -> None:
         """Build the parts of the answer below its numbers."""
-        self._elements, self._shafts = (
-            ui.html("", sanitize=False).props(f'data-testid="{name}"') for name in ("elements", "shafts")
+        self._elements, self._chances, self._shafts = (
+            ui.html("", sanitize=False).props(f'data-testid="{name}"')
+            for name in ("elements", "chances", "shafts")
         )
         self.build_figures(())
 
     def show(self, answer: AxleAnswer) -> None:
         """Show an answer."""
         super().show(answer)
-        self.body.props["data-whole"] = str(answer.whole).lower()
-        self.body.update()
         self.panel.lead("ratios", answer.figures.get("ratios"))
         caption = escape(page_texts("axle")["network"])
         self._network.content = f"<h2>Network</h2><p class=soft>{caption}</p>{network_html(answer.network)}"
         # The table before stays in its place until the remedies are computed.
-        mark(self._remedies, "stale", on=not answer.whole)
-        if answer.whole:
+        mark(self._remedies, "stale", on=not answer.remedied)
+        if answer.remedied:
             self._show_remedies(answer)
         self._elements.content = f"<h2>Bearings and meshes</h2>{table_html(answer.elements)}"
+        chances = answer.chances
+        mark(self._chances, "stale", on=not answer.whole)
+        if answer.whole:
+            self._chances.content = "" if chances is None else table_html(chances)
         self._shafts.content = behind("Speeds, torques and voltages of the shafts", table_html(answer.shafts))
 
     def _show_remedies(self, answer: AxleAnswer) -> None:
@@ -184,7 +188,7 @@ class AxlePage(AnswerPage[AxleAnswer]):
     first = 1
     short: ClassVar[Mapping[str, str]] = {"first.margin": "margin", "first.voltage": "U"}
     wait = 0.6
-    quick, later = AXLE_QUICK, (AXLE_WHOLE,)
+    quick, later = AXLE_QUICK, (AXLE_REMEDIED, AXLE_WHOLE)
 
     def build_view(self) -> None:
         """Build the place of the answer."""

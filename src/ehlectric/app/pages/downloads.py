@@ -25,9 +25,6 @@ _MADE: list[tuple[str, str, str]] = page_texts("downloads")["made"]
 # Forms that only the results of contacts have.
 _OF_CONTACTS = ("vtkhdf",)
 
-# Forms that the results of axles lack.
-_NOT_OF_AXLES = ("netcdf", "mat", "xlsx", "pdf", "html")
-
 # Downloads that need figures.
 _DRAWN: tuple[Download, ...] = ("figures", "all")
 
@@ -78,7 +75,7 @@ class Downloads:
                 if not only_made:
                     self._file_buttons()
                 for test, words, ending in _MADE:
-                    if self._offers(ending):
+                    if ending not in _OF_CONTACTS or kind == "contact":
                         tool(words, test, partial(self._with_files, partial(self._convert, ending)))
             self._box = JobBox(session, self._ended, lambda error: self._tell(error=str(error)))
             self._status = ui.label().classes("told-status").props('role="status"')
@@ -89,14 +86,8 @@ class Downloads:
     def _file_buttons(self) -> None:
         """Buttons of the case and of the files of its result."""
         tool("Case (TOML)", "download-toml", self.toml)
-        for test, words, what in filter(lambda file: self._offers(file[2]), _FILES):
+        for test, words, what in _FILES:
             tool(words, test, partial(self._with_files, partial(self._pack, what)))
-
-    def _offers(self, form: str) -> bool:
-        """Whether results of the kind have a form."""
-        if form in _OF_CONTACTS:
-            return self._kind == "contact"
-        return self._kind != "axle" or form not in _NOT_OF_AXLES
 
     @property
     def title(self) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import Any, ClassVar
 
 from nicegui import ui
@@ -12,50 +11,36 @@ from ehlectric.app.calls import GEAR_DUTY, GEAR_QUICK, GEAR_SOLVED, GEAR_WHOLE
 from ehlectric.app.form_fields import GEAR_GROUPS
 from ehlectric.app.form_fields.gear_fields import Gears, gears_of, of_gears
 from ehlectric.app.page_inputs import Inputs
-from ehlectric.app.pages.answer_page import AnswerView
+from ehlectric.app.pages.answer_page import ProbableView
 from ehlectric.app.pages.cycle_page import CyclePage
 from ehlectric.app.pages.duty_box import DUTY_FILE, DutyView
 from ehlectric.app.pages.frame import GEAR, PATHS
 from ehlectric.app.pages.result_parts import behind, table_html
 from ehlectric.app.session import Session
-from ehlectric.app.view_models import PENDING, WITHOUT_PROBABILITY, GearAnswer
+from ehlectric.app.view_models import WITHOUT_PROBABILITY, GearAnswer
 from ehlectric.quantities.sheets import GEAR_CARDS
 
 
-class GearView(AnswerView[GearAnswer]):
+class GearView(ProbableView[GearAnswer]):
     """Place of an answer about a gear pair."""
 
     rows_name = "Numbers of the gear pair"
     keys = tuple(GEAR_CARDS)
     leading = ("film",)
+    without = WITHOUT_PROBABILITY
 
     def build(self) -> None:
         """Build the parts of the answer below its numbers."""
-        self._pending: GearAnswer | None = None  # shown answer whose probability follows
         self._points = ui.html("", sanitize=False).props('data-testid="points"')
         self.build_figures(("flank", "mesh", "path"), ("path",))
         self._geometry = ui.html("", sanitize=False).props('data-testid="geometry"')
         self.duty = DutyView()
 
-    def stop(self) -> None:
-        """Show that the probability is not computed, as after a wrong input."""
-        super().stop()
-        if self._pending is not None:
-            facts = tuple(fact for fact in self._pending.deciding.facts if fact[1] != PENDING)
-            said = tuple(code for code in self._pending.deciding.said if code != WITHOUT_PROBABILITY)
-            deciding = replace(self._pending.deciding, facts=facts, said=said)
-            self.tell(replace(self._pending, whole=True, deciding=deciding))
-            self.panel.dim(dimmed=False)
-            self._pending = None
-
     def show(self, answer: GearAnswer) -> None:
         """Show an answer."""
         super().show(answer)
         self.body.props["data-solved"] = str(answer.solved).lower()
-        self.body.props["data-whole"] = str(answer.whole).lower()
         self.body.update()
-        self.panel.dim(dimmed=not answer.whole)
-        self._pending = None if answer.whole else answer
         self.panel.lead("film", answer.figures.get("film"))
         self._points.content = f"<h2>Points of the path of contact</h2>{table_html(answer.points)}"
         self._geometry.content = behind("Geometry that follows from the drawing", table_html(answer.geometry))
