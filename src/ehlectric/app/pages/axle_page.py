@@ -99,7 +99,7 @@ class AxleView(ProbableView[AxleAnswer]):
         self.panel.lead("ratios", answer.figures.get("ratios"))
         caption = escape(page_texts("axle")["network"])
         self._network.content = f"<h2>Network</h2><p class=soft>{caption}</p>{network_html(answer.network)}"
-        # The table before stays in its place until the remedies are computed.
+        # The earlier table remains until the remedies are computed.
         mark(self._remedies, "stale", on=not answer.remedied)
         if answer.remedied:
             self._show_remedies(answer)
