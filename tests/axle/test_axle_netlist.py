@@ -2,13 +2,17 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from ehlectric import AxleCase, InputError, write_axle_netlist
 from ehlectric.axle.axle_netlist import AxleNetlist, _distinct, axle_netlist
-from ehlectric.drive import write_files
+from ehlectric.axle.films_in_time import AxleInTime
+from ehlectric.drive import Measuring, Segments, write_files
 from tests.axle.axles import two_stages
+from tests.axle.test_films_in_time import axle
 from tests.axle.test_solution import by_hand
+from tests.helpers.drives import arc
 from tests.helpers.ngspice import run_netlist, simulate
 from tests.helpers.places import DATA
 
@@ -19,23 +23,29 @@ ARC = {"arc_resistance": 2.0, "extinction_voltage": "0.1 V", "recovery_time": "1
 RISE = 100e-6
 
 
-def simulated(solution, folder):
-    """Voltages of the shafts after a source has risen to 300 V."""
+def simulated(solution, folder, source, analysis, commands):
+    """Numbers that ngspice measures in an axle with a source at its winding."""
     write_files(AxleNetlist(solution), folder / "axle.lib", None)
     lines = [
         '.include "axle.lib"',
-        f"V_source winding 0 PWL(0 0 {RISE} 300 {2.0 * RISE} 300)",
+        f"V_source winding 0 {source}",
         f"X_axle winding 0 {' '.join(SHAFTS)} axle",
     ]
+    return simulate(folder, lines, analysis, *commands)
+
+
+def after_an_edge(solution, folder):
+    """Voltages of the shafts after a source has risen to 300 V."""
     points = [f"meas tran {shaft} find v({shaft}) at={1.5 * RISE}" for shaft in SHAFTS]
-    return simulate(folder, lines, f"tran 1n {2.0 * RISE} 0 1n", *points)
+    source = f"PWL(0 0 {RISE} 300 {2.0 * RISE} 300)"
+    return simulated(solution, folder, source, f"tran 1n {2.0 * RISE} 0 1n", points)
 
 
 @pytest.mark.slow
 @pytest.mark.reference
 def test_without_breakdown_the_shafts_have_the_voltages_of_the_divider(tmp_path):
     """By hand: 30 (134, 15, 4)/333.4 V."""
-    found = simulated(by_hand(), tmp_path)
+    found = after_an_edge(by_hand(), tmp_path)
     assert [found[shaft] for shaft in SHAFTS] == pytest.approx(
         [30.0 * part / 333.4 for part in (134.0, 15.0, 4.0)], rel=1e-3
     )
@@ -47,20 +57,62 @@ def test_without_breakdown_the_shafts_have_the_voltages_of_the_divider(tmp_path)
 @pytest.mark.parametrize(("first", "limit"), [("m12", 10.0), ("b1", 11.0)])
 def test_voltages_after_a_breakdown(first, limit, tmp_path):
     """The formula of a breakdown at its voltage, and the divider for the rest of the edge."""
-    axle = by_hand(breakdown=ARC)
+    solution = by_hand(breakdown=ARC)
     limits = {"m12": 1e3, "b1": 1e3, "b2": 1e3, "m23": 1e3, "b3": 1e3, first: limit}
-    axle = replace(
-        axle,
-        elements=tuple(replace(each, breakdown_voltage=limits[each.name]) for each in axle.elements),
-    )
-    network, per_volt = axle.network(), axle.network().potentials(1.0)
-    film = next(film for film in axle.films() if film.name == first)
+    elements = tuple(replace(each, breakdown_voltage=limits[each.name]) for each in solution.elements)
+    solution = replace(solution, elements=elements)
+    network, per_volt = solution.network(), solution.network().potentials(1.0)
+    film = next(film for film in solution.films() if film.name == first)
     edge = limit / network.voltage(film, per_volt)
     before = {name: edge * value for name, value in per_volt.items()}
     after = network.breakdown(film, before, rest=0.1).potentials
-    found = simulated(axle, tmp_path)
+    found = after_an_edge(solution, tmp_path)
     for shaft in SHAFTS:
         assert found[shaft] == pytest.approx(after[shaft] + (300.0 - edge) * per_volt[shaft], rel=0.01)
+
+
+@pytest.mark.slow
+@pytest.mark.reference
+@pytest.mark.parametrize("resistance", [2.0, 10.0])
+def test_discharges_agree_with_the_march(resistance, tmp_path):
+    """Six edges of an inverter in 100 us, each with discharges of both meshes and of the last bearing; with
+    10 ohm the arcs last as long as the edges.
+
+    The circuit is the same: 1 nF of frame and of the first bearing. Voltages 7 us after each edge.
+    """
+    breakdown = ARC | {"arc_resistance": resistance}
+    starts, signs, edge, rise = (10.0, 25.0, 40.0, 60.0, 75.0, 90.0), (1, 1, 1, -1, -1, -1), 800.0 / 3.0, 0.05
+    times, volts = [0.0], [0.0]
+    for start, sign in zip(starts, signs, strict=True):
+        times += [start, start + rise]
+        volts += [volts[-1], volts[-1] + sign * edge]
+    times, volts = 1e-6 * np.array([*times, 100.0]), np.array([*volts, volts[-1]])
+    moments = [1e-6 * (start + 7.0) for start in starts]
+
+    breakdown_at_once = arc(**(breakdown | {"recovery_time": "0 s"}))
+    of = axle(kind=AxleInTime, relaxation=np.inf, b1=1.0, breakdown=breakdown_at_once)
+    none = np.zeros(times.size - 1, dtype=complex)
+    source = Segments(np.diff(times), volts[:-1], np.diff(volts) / np.diff(times), none)
+    record = of.march(iter([source]), Measuring(0.0, 1e-4, 40.0, (1.0,), np.inf), 0)
+    # Shafts are the last columns.
+    trace = record.trace
+    marched = {
+        f"{shaft}{k}": np.interp(moment, trace[:, 0], trace[:, column])
+        for column, shaft in zip((-3, -2, -1), SHAFTS, strict=True)
+        for k, moment in enumerate(moments)
+    }
+
+    solution = by_hand(**{"circuit.rotor_frame_capacitance": "1 nF", "breakdown": breakdown})
+    points = " ".join(f"{time:.12g} {volt:.12g}" for time, volt in zip(times, volts, strict=True))
+    commands = [
+        f"meas tran {shaft}{k} find v({shaft}) at={moment}"
+        for shaft in SHAFTS
+        for k, moment in enumerate(moments)
+    ]
+    found = simulated(solution, tmp_path, f"PWL({points})", "tran 0.2n 100u 0 0.2n", commands)
+    assert len(record.events) >= 18
+    for name, voltage in marched.items():
+        assert found[name] == pytest.approx(voltage, rel=0.01, abs=1e-3), name
 
 
 @pytest.mark.slow
