@@ -187,8 +187,7 @@ def _needed(file: str) -> Iterator[str]:
         yield _MEASUREMENTS[file]
     if isinstance(table.get("case"), str):
         yield from _needed(table["case"])
-    if "duty" in table:
-        yield table["duty"]["file"]
+    yield from (table[name]["file"] for name in ("duty", "measured") if "file" in table.get(name, ()))
     for end in ENDS:
         if "file" in table.get(end, ()):
             yield from _needed(table[end]["file"])

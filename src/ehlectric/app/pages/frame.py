@@ -366,7 +366,7 @@ class Toolbar:
 def _has_files(table: Mapping[str, Any]) -> bool:
     """Whether a case, or the case of a sweep, has data from files, which stay in their session."""
     case = table.get("case", table)
-    named = [case.get(name) for name in ("source", "duty")] if isinstance(case, Mapping) else []
+    named = [case.get(name) for name in ("source", "duty", "measured")] if isinstance(case, Mapping) else []
     if any(isinstance(part, Mapping) and "file" in part for part in named):
         return True
     rough = case.get("roughness") if isinstance(case, Mapping) else None
