@@ -205,3 +205,22 @@ def test_true_inputs_of_bearings_lie_in_the_interval_of_90_per_cent(bearing):
         low, _, high = posterior.quantiles((0.05, 0.5, 0.95)).T
         inside += (low <= true) & (true <= high)
     assert all(40 <= inside[place] <= 49 for place in columns), inside
+
+
+@pytest.mark.slow
+def test_a_drive_is_calibrated_by_its_discharges():
+    """The simulated discharges and rms voltage of a drive that is 4 K colder, with 44 pF instead of 50 pF."""
+    case = DriveCase.from_toml(EXAMPLES / "drive.toml").replace({"remedies": [], "source.dc_link": 150.0})
+    true = {"drive.temperature": 349.15, "circuit.winding_rotor_capacitance": 44e-12, "drive.duration": 0.05}
+    summary = ehlectric.solve_drive(case.replace(true)).summary()
+    rate, rms = summary["drive"]["events_per_second"], summary["shaft"]["rms_voltage"]
+    measured = {"discharge_rate": f"{rate} 1/s +- 5 %", "shaft_voltage_rms": f"{rms} V +- 3 %"}
+    calibration = ehlectric.calibrate(
+        case.replace({f"measured.{key}": text for key, text in measured.items()})
+    )
+    inputs = {entry.key: entry for entry in calibration.inputs}
+    assert calibration.explained
+    for key in ("drive.temperature", "circuit.winding_rotor_capacitance"):
+        low, _, high = inputs[key].posterior
+        assert low < true[key] < high
+    assert inputs["circuit.winding_rotor_capacitance"].reduction > 0.3

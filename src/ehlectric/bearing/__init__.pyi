@@ -40,6 +40,7 @@ from .duty_points import PointValues as PointValues
 from .duty_points import between_places as between_places
 from .duty_points import largest_error as largest_error
 from .duty_points import places_to_compare as places_to_compare
+from .duty_points import spread_places as spread_places
 from .duty_points import values_of_rows as values_of_rows
 from .gaps import RollerRaceway as RollerRaceway
 from .gaps import roller_tails as roller_tails
@@ -74,6 +75,7 @@ from .margin_cycle import worst_stretches as worst_stretches
 from .measurable import MARGIN as MARGIN
 from .measurable import SHAFT_CAPACITANCE as SHAFT_CAPACITANCE
 from .measurable import BearingModel as BearingModel
+from .measurable import at_point as at_point
 from .measured_capacitance import bearing_factors as bearing_factors
 from .preparation import resolve_bearing as resolve_bearing
 from .quick_contacts import formula_factor as formula_factor

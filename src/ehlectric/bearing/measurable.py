@@ -113,6 +113,11 @@ class BearingModel:
         return low + (high - low) * parts
 
     @property
+    def candidates(self) -> tuple[str, ...]:
+        """Quantities that can be compared as the next to measure."""
+        return self.quantities
+
+    @property
     def quantities(self) -> tuple[str, ...]:
         """Names of the measurable quantities."""
         return tuple(MEASURABLE)
@@ -153,6 +158,10 @@ class BearingModel:
             for name, table in zip(quantities, tables, strict=True)
         }
 
+    def error(self, name: str) -> float:  # noqa: ARG002
+        """Standard deviation of a quantity due to interpolation, SI units: none."""
+        return 0.0
+
     def updated(self, values: Mapping[str, float], ranges: Mapping[str, tuple[float, float]]) -> BearingCase:
         """Case with other values of some inputs, by the keys of the columns, and other ranges of them."""
         case = self.design.case
@@ -178,10 +187,7 @@ class BearingModel:
     def _columns(
         self, computed: Mapping[str, Array], points: Sequence[Mapping[str, float]], count: int
     ) -> dict[str, Array]:
-        """Inputs of all points by key, shape (p n,). An uncertain input of an operating point deviates from
-        its value there as much as from the value of the file: a load by the same part, others by the
-        difference.
-        """
+        """Inputs of all points by key, shape (p n,)."""
         given = {key for point in points for key in point}
         table = self.case.to_dict()
         columns = {}
@@ -190,14 +196,30 @@ class BearingModel:
             for point in points:
                 value = computed.get(key)
                 if key in point and value is not None:
-                    nominal = float(value_at(table, key))
-                    loaded = key.endswith("_load") and nominal != 0.0
-                    value = point[key] * value / nominal if loaded else point[key] + value - nominal
+                    value = np.asarray(at_point(key, point[key], value, float(value_at(table, key))))
                 elif value is None:
                     value = np.full(count, point.get(key, value_at(table, key)))
                 rows.append(value)
             columns[key] = np.concatenate(rows)
         return columns
+
+
+def at_point(key: str, given: float, value: Numbers, nominal: float) -> Numbers:
+    """Value of an uncertain input at an operating point, SI units, shape (...).
+
+    It deviates from the value ``given`` for the point as much as its ``value`` from the ``nominal`` value in
+    the file: a load or a torque by the same part, others by the difference.
+
+    Examples
+    --------
+    >>> at_point("bearing.radial_load", 1000.0, 2200.0, 2000.0)
+    1100.0
+    >>> at_point("bearing.temperature", 330.0, 353.0, 343.0)
+    340.0
+    """
+    if key.endswith(("_load", "_torque")) and nominal:
+        return given * value / nominal
+    return given + value - nominal
 
 
 def _number(solution: BearingSolution, name: str) -> Numbers | None:

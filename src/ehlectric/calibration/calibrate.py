@@ -109,6 +109,7 @@ def calibrate(
         given_errors(given),
         samples=samples,
         seed=seed,
+        errors=compared.model_errors,
     )
     return compared.calibration(case, posterior)
 
@@ -150,6 +151,15 @@ class _Compared:
     seed: int
     progress: Progress
 
+    def model_errors(self) -> Array:
+        """Standard deviations of the predictions due to interpolation, SI units, shape (m,)."""
+        return np.array([self.model.error(value.quantity) for value in self.given.values])
+
+    @property
+    def errors(self) -> Array:
+        """Standard uncertainties of the measured values and the predictions, SI units, shape (m,)."""
+        return np.hypot(given_errors(self.given), self.model_errors())
+
     def predict(self, at: Array) -> Array:
         """Predictions of the measured values at inputs from 0 to 1, shape (n, k) -> (n, m)."""
         self.progress(0, 0, f"computing {len(at)} points")
@@ -160,7 +170,7 @@ class _Compared:
     def calibration(self, case: Any, posterior: Posterior) -> Calibration:
         """Result of the calibration of a case."""
         drawn = posterior.at[equal_points(posterior.weights, _DRAWN)]
-        numbers = self.model.numbers(drawn, [{}], (*self.model.quantities, MARGIN))
+        numbers = self.model.numbers(drawn, [{}], (*self.model.candidates, MARGIN))
         margins = numbers.pop(MARGIN)[:, 0]
         before = _chance(self.model.numbers(posterior.prior_at, [{}], (MARGIN,))[MARGIN][:, 0])
         after = _chance(margins, posterior.effective) if posterior.explained else None
@@ -216,7 +226,7 @@ class _Compared:
 
     def _rows(self, posterior: Posterior) -> Iterator[Compared]:
         """Measured values next to computed ones."""
-        decided = self._decided(posterior)
+        decided, errors = self._decided(posterior), self.errors
         even = np.full(len(posterior.prior_at), 1.0 / len(posterior.prior_at))
         for place, value in enumerate(self.given.values):
             column = posterior.predictions[:, place]
@@ -227,7 +237,7 @@ class _Compared:
             else:
                 mean = posterior.weights @ np.nan_to_num(column)
                 spread = posterior.weights @ np.square(np.nan_to_num(column) - mean)
-                residual = (value.value - after[1]) / float(np.hypot(value.uncertainty, np.sqrt(spread)))
+                residual = (value.value - after[1]) / float(np.hypot(errors[place], np.sqrt(spread)))
             key, share = decided[place]
             yield Compared(
                 quantity=value.quantity,
@@ -252,7 +262,7 @@ class _Compared:
         low, high = posterior.emulator.low, posterior.emulator.high
         dense = low + (high - low) * sobol_points(width, _DENSE, self.seed)
         predictions = posterior.emulator.at(dense)
-        spread = np.hypot(given_errors(self.given), posterior.emulator.deviation(given_values(self.given)))
+        spread = np.hypot(self.errors, posterior.emulator.deviation(given_values(self.given)))
         decided = []
         for place, value in enumerate(self.given.values):
             weights = weights_of(np.square((predictions[:, place] - value.value) / spread[place]))
@@ -314,7 +324,7 @@ class _Compared:
 
     def _unexplained(self, posterior: Posterior) -> Unexplained:
         """What nothing within the ranges explains, and why."""
-        values, errors, nearest = given_values(self.given), given_errors(self.given), posterior.nearest
+        values, errors, nearest = given_values(self.given), self.errors, posterior.nearest
         far = np.flatnonzero(np.abs(posterior.residuals) > posterior.limit).tolist()
         alone = np.min(np.abs(posterior.prior_predictions - values) / errors, axis=0)
         rows = tuple(far or [int(np.argmax(np.abs(posterior.residuals)))])
@@ -330,7 +340,7 @@ class _Compared:
 
     def _contradicting(self, posterior: Posterior) -> Iterator[int]:
         """Places of measured values without which inputs within the ranges explain the others."""
-        values, errors = given_values(self.given), given_errors(self.given)
+        values, errors = given_values(self.given), self.errors
         for place in range(values.size):
             others = np.arange(values.size) != place
 

@@ -26,6 +26,10 @@ class Model(Protocol):
     def quantities(self) -> tuple[str, ...]:
         """Names of the measurable quantities that the model computes."""
 
+    @property
+    def candidates(self) -> tuple[str, ...]:
+        """Quantities that can be compared as the next to measure, in a short time."""
+
     def names(self) -> tuple[Names, ...]:
         """Names and ranges of the inputs."""
 
@@ -36,6 +40,9 @@ class Model(Protocol):
         self, at: Array, points: Sequence[Mapping[str, float]], quantities: Sequence[str]
     ) -> dict[str, Array]:
         """Quantities, or the margin, at inputs from 0 to 1 and operating points, shape (n, k) -> (n, p)."""
+
+    def error(self, name: str) -> float:
+        """Standard deviation of a quantity due to interpolation between solutions, SI units."""
 
     def updated(self, values: Mapping[str, float], ranges: Mapping[str, tuple[float, float]]) -> Any:
         """Case with other values of some inputs, by the keys of ``names``, and with other ranges."""

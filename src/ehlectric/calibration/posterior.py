@@ -171,15 +171,20 @@ def infer(
     *,
     samples: int = 512,
     seed: int = SEED,
+    errors: Callable[[], Array] | None = None,
 ) -> Posterior:
     """Update k inputs by m measured values.
 
     ``predict``, model; ``width``, k; ``values`` and ``uncertainties``, measured values and their standard
-    uncertainties, > 0, shape (m,); ``samples``, points of the design, a power of 2. Raises InputError where
-    the model has no prediction at any point, or where the library of the Markov chain is missing.
+    uncertainties, > 0, shape (m,); ``samples``, points of the design, a power of 2; ``errors``, standard
+    deviations of the predictions, which are known after the first call of the model, shape (m,). Raises
+    InputError where the model has no prediction at any point, or where the library of the Markov chain is
+    missing.
     """
     at = sobol_points(width, samples, seed)
     predictions = predict(at)
+    if errors is not None:
+        uncertainties = np.hypot(uncertainties, errors())
     chi2 = chi_squares(predictions, values, uncertainties)
     if not np.any(np.isfinite(chi2)):
         raise InputError("measured", "has values that the model does not compute at any inputs")

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Any
 
@@ -19,16 +21,21 @@ from ehlectric.bearing import (
     BearingModel,
     Change,
     Names,
+    at_point,
+    between_places,
+    spread_places,
     voltage_ratio,
 )
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.input_keys import input_of
 from ehlectric.discharge.breakdown_rule import Chance
+from ehlectric.drive.drive_cycle import LEAST_TIME, SIMULATED
 from ehlectric.drive.preparation import prepare
 from ehlectric.drive.quick_estimate import expected, quick_drive
+from ehlectric.drive.solver import solve
 from ehlectric.drive.summary import checked_summary
 from ehlectric.errors import InputError
-from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED
+from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED, key_of_drive
 from ehlectric.quantities.rows import value_at
 from ehlectric.quantities.verdict import Verdict
 
@@ -49,6 +56,10 @@ _PEAK = "motor.common_mode_voltage"
 
 # Inputs of the circuit that are uncertain.
 _CAPACITANCES = ("winding_rotor_capacitance", "rotor_frame_capacitance")
+
+# Quantities of the drive over time, which are simulated: rms of the shaft voltage [V], and discharges of both
+# bearings [1/s].
+_SIMULATED = ("shaft_voltage_rms", "discharge_rate")
 
 # Quantities of the bearings that the circuit needs.
 _BOTH_BEARINGS = (SHAFT_CAPACITANCE, "breakdown_voltage")
@@ -71,10 +82,12 @@ class DriveModel:
     """
 
     case: DriveCase
+    quick: DriveCase  # drive with estimated contacts
     bearings: tuple[BearingModel, BearingModel]
     inputs: tuple[_Input, ...]
     peak: float  # largest voltage of the source [V]
     divided: bool  # whether the capacitances divide the voltage: no grounding ring and no inductance
+    _nodes: list[_Nodes] = field(default_factory=list, repr=False)  # simulated drives, when there are any
 
     @classmethod
     def of(cls, case: DriveCase) -> DriveModel:
@@ -92,12 +105,17 @@ class DriveModel:
         )
         inputs = (*_of_bearings(quick, models), *_of_circuit(quick))
         divided = all(value is None for value in led)
-        return cls(case, models, inputs, prepare(quick).highest_source, divided)
+        return cls(case, quick, models, inputs, prepare(quick).highest_source, divided)
 
     @property
     def quantities(self) -> tuple[str, ...]:
         """Names of the measurable quantities."""
-        return (*_OF_BEARING, *(_OF_CIRCUIT if self.divided else ()))
+        return (*_OF_BEARING, *(_OF_CIRCUIT if self.divided else ()), *_SIMULATED)
+
+    @property
+    def candidates(self) -> tuple[str, ...]:
+        """Quantities that can be compared as the next to measure: simulated ones only if drives are."""
+        return tuple(name for name in self.quantities if name not in _SIMULATED or self._nodes)
 
     def names(self) -> tuple[Names, ...]:
         """Names of the uncertain inputs, in the order of the columns."""
@@ -119,14 +137,19 @@ class DriveModel:
         """
         peaks = np.array([point.get(_PEAK, self.peak) for point in points])
         places = [{key: value for key, value in point.items() if key != _PEAK} for point in points]
-        circuit = {MARGIN, *_OF_CIRCUIT} & set(quantities)
+        circuit = {MARGIN, *_OF_CIRCUIT, *_SIMULATED} & set(quantities)
         of_first = tuple(dict.fromkeys((*quantities, *(_BOTH_BEARINGS if circuit else ()))))
-        of_first = tuple(name for name in of_first if name not in (MARGIN, *_OF_CIRCUIT))
+        of_first = tuple(name for name in of_first if name not in (MARGIN, *_OF_CIRCUIT, *_SIMULATED))
         ends = [self.bearings[0].numbers(self._columns(0, at), places, of_first)]
         numbers = dict(ends[0])
         if circuit:
             ends.append(self.bearings[1].numbers(self._columns(1, at), places, _BOTH_BEARINGS))
             numbers |= self._circuit(at, ends, peaks)
+        if circuit & set(_SIMULATED):
+            features = _features(ends, numbers["shaft_voltage"])
+            if not self._nodes:
+                self._nodes.append(self._simulated(at, points, features))
+            numbers |= self._nodes[0].at(features)
         return {name: numbers[name] for name in quantities}
 
     def _columns(self, number: int, at: Array) -> Array:
@@ -159,12 +182,85 @@ class DriveModel:
             margin = np.full_like(margin, np.nan)
         return {"bearing_voltage_ratio": ratio, "shaft_voltage": shaft, MARGIN: margin}
 
+    def error(self, name: str) -> float:
+        """Standard deviation of a quantity due to the interpolation between simulated drives, SI units."""
+        return self._nodes[0].errors[name] if self._nodes and name in _SIMULATED else 0.0
+
+    def _simulated(self, at: Array, points: Sequence[Mapping[str, float]], features: Array) -> _Nodes:
+        """Simulated drives at some of the inputs and points, whose films have their computed thickness."""
+        shape = features.shape
+        places = spread_places(features.reshape(-1, shape[-1]), SIMULATED)
+        sample, point = np.divmod(places, shape[1])
+        films = [
+            place
+            for place, entry in enumerate(self.inputs)
+            if entry.change is None and not entry.name.key.startswith("circuit.")
+        ]
+        nodes = at[sample].copy()
+        for place in films:
+            low, high = self.inputs[place].ends
+            nodes[:, place] = (1.0 - low) / (high - low)
+        values, rows = np.full((places.size, len(_SIMULATED)), np.nan), []
+        for k, (row, number) in enumerate(zip(nodes, point.tolist(), strict=True)):
+            rows.append(self._features_of(row, points[number]))
+            with suppress(InputError):
+                record = solve(self._drive_at(row, points[number], k)).record
+                values[k] = record.shaft_rms, np.sum(record.counts) / record.duration
+        return _Nodes.of(np.array(rows), values)
+
+    def _features_of(self, row: Array, point: Mapping[str, float]) -> Array:
+        """Features of one drive, shape (d,)."""
+        at, place = row[np.newaxis], {key: value for key, value in point.items() if key != _PEAK}
+        ends = [
+            model.numbers(self._columns(number, at), [place], _BOTH_BEARINGS)
+            for number, model in enumerate(self.bearings)
+        ]
+        circuit = self._circuit(at, ends, np.array([point.get(_PEAK, self.peak)]))
+        features: Array = _features(ends, circuit["shaft_voltage"])[0, 0]
+        return features
+
+    def _drive_at(self, row: Array, point: Mapping[str, float], seed: int) -> DriveCase:
+        """Drive at inputs from 0 to 1, shape (k,), and at an operating point, simulated for a short time."""
+        values = {
+            entry.name.key: float(self.values(place, row[place : place + 1])[0])
+            for place, entry in enumerate(self.inputs)
+        }
+        changes = self._changes(values)
+        for key, given in point.items():
+            if key == _PEAK:
+                name = "scale" if self.quick.source.measured else "dc_link"
+                changes[f"source.{name}"] = given / self.peak * getattr(self.quick.source, name)
+                continue
+            above = key_of_drive(key)
+            written = [name for name in changes if name == above or name.endswith(f".{key}")]
+            nominal = float(value_at(self.quick.bearings[0].to_dict(), key))
+            changes |= {name: at_point(key, given, changes[name], nominal) for name in written} or {
+                above: given
+            }
+        case = self.quick.replace({**changes, "drive.seed": self.quick.drive.seed + seed})
+        frequency = case.running_source.fundamental_frequency
+        duration = LEAST_TIME if frequency is None else math.ceil(LEAST_TIME * frequency) / frequency
+        return case.replace({"drive.duration": duration})
+
     def updated(self, values: Mapping[str, float], ranges: Mapping[str, tuple[float, float]]) -> DriveCase:
         """Case with other values of some inputs, by the keys of the columns, and other ranges in the files of
         both bearings.
         """
-        changes: dict[str, Any] = {}
+        changes = self._changes(values)
         kept: dict[str, dict[str, Any]] = {end: {} for end in ENDS}
+        for entry in self.inputs:
+            if entry.name.key in values and entry.change is not None and entry.change.key != OF_TABLE:
+                for number in entry.places:
+                    kept[ENDS[number]][entry.change.key] = [*ranges[entry.name.key]]
+        for end in ENDS:
+            old = {span.key: [span.low, span.high] for span in getattr(self.case, end).ranges or ()}
+            if old or kept[end]:
+                changes[f"{end}.ranges"] = old | kept[end]
+        return self.case.model_copy(update={"measured": None}).replace(changes)
+
+    def _changes(self, values: Mapping[str, float]) -> dict[str, Any]:
+        """Changes of the drive that give some inputs other values, by the keys of the columns."""
+        changes: dict[str, Any] = {}
         for entry in self.inputs:
             key = entry.name.key
             if key not in values:
@@ -181,13 +277,7 @@ class DriveModel:
                 changes[f"{prefix}.{name}"] = value
                 if name in self.case.replaced:
                     changes[REPLACED[name]] = value
-            for number in entry.places:
-                kept[ENDS[number]][entry.change.key] = [*ranges[key]]
-        for end in ENDS:
-            old = {span.key: [span.low, span.high] for span in getattr(self.case, end).ranges or ()}
-            if old or kept[end]:
-                changes[f"{end}.ranges"] = old | kept[end]
-        return self.case.model_copy(update={"measured": None}).replace(changes)
+        return changes
 
     def verdict(self, case: DriveCase, chance: Chance | None) -> Verdict:
         """Verdict by the capacitive divider of a drive that is not simulated, with the probability of
@@ -198,6 +288,52 @@ class DriveModel:
         verdict = expected(quick, checked_summary(prepare(quick)))
         stated = () if chance is None else chance.statements()
         return replace(verdict, reasons=(*verdict.reasons, *stated))
+
+
+def _features(ends: Sequence[Mapping[str, Array]], shaft: Array) -> Array:
+    """Places of drives between which simulated quantities are interpolated, shape (n, p, d).
+
+    They are logarithms: for both bearings of capacitance and breakdown voltage, and of the shaft voltage.
+    Surfaces that touch have a small voltage instead of none.
+    """
+    columns = [end[name] for end in ends for name in _BOTH_BEARINGS]
+    return np.stack([np.log(np.maximum(column, _LEAST)) for column in (*columns, shaft)], axis=-1)
+
+
+# Least number that has a logarithm, in the SI unit of a capacitance or a voltage.
+_LEAST = 1e-12
+
+
+@dataclass(frozen=True)
+class _Nodes:
+    """Simulated drives, between which quantities over time are interpolated."""
+
+    features: Array  # shape (m, d)
+    values: Array  # simulated quantities, NaN without a result, shape (m, 2)
+    errors: Mapping[str, float]  # standard deviations of nodes from the interpolation between other nodes
+
+    @classmethod
+    def of(cls, features: Array, values: Array) -> _Nodes:
+        """Nodes with their errors, from the interpolation without one of some groups of nodes."""
+        group, off = np.arange(len(features)) % _GROUPS, np.full(values.shape, np.nan)
+        for k in range(_GROUPS):
+            outside, inside = group != k, group == k
+            if np.any(inside) and np.any(np.isfinite(values[outside])):
+                off[inside] = values[inside] - between_places(
+                    features[outside], values[outside], features[inside]
+                )
+        known = np.isfinite(off[:, 0])
+        deviations = np.sqrt(np.mean(np.square(off[known]), axis=0)) if np.any(known) else np.zeros(2)
+        return cls(features, values, dict(zip(_SIMULATED, deviations.tolist(), strict=True)))
+
+    def at(self, features: Array) -> dict[str, Array]:
+        """Quantities at drives with some features, shape (n, p, d) -> (n, p)."""
+        rows = between_places(self.features, self.values, features.reshape(-1, features.shape[-1]))
+        return {name: row.reshape(features.shape[:2]) for name, row in zip(_SIMULATED, rows.T, strict=True)}
+
+
+# Groups of simulated drives that are omitted in turn.
+_GROUPS = 8
 
 
 def _of_bearings(case: DriveCase, models: tuple[BearingModel, BearingModel]) -> Iterator[_Input]:

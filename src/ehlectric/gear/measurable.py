@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.bearing import FILMS, MARGIN, OF_TABLE, Change, Names
+from ehlectric.bearing import FILMS, MARGIN, OF_TABLE, Change, Names, at_point
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.discharge.breakdown_rule import Chance
 from ehlectric.gear.gear_verdict import gear_verdict
@@ -23,8 +23,6 @@ from ehlectric.quantities.verdict import Verdict
 _COLUMNS: Mapping[str, int] = MappingProxyType(
     {MARGIN: 0, "breakdown_voltage": 2, "conducting_share": 4, "capacitance": 5}
 )
-
-_TORQUE = "gear.operation.pinion_torque"
 
 
 @dataclass(frozen=True)
@@ -50,6 +48,11 @@ class GearModel:
         solution = solve_gear_pair(quick)
         design = MeshDesign.of(solution)
         return cls(quick, design, Meshes.of(solution, design.films))
+
+    @property
+    def candidates(self) -> tuple[str, ...]:
+        """Quantities that can be compared as the next to measure."""
+        return self.quantities
 
     @property
     def quantities(self) -> tuple[str, ...]:
@@ -95,6 +98,10 @@ class GearModel:
             for name in quantities
         }
 
+    def error(self, name: str) -> float:  # noqa: ARG002
+        """Standard deviation of a quantity due to interpolation, SI units: none."""
+        return 0.0
+
     def updated(self, values: Mapping[str, float], ranges: Mapping[str, tuple[float, float]]) -> GearCase:
         """Case with other values of some inputs, by the keys of the columns, and other ranges of them."""
         case, changes = self.design.case, {}
@@ -121,14 +128,7 @@ _OF_STRENGTH = ("breakdown_voltage", MARGIN)
 def _at_point(
     changes: Mapping[str, Any], point: Mapping[str, float], table: Mapping[str, Any]
 ) -> dict[str, Any]:
-    """Changes of the case at an operating point, where an uncertain input deviates from its value as much as
-    from the value of the file: a torque by the same part, others by the difference.
-    """
-    at_point = {**changes, **point}
-    for key in changes.keys() & point.keys():
-        nominal = float(value_at(table, key))
-        if key == _TORQUE and nominal:
-            at_point[key] = point[key] * changes[key] / nominal
-        else:
-            at_point[key] = point[key] + changes[key] - nominal
-    return at_point
+    """Changes of the case at an operating point."""
+    both = changes.keys() & point.keys()
+    deviating = {key: at_point(key, point[key], changes[key], float(value_at(table, key))) for key in both}
+    return {**changes, **point, **deviating}
