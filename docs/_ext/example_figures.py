@@ -36,7 +36,7 @@ _RUNS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
             *("drive_discharges.png", "drive_remedies.png"),
         ),
     ),
-    "e_axle": (("drive", "e_axle.toml"), ("axle_network.png", "axle_forces.png")),
+    "e_axle": (("drive", "e_axle.toml"), ("axle_network.png", "axle_forces.png", "axle_remedies.png")),
     "oil_contact": (("run", "oil_contact.toml"), ("meter.png",)),
     "hot_contact": (("run", "hot_contact.toml"), ("temperature.png",)),
     "breakdown_probability_map": (

@@ -171,6 +171,7 @@ def test_cells_of_a_map_meet_halfway_on_the_axis():
         ({"mesh.1.gear.flank_rq": ["1 um"]}, "mesh.1.gear.flank_ra"),
         ({"drive.sped": ["100 rpm"]}, "drive.speed"),
         ({"link": ["a"]}, "cannot vary"),
+        ({"bearings.radial_clearance": ["5 um"]}, "bearing.rotor.radial_clearance"),
         ({"motor.winding_rotor_capacitance": ["1 nF"]}, "unknown key"),
         ({"drive.torque": ["0 rpm"]}, "drive.torque"),
     ],

@@ -378,6 +378,7 @@ class AxleCase(CaseFile, book="axle_file"):
             if self._check_adjusted(shaft) is None:
                 self._check_locating(shaft, helical=shaft.name in helical)
         for span in self.ranges or ():
+            self.check_shared(span.key)
             check_range(span, self.value_of(span.key))
         return self
 
@@ -635,6 +636,13 @@ class AxleCase(CaseFile, book="axle_file"):
         if not places or not rest:
             raise InputError(key, got=shown(place), takes=takes)
         return [*places]
+
+    def check_shared(self, key: str) -> None:
+        """Raise an InputError for a key of ``bearings`` that each bearing replaces by its own value."""
+        table, _, name = key.partition(".")
+        if table == "bearings" and name and all(name in bearing.keys for bearing in self.bearing):
+            known = f"bearing.{self.shaft[0].name}.{name}"
+            raise InputError.worded(key, f"has no effect, as each bearing has its own; vary {known}")
 
     def _change_bearings(self, table: dict[str, Any], key: str, change: Mapping[str, Any]) -> None:
         """Change a key of all bearings of a shaft in the tables of a case."""

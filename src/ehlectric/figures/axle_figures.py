@@ -12,7 +12,13 @@ from matplotlib.patches import Patch
 from ehlectric.axle import AxleResult
 from ehlectric.errors import printable
 from ehlectric.figures.axle_duty import axle_duty, duty_finding
-from ehlectric.figures.figure_names import AXLE_DUTY_FIGURE, AXLE_FIGURE_FILES, FORCES_FIGURE
+from ehlectric.figures.axle_remedies import axle_remedies, remedies_finding
+from ehlectric.figures.figure_names import (
+    AXLE_DUTY_FIGURE,
+    AXLE_FIGURE_FILES,
+    AXLE_REMEDIES_FIGURE,
+    FORCES_FIGURE,
+)
 from ehlectric.figures.network_picture import network_picture
 from ehlectric.figures.shaft_forces import shaft_forces
 from ehlectric.figures.style import drawing_of, legend_above, new_panels, note, style, titled
@@ -91,6 +97,7 @@ FIGURES: Mapping[str, tuple[Callable[[AxleResult], Axes], Callable[[AxleResult],
             (network_picture, _first),
             (shaft_forces, _torques),
             (axle_duty, duty_finding),
+            (axle_remedies, remedies_finding),
         ),
         strict=True,
     )
@@ -98,8 +105,12 @@ FIGURES: Mapping[str, tuple[Callable[[AxleResult], Axes], Callable[[AxleResult],
 
 
 def drawings_of(result: AxleResult) -> list[str]:
-    """Names of the figures of an axle: no forces without gears, and no duty cycle without its table."""
-    present = {FORCES_FIGURE: bool(result.case.mesh), AXLE_DUTY_FIGURE: result.case.duty is not None}
+    """Names of the figures of an axle; figures of gears, a cycle and remedies only if it has them."""
+    present = {
+        FORCES_FIGURE: bool(result.case.mesh),
+        AXLE_DUTY_FIGURE: result.case.duty is not None,
+        AXLE_REMEDIES_FIGURE: bool(result.remedies),
+    }
     return [name for name in FIGURES if present.get(name, True)]
 
 

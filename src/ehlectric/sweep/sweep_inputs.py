@@ -103,6 +103,7 @@ _REPLACED_OF_MESHES = {
 
 
 def _check_axle(key: str, case: AxleCase) -> None:
+    case.check_shared(key)
     place, inner = end_and_key(key)
     kind, _, name = place.partition(".")
     if kind in ("bearing", "shaft", "mesh", "link") and name != "*":

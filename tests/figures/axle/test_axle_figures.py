@@ -8,6 +8,7 @@ from ehlectric.figures.axle_figures import FIGURES
 from ehlectric.figures.figure_names import AXLE_FIGURE_FILES
 from ehlectric.figures.shaft_forces import placed_forces
 from ehlectric.quantities.palette import ORANGE
+from ehlectric.readable import readable
 from tests.axle.axles import ALONE, two_stages
 from tests.helpers.places import DATA
 from tests.helpers.titles import title_of
@@ -15,7 +16,7 @@ from tests.helpers.titles import title_of
 
 @pytest.fixture(scope="module")
 def result():
-    return solve_axle(two_stages(), remedies=False)
+    return solve_axle(two_stages(), remedies=False, probable=False)
 
 
 def texts(ax):
@@ -25,8 +26,22 @@ def texts(ax):
 def test_names_are_those_of_the_files(result):
     names = [name.removesuffix(".png") for name in AXLE_FIGURE_FILES]
     assert tuple(FIGURES) == AXLE_FIGURE_FILES
-    assert figure_names(result) == names
-    assert figure_names(solve_axle(AxleCase.from_dict(ALONE))) == names[:2]
+    assert figure_names(result) == names[:3]
+    assert figure_names(solve_axle(AxleCase.from_dict(ALONE), probable=False)) == names[:2]
+
+
+def test_remedies_have_a_cell_for_each_element():
+    """Each cell has U/V_b of the ranking; a dash stands for an element without a rank."""
+    result = solve_axle(two_stages(), probable=False)
+    (ax,) = figure(result, "axle_remedies").axes
+    columns = 1 + len(result.remedies)
+    assert len(ax.texts) == columns * len(result.solution.elements)
+    first = ax.get_yticklabels()[0].get_text()
+    assert first == result.solution.ranking()[0][0]
+    for text, solution in zip(ax.texts[:columns], (result.solution, *result.remedies), strict=True):
+        ratio = dict(solution.ranking()).get(first)
+        assert text.get_text() == ("–" if ratio is None else readable(ratio, 3))
+    assert title_of(ax.figure)[0].startswith("Ring on the rotor: ")
 
 
 @pytest.mark.parametrize("case", [two_stages, lambda: AxleCase.from_toml(DATA / "axles" / "e_axle.toml")])
