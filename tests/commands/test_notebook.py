@@ -1,4 +1,4 @@
-"""The notebook among the examples runs in an empty folder, cell by cell, as programs for notebooks run it."""
+"""The notebooks among the examples run in an empty folder, cell by cell, as programs for notebooks do."""
 
 import json
 import subprocess
@@ -8,7 +8,8 @@ import pytest
 
 from tests.helpers.places import EXAMPLES
 
-NOTEBOOK = EXAMPLES / "tour.ipynb"
+# First line of the output of each notebook, its tables, and its tables and figures.
+NOTEBOOKS = {"tour": ("Breakdown likely", 1, 7), "e_axle": ("Breakdown expected", 1, 4)}
 
 # The value of the last line of a cell is shown: as an image, or as a table in HTML. A warning is an error.
 RUN = """
@@ -29,27 +30,34 @@ print(json.dumps(shown))
 """
 
 
-def cells(kind):
+def notebook_of(name):
+    return json.loads((EXAMPLES / f"{name}.ipynb").read_text(encoding="utf-8"))
+
+
+def cells(name, kind):
     """Sources of the cells of a kind, in their order."""
-    notebook = json.loads(NOTEBOOK.read_text(encoding="utf-8"))
+    notebook = notebook_of(name)
     return ["".join(cell["source"]) for cell in notebook["cells"] if cell["cell_type"] == kind]
 
 
-def test_the_notebook_stores_no_output_that_could_be_of_another_version():
-    notebook = json.loads(NOTEBOOK.read_text(encoding="utf-8"))
+@pytest.mark.parametrize("name", NOTEBOOKS)
+def test_the_notebook_stores_no_output_that_could_be_of_another_version(name):
+    notebook = notebook_of(name)
     assert (notebook["nbformat"], notebook["metadata"]["kernelspec"]["language"]) == (4, "python")
     code = [cell for cell in notebook["cells"] if cell["cell_type"] == "code"]
     assert all(not cell["outputs"] and cell["execution_count"] is None for cell in code)
     assert len({cell["id"] for cell in notebook["cells"]}) == len(notebook["cells"])
     # Each cell has a text before it or before the cell that it belongs to.
-    assert len(cells("markdown")) >= 0.8 * len(code)
+    assert len(cells(name, "markdown")) >= 0.8 * len(code)
 
 
 @pytest.mark.slow
-def test_the_notebook_runs_and_shows_its_figures(tmp_path):
+@pytest.mark.parametrize("name", NOTEBOOKS)
+def test_the_notebook_runs_and_shows_its_figures(name, tmp_path):
+    first, tables, count = NOTEBOOKS[name]
     done = subprocess.run(
         [sys.executable, "-c", RUN],
-        input=json.dumps(cells("code")),
+        input=json.dumps(cells(name, "code")),
         capture_output=True,
         text=True,
         cwd=tmp_path,
@@ -58,9 +66,9 @@ def test_the_notebook_runs_and_shows_its_figures(tmp_path):
     )
     assert done.returncode == 0, done.stderr
     *printed, last = done.stdout.splitlines()
-    assert any(line.startswith("Breakdown likely") for line in printed)
+    assert any(line.startswith(first) for line in printed)
     shown = json.loads(last)
-    assert [how for how, _ in shown].count("_repr_html_") == 1
+    assert [how for how, _ in shown].count("_repr_html_") == tables
     # An empty figure has a few thousand bytes.
     assert min(size for how, size in shown if how == "_repr_png_") > 10_000
-    assert len(shown) == 7
+    assert len(shown) == count
