@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -224,3 +226,20 @@ def test_a_drive_is_calibrated_by_its_discharges():
         low, _, high = inputs[key].posterior
         assert low < true[key] < high
     assert inputs["circuit.winding_rotor_capacitance"].reduction > 0.3
+
+
+def test_without_the_library_of_the_chain_its_extra_is_named(bearing, monkeypatch):
+    """A capacitance that is known to 0.1 % needs a Markov chain."""
+    monkeypatch.setitem(sys.modules, "emcee", None)
+    with pytest.raises(InputError, match=r"ehlectric\[calibration\]"):
+        ehlectric.calibrate(bearing.replace({"measured.capacitance": "240 pF +- 0.1 %"}))
+
+
+@pytest.mark.parametrize(("table", "needed"), [("motor", r"\[motor\]"), ("discharge", "dielectric_strength")])
+def test_a_case_without_a_measured_quantity_is_refused(bearing, table, needed):
+    tables = bearing.to_dict() | {"measured": {"shaft_voltage": "4 V +- 1 V"}}
+    if table == "discharge":
+        tables["measured"] = {"breakdown_voltage": "4 V +- 1 V"}
+    del tables[table]
+    with pytest.raises(InputError, match=needed):
+        ehlectric.calibrate(BearingCase.from_dict(tables))

@@ -24,7 +24,7 @@ from ehlectric.calibration.posterior import (
 )
 from ehlectric.calibration.result import CalibratedInput, Calibration, Compared, Quantiles, Unexplained
 from ehlectric.cases.input_keys import unit_of
-from ehlectric.cases.measured_inputs import Measured, MeasuredPoints, measured_points
+from ehlectric.cases.measured_inputs import Measured, MeasuredPoints, MeasuredValue, measured_points
 from ehlectric.cases.measurements import CALIBRATED, void_rows
 from ehlectric.discharge.breakdown_rule import INTERVAL, Chance, sampling_error
 from ehlectric.errors import InputError
@@ -165,7 +165,12 @@ class _Compared:
         self.progress(0, 0, f"computing {len(at)} points")
         names = tuple(dict.fromkeys(value.quantity for value in self.given.values))
         numbers = self.model.numbers(at, self.given.points, names)
-        return np.stack([numbers[value.quantity][:, value.point] for value in self.given.values], axis=-1)
+        columns = [numbers[value.quantity][:, value.point] for value in self.given.values]
+        if len(at) > 1:
+            for value, column in zip(self.given.values, columns, strict=True):
+                if not np.any(np.isfinite(column)):
+                    raise _without_prediction(value, self.given)
+        return np.stack(columns, axis=-1)
 
     def calibration(self, case: Any, posterior: Posterior) -> Calibration:
         """Result of the calibration of a case."""
@@ -296,7 +301,7 @@ class _Compared:
         values, ranges = {}, {}
         for entry in inputs:
             if entry.posterior is not None and (entry.reduction or 0.0) > _DECIDES:
-                low, median, high = entry.posterior
+                low, median, high = (float(f"{end:.6g}") for end in entry.posterior)
                 values[entry.key], ranges[entry.key] = median, (low, high)
         return self.model.updated(values, ranges)
 
@@ -393,6 +398,24 @@ def infer_explained(
     nearest = nearest_of(predict, posterior.prior_at, predictions, values, errors, seed)
     residuals = (values - nearest.predictions) / errors
     return replace(posterior, nearest=nearest, residuals=residuals).explained
+
+
+# What a case needs for its quantities.
+_NEEDS = {
+    "first_breakdown_voltage": "a case with discharge.dielectric_strength",
+    "breakdown_voltage": "a case with discharge.dielectric_strength",
+    "shaft_voltage": "a case with [motor]",
+    "bearing_voltage_ratio": "a case with [motor]",
+    "capacitance": "films without asperity contact, and elements that conduct",
+}
+
+
+def _without_prediction(value: MeasuredValue, given: MeasuredPoints) -> InputError:
+    """Error of a measured value that the model does not compute at any inputs within their ranges."""
+    where = "" if given.read is None else f" in line {value.line} of {given.read.source}"
+    got = f"a value{where if value.line else ''} that the model does not compute"
+    takes = _NEEDS.get(value.quantity, "an operating point at which the model has a result")
+    return InputError(f"measured.{value.quantity}", got=got, takes=takes)
 
 
 def _refused(rows: Sequence[Compared], unexplained: Unexplained) -> Verdict:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from ehlectric.arrays import Array
 from ehlectric.discharge.breakdown_rule import Chance
+from ehlectric.errors import printable
 from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
 from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import readable
@@ -179,7 +180,9 @@ class Calibration(Shown):
         """
         contents: dict[str, Content] = {SUMMARY: json_of(self.summary()), COMPARED: csv_of(*self._table())}
         if self.case is not None:
-            contents[CALIBRATED] = self.case.to_toml().encode()
+            source = printable(self.source)
+            head = f"# Ranges from 5 % to 95 % after the measurement in {source}, by ehlectric calibrate."
+            contents[CALIBRATED] = f"{head}\n\n{self.case.to_toml()}".encode()
         return contents
 
     def _table(self) -> tuple[list[str], list[list[Any]]]:
