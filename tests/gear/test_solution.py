@@ -12,6 +12,7 @@ from ehlectric.cases.table_edits import flattened
 from ehlectric.errors import InputError
 from ehlectric.gear.contact_path import contact_path
 from ehlectric.gear.geometry import gear_pair
+from ehlectric.gear.load_sharing import slices_of
 from ehlectric.gear.losses import bulk_temperature, loss_factor
 from ehlectric.gear.solving import solve_gear_pair, solve_gear_pairs
 from ehlectric.gear.summary import gear_summary
@@ -322,3 +323,44 @@ def test_many_pairs_have_the_numbers_of_single_ones(unloaded):
 
 def test_no_pairs_have_no_results():
     assert list(solve_gear_pairs([])) == []
+
+
+# Drawings with a narrow or crowned face. The voltage jumps where a line enters or leaves, and crowned flanks
+# have their highest voltage at a phase at which two lines have equal films.
+FACES = [
+    {"gear.face_width": "3 mm"},
+    {"gear.face_width": "6 mm", "gear.tip_relief": None, "gear.tip_relief_length": None},
+    {"gear.face_width": "10 mm"},
+    {"gear.lead_crowning": "10 um"},
+    {"gear.face_width": "12 mm", "gear.lead_crowning": "20 um"},
+]
+
+
+@pytest.mark.parametrize(
+    "drawing", [{}, {"operation__load_sharing": "iso"}, {"tip_diameter": ["81.5 mm", "117 mm"]}]
+)
+def test_extremes_of_a_spur_pair_are_at_its_nodes(drawing):
+    """Its load jumps at B and D, and is monotone between its nodes: there is no value within the jumps."""
+    solution = solve_gear_pair(case_of(flank_ra="0.01 um", **drawing))
+    values = solution.breakdown_voltage_over_phase[1]
+    nodes = solution.breakdown_voltage
+    assert np.max(values) == pytest.approx(np.max(nodes), rel=1e-4)
+    assert np.min(values) == pytest.approx(np.min(nodes), rel=1e-12)
+
+
+@pytest.mark.parametrize("changes", FACES)
+def test_extremes_over_the_phase_are_those_of_a_dense_sampling(changes, monkeypatch):
+    """Reference: the extremes of the voltage at 600 phases, without interpolation."""
+    case = GearCase.from_toml(EXAMPLE).replace({"gear.flank_ra": ["0.02 um"] * 2, **changes})
+    summary = ehlectric.solve_gear(case, probable=False).summary()["mesh"]
+    monkeypatch.setattr("ehlectric.gear.contact_lines._PHASES", 600)
+    slices_of.cache_clear()
+    try:
+        dense = solve_gear_pair(case)
+    finally:
+        slices_of.cache_clear()
+    assert dense.loads.phases.size > 500
+    voltage = dense.breakdown_voltage
+    assert summary["breakdown_voltage_high"] == pytest.approx(np.max(voltage), rel=6e-3)
+    assert summary["breakdown_voltage"] == pytest.approx(np.min(voltage), rel=5e-3)
+    assert summary["capacitance"] == pytest.approx(dense.loads.mean(dense.capacitance), rel=2e-3)

@@ -240,16 +240,17 @@ _LEAST_SPAN = 0.05
 
 def mesh_panels(result: GearResult) -> list[Panel]:
     """Capacitance, breakdown voltage where there is one, and time share of contact over a phase."""
-    phase = result.over_phase()
-    capacitance, voltage = phase["capacitance"], phase["breakdown_voltage"]
+    phase, over_phase = result.over_phase(), result.solution.breakdown_voltage_over_phase
+    capacitance = phase["capacitance"]
     factor, unit = unit_for(float(np.max(capacitance)), "F", least=1.0)
     panels = [_over_phase("capacitance $C$", unit, [_phase_curve(result, "", factor * capacitance, BLUE)])]
-    if has_voltage(result):
+    if over_phase is not None and has_voltage(result):
+        phases, voltage = over_phase
         most, applied = float(np.max(voltage)), result.case.gear.contact.voltage
         near = applied is not None and applied <= _NEAR * most
         scale, volts = unit_for(max(most, applied) if applied is not None and near else most, "V", least=1.0)
         name = "breakdown voltage" if near else ""
-        curves = [_phase_curve(result, name, scale * voltage, STRENGTH)]
+        curves = [_phase_curve(result, name, scale * voltage, STRENGTH, phases)]
         if applied is not None and near:
             level = np.full(2, scale * applied)
             curves.append(Curve("voltage between both gears", np.array([0.0, 1.0]), level, BLACK, "dash"))
@@ -267,9 +268,13 @@ def has_voltage(result: GearResult) -> bool:
     return voltage is not None and bool(np.max(voltage) > 0.0)
 
 
-def _phase_curve(result: GearResult, name: str, values: Array, colour: str) -> Curve:
-    """Values over the phase, which return to the first one after a pitch; of a spur pair in a step."""
-    phases = result.solution.loads.phases
+def _phase_curve(
+    result: GearResult, name: str, values: Array, colour: str, phases: Array | None = None
+) -> Curve:
+    """Values over the phase, which return to the first one after a pitch; of a spur pair in a step.
+    ``phases`` of the values, by default the phases of the solution.
+    """
+    phases = result.solution.loads.phases if phases is None else phases
     if result.solution.pair.helix_angle == 0.0:
         x, ends = np.concatenate([[0.0], phases, [1.0]]), (values[:1], values[-1:])
     else:
@@ -395,7 +400,8 @@ def mesh_finding(result: GearResult) -> str:
     touching = result.solution.loads.least(result.solution.gap) == 0.0
     if result.solution.strength is None and not np.any(touching):
         return f"The mesh {state}: {share}; {capacitance}; no dielectric strength is given"
-    voltage, applied = phase["breakdown_voltage"], result.case.gear.contact.voltage
+    over_phase, applied = result.solution.breakdown_voltage_over_phase, result.case.gear.contact.voltage
+    voltage = None if over_phase is None else over_phase[1]
     lead = f"The mesh {state}"
     if applied is not None:
         lead = f"{result.verdict.lead} at {_prefixed(applied, 'V')}"
@@ -403,10 +409,11 @@ def mesh_finding(result: GearResult) -> str:
         return f"{lead}: the highest summits touch at all phases, no breakdown voltage; {capacitance}"
     if np.any(touching):
         at = f"{_part_text(float(touching @ phase['phase_weight']))} of the phases"
-        if result.solution.strength is None:
+        if voltage is None:
             return f"{lead}: the highest summits touch at {at}; {capacitance}"
         most = _prefixed(float(np.max(voltage)), "V")
         return f"{lead}: the highest summits touch at {at}; breakdown voltage elsewhere up to {most}"
+    assert voltage is not None
     breakdown = f"breakdown voltage {_range(voltage, 'V')}"
     if result.margin is None:
         return f"{lead}: {breakdown}, {capacitance}"

@@ -35,9 +35,9 @@ from ehlectric.gear.contact_path import ContactPath
 # a phase at which a line appears or disappears, and from a place at which a load jumps.
 _CLOSE, _GAP, _INSIDE = 1e-7, 1e-6, 1e-9
 
-# Least number of nodes of a helical pair over the phase, least number between two phases at which the mesh
-# changes, and number of nodes between them of a spur pair.
-_PHASES, _LEAST_PHASES, _SPUR_PHASES = 16, 3, 8
+# Nodes of a helical pair over the phase: two at least of an interval, and one of an interval that is narrow.
+# Nodes of a spur pair between two phases at which the mesh changes.
+_PHASES, _NARROW, _SPUR_PHASES = 4, 1e-3, 8
 
 # Nodes of a piece without a load: its outer end, and a place next to the load.
 _UNLOADED = np.array([0.0, 0.99])
@@ -232,17 +232,32 @@ def _phase_nodes(ends: Array, overlap: float, accuracy: int) -> tuple[Array, Arr
     bends = np.sort(bends % 1.0)
     bends = bends[np.diff(bends, prepend=-1.0) > (min(_CLOSE, 0.1 * gap) if overlap else _CLOSE)]
     bends = np.append(bends[bends < 1.0 - _CLOSE], 1.0)
-    number = bends.size - 1
-    each = _SPUR_PHASES if overlap == 0.0 else max(_LEAST_PHASES, round(_PHASES / number) + 1)
-    at, part = lobatto((each - 1) * accuracy + 1)
-    begin, width = bends[:-1, np.newaxis], np.diff(bends)[:, np.newaxis]
-    weights = width * part
+    begin, width = bends[:-1], np.diff(bends)
     if overlap == 0.0:
-        gaps = np.minimum(_GAP, 0.01 * width)
-        return np.ravel(begin + np.clip(width * at, gaps, width - gaps)), np.ravel(weights)
+        at, part = lobatto((_SPUR_PHASES - 1) * accuracy + 1)
+        wide = width[:, np.newaxis]
+        gaps = np.minimum(_GAP, 0.01 * wide)
+        tau = begin[:, np.newaxis] + np.clip(wide * at, gaps, wide - gaps)
+        return np.ravel(tau), np.ravel(wide * part)
+    numbers = accuracy * np.maximum(np.where(width > _NARROW, 2, 1), np.rint(_PHASES * width)).astype(int)
+    at, part, interval, first, last = _around(tuple(numbers.tolist()))
+    weights = width[interval] * part
     # The first node of an interval is the last one of the interval before.
-    weights[:, 0] += np.roll(weights[:, -1], 1)
-    return np.ravel(begin + width * at[:-1]), np.ravel(weights[:, :-1])
+    weights[first] += np.roll(width * last, 1)
+    return begin[interval] + width[interval] * at, weights
+
+
+@lru_cache(maxsize=256)
+def _around(numbers: tuple[int, ...]) -> tuple[Array, Array, IntArray, IntArray, Array]:
+    """Nodes of intervals that follow each other around a phase, without the last node of each.
+
+    ``numbers``, nodes of each interval next to the last one. Returns places and weights in the intervals,
+    numbers of the intervals, numbers of their first nodes, and weights of their last nodes.
+    """
+    nodes = [lobatto(number + 1) for number in numbers]
+    at, part = (np.concatenate([each[k][:-1] for each in nodes]) for k in (0, 1))
+    first = np.concatenate([[0], np.cumsum(numbers)[:-1]])
+    return at, part, np.repeat(np.arange(len(numbers)), numbers), first, np.array([w[-1] for _, w in nodes])
 
 
 @lru_cache(maxsize=16)

@@ -28,7 +28,7 @@ _STEP, _LEAST = math.log(800.0 / 0.2) / 48.0, 5
 
 # Ratio of the largest M to the smallest one of the table: a film under a smaller load is as thick as under
 # the smallest one.
-_RANGE = 200.0
+LOAD_RANGE = 200.0
 
 # Least group M: a place without a load has 0.
 _NONE = 1e-300
@@ -116,7 +116,7 @@ def film_tables(
     laws = (oil.log_viscosity, oil.density_ratio)
     firsts, numbers, places = [], [], []
     for least, most, low, high in ranges:
-        start = math.floor(math.log(max(least, most / _RANGE)) / _STEP)
+        start = math.floor(math.log(max(least, most / LOAD_RANGE)) / _STEP)
         firsts.append(start)
         numbers.append(max(_LEAST, math.ceil(math.log(most) / _STEP) - start + 1))
         places.append((0.5 * math.log(low * high), max(0.5 * math.log(high / low), _LEAST_HALF)))

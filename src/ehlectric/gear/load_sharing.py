@@ -120,6 +120,32 @@ class LineLoads:
         """Least of values of shape (n,) at each phase, shape (p,), without NaN."""
         return np.asarray(np.fmin.reduceat(values, np.searchsorted(self.phase, np.arange(self.phases.size))))
 
+    def least_over_phase(self, values: Array) -> tuple[Array, Array]:
+        """Phases in increasing order, and the least of values of shape (n,) there, each of shape (q,).
+
+        A line is determined by its place tau + k. The least value of each line is interpolated linearly over
+        this place, so that the result contains the phases at which another line has the least value, and
+        both sides of a phase at which a line appears or disappears.
+        """
+        starts = self._starts()
+        place = self.phases[self.phase[starts]] + self.line[starts]
+        least = np.fmin.reduceat(values, starts)
+        order = np.argsort(place)
+        place, least = place[order], least[order]
+        known = ~np.isnan(least)
+        place, least = place[known], least[known]
+        first, last = place[0], place[-1]
+        ends = [(first - _NEXT) % 1.0, first % 1.0, last % 1.0, (last + _NEXT) % 1.0]
+        # Between the phases on both sides of a jump there is no value.
+        after = np.searchsorted(self.phases, _BETWEEN)
+        cycle = np.concatenate([self.phases[-1:] - 1.0, self.phases, self.phases[:1] + 1.0])
+        between = _BETWEEN[cycle[after + 1] - cycle[after] > _NEXT]
+        phases = np.sort(np.concatenate([self.phases, between, ends]))
+        lines = phases + np.arange(math.floor(first), math.ceil(last) + 1.0)[:, np.newaxis]
+        there = np.min(np.interp(lines, place, least, left=math.inf, right=math.inf), axis=0)
+        met = np.isfinite(there)
+        return phases[met], np.asarray(there[met])
+
     def mean(self, values: Array) -> float:
         """Mean over the phases of values of shape (p,)."""
         return float(values @ self.weights)
@@ -131,11 +157,19 @@ class LineLoads:
 
     def lines(self) -> Iterator[slice]:
         """Yield the nodes of each line at each phase, in the order of their places on the face."""
-        starts = np.flatnonzero(
-            np.diff(self.phase, prepend=-1) | np.diff(self.line, prepend=self.line[0] - 1)
-        )
-        for start, end in pairwise([*starts.tolist(), self.phase.size]):
+        for start, end in pairwise([*self._starts().tolist(), self.phase.size]):
             yield slice(start, end)
+
+    def _starts(self) -> IntArray:
+        """Numbers of the first nodes of each line at each phase."""
+        phase, line = self.phase, self.line
+        following = np.flatnonzero((phase[1:] != phase[:-1]) | (line[1:] != line[:-1]))
+        return np.concatenate([[0], following + 1])
+
+
+# Phases between 0 and 1 at which the least value of all lines is interpolated, and distance of a phase from
+# the first or the last phase of a line, which exceeds the distance of the nodes on both sides of a jump.
+_BETWEEN, _NEXT = np.arange(64) / 64.0, 3e-6
 
 
 # Nodes of a line between two bends, without and with crowning. An odd number has a node in the middle of the

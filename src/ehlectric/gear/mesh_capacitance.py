@@ -7,9 +7,9 @@ permittivity eps_p under the pressure,
 
 The gap outside the zone is the dry gap plus the film; beyond a few half-widths it is the gap of two circles
 with the radii of curvature of both flanks. If relief or crowning keeps the flanks of a line apart, by the
-gap f - delta, C' is the one of cylinders at this gap, eps0 eps_r pi sqrt(2 rho_n/gap), with the film of a
-contact without a load added to the gap. The whole gears have more: the flanks at the normal backlash j_n
-behind each pair, cylinders that approach each other to j_n, have per pair
+gap f - delta, C' is the one of cylinders at this gap, to which the film under the lightest load is added,
+eps0 eps_r pi sqrt(2 rho_n/gap). The whole gears have more: the flanks at the normal backlash j_n behind each
+pair, cylinders that approach each other to j_n, have per pair
 
     C_back = eps0 eps_r pi sqrt(2 rho_n/j_n) b/cos beta_b.
 
@@ -105,7 +105,7 @@ def _of_circles(flanks: Flanks, places: Array) -> Array:
 def open_capacitance(flanks: Flanks, pieces: OpenPieces, film: float, phases: int) -> Array:
     """Capacitance of lines at which the flanks do not touch at each phase [F], shape (phases,).
 
-    Over a length L between the gaps g_1 and g_2, including the ``film`` [m] of a contact without a load, the
+    Over a length L between the gaps g_1 and g_2, including the ``film`` [m] under the lightest load, the
     mean of 1/sqrt(gap) of a linear gap is 2/(sqrt(g_1) + sqrt(g_2)).
     """
     roots = np.sqrt(pieces.first_gap + film) + np.sqrt(pieces.last_gap + film)

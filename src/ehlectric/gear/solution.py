@@ -114,6 +114,17 @@ class GearSolution:
         strength = self.strength
         return None if strength is None else strength * self.loads.least(self.gap)
 
+    @property
+    def breakdown_voltage_over_phase(self) -> tuple[Array, Array] | None:
+        """Phases in increasing order, and the smallest breakdown voltage of all lines there, interpolated
+        between the phases of ``breakdown_voltage`` [V].
+        """
+        strength = self.strength
+        if strength is None:
+            return None
+        phases, gap = self.loads.least_over_phase(self.gap)
+        return phases, strength * gap
+
     @cached_property
     def capacitance(self) -> Array:
         """Capacitance of the mesh at each phase, shape (p,) [F], with the flanks behind the working ones."""

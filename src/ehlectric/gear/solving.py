@@ -14,7 +14,8 @@ from ehlectric.cases.case_oil import Lubricant
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.film import Groups
-from ehlectric.gear.film_table import FilmTable, film_tables
+from ehlectric.gear.contact_path import POINTS
+from ehlectric.gear.film_table import LOAD_RANGE, FilmTable, film_tables
 from ehlectric.gear.flank_films import FlankFilms, Flanks, PlacedContacts, contacts_of, flank_films
 from ehlectric.gear.flank_oil import by_lubricant, check_oils, flank_oils
 from ehlectric.gear.load_sharing import SIDES, LineLoads, OpenPieces, loads_at_points
@@ -47,9 +48,15 @@ class _LoadedPair:
 
     @property
     def contacts(self) -> tuple[Array, Array]:
-        """Places g [m] and line loads [N/m] of all nodes, and of A to E."""
-        points = np.array(list(self.at.plane.path.points.values()))
-        return np.append(self.loads.places, points), np.append(self.loads.load, self.at_points)
+        """Places g [m] and line loads [N/m]: all nodes, then A to E; if flanks are open in part, then the
+        pitch point under the lightest load.
+        """
+        path, loads = self.at.plane.path, self.loads
+        places, load = [*path.points.values()], [*self.at_points.tolist()]
+        if self.opened.length.size:
+            places.append(path.pitch_point)
+            load.append(float(np.max(loads.load)) / LOAD_RANGE)
+        return np.append(loads.places, places), np.append(loads.load, load)
 
 
 def solve_gear_pair(case: GearCase) -> GearSolution:
@@ -149,7 +156,8 @@ def _solution(pair: _LoadedPair, flanks: Flanks, contacts: PlacedContacts, table
     """Films and capacitance of a pair."""
     case, loads, number = pair.case, pair.loads, pair.loads.load.size
     both, shape = flank_films(flanks, contacts, table, by_formula=case.contacts == "formula")
-    films, at_points = both.some(slice(number)), both.some(slice(number, None))
+    films, at_points = both.some(slice(number)), both.some(slice(number, number + len(POINTS)))
+    lightest = float(both.central[-1])
     capacitance = capacitance_per_length(flanks, both, shape)[:number]
     if case.contacts == "solved":
         films, at_points = _with_solved(pair, flanks, table, films, at_points)
@@ -165,9 +173,7 @@ def _solution(pair: _LoadedPair, flanks: Flanks, contacts: PlacedContacts, table
         bulk_temperature=pair.at.bulk_temperature,
         stiffness=pair.at.stiffness,
         capacitance_of_lines=capacitance,
-        open_capacitance=open_capacitance(
-            flanks, pair.opened, float(np.nanmax(films.central)), loads.phases.size
-        ),
+        open_capacitance=open_capacitance(flanks, pair.opened, lightest, loads.phases.size),
     )
 
 

@@ -85,6 +85,7 @@ def _mesh(solution: GearSolution) -> dict[str, Any]:
     state = state_of(solution)
     if state == CONDUCTS:
         voltage = None
+    over_phase = None if voltage is None else solution.breakdown_voltage_over_phase
     # Summits that touch leave no film to break down.
     first = None if voltage is None else float(np.min(voltage)) or None
     where = None if first is None else discharge_places(solution)
@@ -111,7 +112,7 @@ def _mesh(solution: GearSolution) -> dict[str, Any]:
         "capacitance_high": float(np.max(capacitance)),
         "back_capacitance": None if solution.pair.normal_backlash is None else solution.back_capacitance,
         "breakdown_voltage": first,
-        "breakdown_voltage_high": None if voltage is None else float(np.max(voltage)) or None,
+        "breakdown_voltage_high": None if over_phase is None else float(np.max(over_phase[1])) or None,
         "smooth_breakdown_voltage": None if strength is None else strength * thinnest,
         "discharge_area_share": None if where is None else where.area_share(_MOST),
         "discharge_root_share": None if where is None else where.before(solution.path.pitch_point),
