@@ -132,7 +132,7 @@ class AxleCase(CaseFile, book="axle_file"):
 
         def __init__(self, **tables: Any) -> None: ...
 
-    NUMBERED: ClassVar[tuple[str, ...]] = ("shaft", "bearing", "mesh", "link", "remedies")
+    _numbered: ClassVar[tuple[str, ...]] = ("shaft", "bearing", "mesh", "link", "remedies")
 
     title: Title = ""
     drive: AxleOperation

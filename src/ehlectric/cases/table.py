@@ -140,7 +140,7 @@ class Table(BaseModel, metaclass=_Listed):
     BOOK: ClassVar[str] = ""
     NAMED_BY: ClassVar[str] = ""
     # Lists of tables in whose errors keys have the number of the table, from 1.
-    NUMBERED: ClassVar[tuple[str, ...]] = ()
+    _numbered: ClassVar[tuple[str, ...]] = ()
 
     def __init__(self, /, **table: Any) -> None:
         refuse_deep(table)
@@ -452,7 +452,7 @@ def first_error(error: ValidationError, model: type[Table], given: Mapping[str, 
 def _numbered(error: InputError, detail: ErrorDetails, model: type[Table]) -> InputError:
     """Error whose key has the number of its table in a list, as ``bearing.3.at``, if the model numbers it."""
     name, number = (*detail["loc"], None, None)[:2]
-    if name not in model.NUMBERED or not isinstance(number, int):
+    if name not in model._numbered or not isinstance(number, int):
         return error
     if error.several:
         return InputError.together([_numbered(each, detail, model) for each in error.several])
