@@ -121,10 +121,11 @@ def bounds_text(low: float, high: float) -> str:
 
     Examples
     --------
-    >>> bounds_text(0.165, 0.5664)
-    'between 16 and 57 %'
+    >>> bounds_text(0.165, 0.5664), bounds_text(0.5661, 0.5664)
+    ('between 16 and 57 %', '57 %')
     """
-    return f"between {readable(100.0 * low, 2)} and {readable(100.0 * high, 2)} %"
+    first, last = (readable(100.0 * end, 2) for end in (low, high))
+    return f"{first} %" if first == last else f"between {first} and {last} %"
 
 
 def ratio_text(ratio: Any) -> str:

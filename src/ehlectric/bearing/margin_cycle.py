@@ -48,8 +48,8 @@ _SHOWN = {"K": "°C", "N": "N", "V": "V", "N*m": "N m"}
 
 MAYBE = "not negative or NaN"
 
-# Difference of bounds of a probability that is none.
-_ROUNDING = 1e-9
+# Difference of bounds of a probability up to which texts show one number.
+_ROUNDING = 5e-4
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -30,7 +30,7 @@ def probability_value(key: str) -> Callable[[Summary], Any]:
             if probability is None or error is None or not at_an_end(probability, error):
                 return probability
             return chance_text(probability, error).removesuffix(" %"), "%"
-        return " to ".join(readable(100.0 * end, 2) for end in (low, high)), "%"
+        return " to ".join(dict.fromkeys(readable(100.0 * end, 2) for end in (low, high))), "%"
 
     return value
 
