@@ -243,3 +243,17 @@ def test_a_case_without_a_measured_quantity_is_refused(bearing, table, needed):
     del tables[table]
     with pytest.raises(InputError, match=needed):
         ehlectric.calibrate(BearingCase.from_dict(tables))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("text", ["72 degC +- 2 K", "120 degC +- 2 K"], ids=["explained", "unexplained"])
+def test_a_calibration_is_shown_as_table_and_figure(bearing, text):
+    """In a notebook, with the rows of the command, and as a figure as wide as a column of a journal."""
+    case = bearing.replace({"measured.outer_ring_temperature": text})
+    calibration = ehlectric.calibrate(case, samples=64)
+    assert "measured outer ring temperature" in calibration._repr_html_()
+    assert len(calibration.to_dataframe()) == 1
+    assert ehlectric.figure_names(calibration) == ["calibration"]
+    figure = calibration.plot(style="journal")
+    assert 25.4 * figure.get_figwidth() == pytest.approx(84.0)
+    assert len(figure.axes) == 2

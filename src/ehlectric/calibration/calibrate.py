@@ -44,6 +44,9 @@ _SAMPLES, _DRAWN, _DENSE = 512, 512, 8192
 # calibrated file is the updated one.
 _DECIDES = 0.05
 
+# Largest number of measured values that may contradict the others.
+_COMPARED = 6
+
 # Largest number of quantities to measure next, and least margin of which the logarithm counts.
 _NEXT, _LEAST_MARGIN = 3, 0.05
 
@@ -333,8 +336,8 @@ class _Compared:
         far = np.flatnonzero(np.abs(posterior.residuals) > posterior.limit).tolist()
         alone = np.min(np.abs(posterior.prior_predictions - values) / errors, axis=0)
         rows = tuple(far or [int(np.argmax(np.abs(posterior.residuals)))])
-        contradicting = tuple(self._contradicting(posterior)) if values.size > 1 else ()
         unreachable = [place for place in rows if alone[place] > posterior.limit]
+        contradicting = () if unreachable or values.size < 2 else tuple(self._contradicting(posterior))
         name, needed = None, None
         if posterior.emulator is not None and (unreachable or not contradicting):
             place = max(unreachable or rows, key=lambda k: abs(posterior.residuals[k]))
@@ -344,9 +347,12 @@ class _Compared:
         return Unexplained(rows, posterior.limit, nearest.p_value, key, label, needed, ends, contradicting)
 
     def _contradicting(self, posterior: Posterior) -> Iterator[int]:
-        """Places of measured values without which inputs within the ranges explain the others."""
+        """Places of measured values, among those with the largest residuals, without which inputs within the
+        ranges explain the others.
+        """
         values, errors = given_values(self.given), self.errors
-        for place in range(values.size):
+        farthest = np.argsort(-np.abs(posterior.residuals))[:_COMPARED]
+        for place in sorted(farthest.tolist()):
             others = np.arange(values.size) != place
 
             def predict(at: Array, others: Array = others) -> Array:

@@ -57,14 +57,14 @@ def _inputs(result: Calibration, ax: Axes) -> None:
             if ends is None or not width > 0.0:
                 continue
             low, middle, high = ((end - entry.low) / width for end in ends)
-            label = {LIGHT_GREY: "before (90 %)", BLUE: "after (90 %)"}[colour] if place == 0 else ""
+            label = {LIGHT_GREY: "before", BLUE: "after"}[colour] if place == 0 else ""
             ax.barh(place, high - low, height, left=low, color=colour, label=label)
             if colour == BLUE:
                 ax.plot([middle], [place], color=GREY, marker="|", ms=9.0, ls="none")
     ax.set_yticks(range(len(result.inputs)), [entry.label.partition(" (")[0] for entry in result.inputs])
     ax.invert_yaxis()
     ax.set_xlim(0.0, 1.0)
-    ax.set_xlabel("part of the range of the input")
+    ax.set_xlabel("90 % ranges, part of the range of the input")
     legend_above(ax, columns=2)
 
 

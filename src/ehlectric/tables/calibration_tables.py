@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from ehlectric.calibration import CalibratedInput, Calibration, Compared
 from ehlectric.quantities.formats import amount_text
+from ehlectric.quantities.rows import Row
 from ehlectric.readable import readable
 from ehlectric.tables.measured_tables import columns_table
 from ehlectric.tables.probability_rows import input_range
@@ -32,6 +34,19 @@ def inputs_table(result: Calibration) -> Table:
         rows.append((entry.label.partition(" (")[0], before, after, removed, correlated))
     heads = ("input", "before (90 %)", "after (90 %)", "variance\nremoved", "correlated with")
     return columns_table(heads, rows, "Uncertain inputs", left=(0, 1, 2, 4), wrapped=(0, 4), padding=2)
+
+
+def calibration_rows(result: Calibration) -> Iterator[Row]:
+    """Rows of the inputs with their ranges, and of measured next to computed values."""
+    for entry in result.inputs:
+        after = "" if entry.posterior is None else f", after {range_text(entry, entry.posterior)}"
+        yield Row(entry.label.partition(" (")[0], f"before {range_text(entry, entry.prior)}", note=after)
+    for row in result.rows[:_PRINTED]:
+        computed = row.nearest if row.posterior is None else row.posterior[1]
+        note = f", computed {amount_text(computed, row.unit)}, residual {row.residual:+.1f}"
+        yield Row(
+            f"measured {row.quantity.replace('_', ' ')}", amount_text(row.measured, row.unit), note=note
+        )
 
 
 def _correlated(result: Calibration, place: int) -> str:

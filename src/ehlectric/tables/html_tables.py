@@ -9,6 +9,7 @@ from typing import Any
 
 from ehlectric.axle import AxleResult
 from ehlectric.bearing import BearingResult
+from ehlectric.calibration import Calibration
 from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
@@ -31,6 +32,7 @@ from ehlectric.runtime.display import is_number
 from ehlectric.sweep import Range, Sweep, SweepResults, label_of, sweep_warnings
 from ehlectric.tables.axle_tables import axle_rows
 from ehlectric.tables.bearing_tables import total_rows
+from ehlectric.tables.calibration_tables import calibration_rows
 from ehlectric.tables.contact_tables import result_rows
 from ehlectric.tables.drive_tables import drive_rows
 from ehlectric.tables.gear_tables import gear_rows
@@ -162,6 +164,7 @@ _ROWS: Mapping[type, Callable[[Any], Iterable[Row]]] = {
     MotionResult: lambda result: run_rows(result.summary()),
     SweepResults: sweep_rows,
     FilmFactors: factor_rows,
+    Calibration: calibration_rows,
     Case: input_rows,
     BearingCase: input_rows,
     DriveCase: input_rows,
