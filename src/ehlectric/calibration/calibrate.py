@@ -347,8 +347,8 @@ class _Compared:
         return Unexplained(rows, posterior.limit, nearest.p_value, key, label, needed, ends, contradicting)
 
     def _contradicting(self, posterior: Posterior) -> Iterator[int]:
-        """Places of measured values, among those with the largest residuals, without which inputs within the
-        ranges explain the others.
+        """Places of measured values without which inputs within the ranges explain the others. Only the
+        values with the largest residuals are examined.
         """
         values, errors = given_values(self.given), self.errors
         farthest = np.argsort(-np.abs(posterior.residuals))[:_COMPARED]
