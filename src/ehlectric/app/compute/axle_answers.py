@@ -173,10 +173,11 @@ def _effects(result: AxleResult, summary: Summary) -> Iterator[str]:
                 for word, names in groups.items()
                 if names
             ] or [texts["none"]]
+        sentences = [f"{'; '.join(parts)}."]
         if rank and then[rank[0]] > 0.0:
             word = "first_above" if then[rank[0]] > 1.0 else "first_below"
-            parts.append(texts[word].format(element=rank[0], ratio=readable(then[rank[0]])))
-        yield f"{remedy['title']}: {' '.join(parts)}"
+            sentences.append(texts[word].format(element=rank[0], ratio=readable(then[rank[0]])))
+        yield f"{remedy['title']}: {' '.join(sentences)}"
 
 
 def _change(before: float, after: float) -> int:
