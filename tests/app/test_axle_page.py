@@ -165,3 +165,17 @@ def test_only_one_shaft_is_the_rotor_and_one_bearing_of_a_shaft_carries_its_axia
     opened(page, "bearing-1-of-output")
     assert wait_until(lambda: page.get_by_test_id("field-bearing-5-locating").input_value() == "no")
     answered(page)
+
+
+@pytest.mark.slow
+def test_an_axle_is_varied_on_the_page_of_sweeps(axle):
+    """The first inputs of the sweep are speed and torque of the rotor."""
+    page = axle
+    page.get_by_test_id("vary").click()
+    page.wait_for_url("**/sweep**")
+    values = "names.map((_, k) => document.querySelector(`[data-testid=field-vary-${k}]`)?.value)"
+    page.wait_for_function(
+        f"names => JSON.stringify({values}) === JSON.stringify(names)",
+        arg=["Speed of the rotor", "Torque of the rotor"],
+    )
+    assert "/axle?" in page.get_by_role("link", name="Open the base case on its page").get_attribute("href")

@@ -12,7 +12,7 @@ import pytest
 from ehlectric.app.calls import SWEEP_SOLVED
 from ehlectric.app.compute import sweep_answers
 from ehlectric.app.page_inputs import Inputs, Range, sweep_file, with_ranges, with_shown
-from ehlectric.app.pages.frame import SWEEP, start
+from ehlectric.app.pages.frame import AXLE, SWEEP, example_inputs
 from ehlectric.app.work import Limits, Work
 from ehlectric.cases.drive_case import case_of_dict
 from ehlectric.cases.input_keys import kind_of, unit_of
@@ -261,9 +261,9 @@ def test_a_line_of_margins_is_compared_with_one(tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["bearing_6208", "discharge", "oil_contact"])
+@pytest.mark.parametrize("name", ["bearing_6208", "discharge", "oil_contact", "e_axle"])
 def test_offered_ranges_are_valid(name):
-    table = dict(start(name).table)
+    table = dict((AXLE if name == "e_axle" else example_inputs(name)).table)
     offered = sweep_answers.choices(table).variables
     assert len(offered) > 5
     for one in offered:

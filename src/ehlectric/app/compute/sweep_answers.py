@@ -36,6 +36,7 @@ from ehlectric.app.view_models import (
 )
 from ehlectric.bearing import is_quick, percent
 from ehlectric.cases.amounts import Amount, Count
+from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.defaults import HOW
 from ehlectric.cases.drive_case import DriveCase
@@ -338,7 +339,11 @@ def choices(table: Mapping[str, Any]) -> SweepChoices:
 
 
 # Paths of pages by kind of case.
-_PAGES = {"bearing": "/", "drive": "/drive", "contact": "/contact", "gear": "/gear"}
+_PAGES = {"bearing": "/", "drive": "/drive", "contact": "/contact", "gear": "/gear", "axle": "/axle"}
+
+# Tables of an axle whose numbers a page offers, and keys of the bearings of each shaft.
+_OF_AXLES = ("drive", "source", "circuit", "discharge", "lubricant")
+_OF_SHAFTS = ("composite_rq", "radial_clearance")
 
 
 def _kind_of_case(case: SolvedCase) -> str:
@@ -346,6 +351,8 @@ def _kind_of_case(case: SolvedCase) -> str:
         return "drive"
     if isinstance(case, GearCase):
         return "gear"
+    if isinstance(case, AxleCase):
+        return "axle"
     return "bearing" if isinstance(case, BearingCase) else "contact"
 
 
@@ -353,6 +360,10 @@ def _variables(table: Mapping[str, Any], case: SolvedCase) -> Iterator[Variable]
     if isinstance(case, DriveCase):
         written, resolved = _by_key(table, case), _by_key(case.to_dict(), case)
         fields = _drive_fields()
+    elif isinstance(case, AxleCase):
+        written, resolved, fields = _of_axle(table), _of_axle(case.to_dict()), dict[str, Field]()
+        shafts = [f"bearing.{shaft.name}.{name}" for shaft in case.shaft for name in _OF_SHAFTS]
+        resolved |= {key: case.value_of(key) for key in shafts}
     else:
         written, resolved = Inputs(table).flat(), flattened(case.to_dict())
         groups = GEAR_GROUPS if isinstance(case, GearCase) else BEARING_GROUPS
@@ -370,6 +381,11 @@ def _variables(table: Mapping[str, Any], case: SolvedCase) -> Iterator[Variable]
         ends = _ends(text, resolved[key], key)
         if ends is not None:
             yield Variable(key, named(key, case), *ends, log=slider is not None and slider.log)
+
+
+def _of_axle(table: Mapping[str, Any]) -> dict[str, Any]:
+    """Values of the tables of an axle that are no lists, by dotted key."""
+    return flattened({name: table[name] for name in _OF_AXLES if isinstance(table.get(name), Mapping)})
 
 
 def _may_vary(key: str, case: SolvedCase) -> bool:
@@ -483,7 +499,7 @@ def planned(table: Mapping[str, Any], workers: int) -> SweepPlan:
     corners = planned_points(Sweep.from_dict({"case": sweep.case, "vary": ends}))
     refused = [point.refused for point in corners if point.key is None]
     seconds = None
-    if is_quick(sweep.case):
+    if not isinstance(sweep.case, AxleCase) and is_quick(sweep.case):
         alone = seconds_of(sweep)
         seconds = None if alone is None else alone / workers
     return SweepPlan(sweep.size, seconds, workers, len(refused), len(corners), next(iter(refused), ""))
@@ -536,6 +552,8 @@ def point_table(
     Raises InputError if the inputs of the point are no valid case.
     """
     point_case = case.replace(inputs)
+    if isinstance(case, AxleCase):
+        return tomli.loads(point_case.to_toml())
     changed: dict[str, Any] = tomli.loads(Inputs(table).toml())
     texts = {key: _text(key, value, (units or {}).get(key, "")) for key, value in inputs.items()}
     set_keys(changed, _in_tables(table, texts) if isinstance(case, DriveCase) else texts)

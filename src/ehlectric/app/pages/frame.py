@@ -205,7 +205,7 @@ class Toolbar:
             if opens:
                 if path not in (PATHS["drive"], PATHS["gear"], PATHS["axle"]):
                     _button("Compare", "compare", self.compare)
-                if path not in (PATHS["sweep"], PATHS["axle"]):
+                if path != PATHS["sweep"]:
                     _button("Vary", "vary", self.vary)
                 if path == PATHS["bearing"]:
                     _button("In its drive", "in-drive", self.in_drive)

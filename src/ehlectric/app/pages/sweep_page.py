@@ -75,7 +75,12 @@ _LONGEST = 7
 
 
 # Paths of pages by a table that only their cases have; other cases are contacts.
-_PATHS = {"drive_end": PATHS["drive"], "gear": PATHS["gear"], "bearing": PATHS["bearing"]}
+_PATHS = {
+    "drive_end": PATHS["drive"],
+    "shaft": PATHS["axle"],
+    "gear": PATHS["gear"],
+    "bearing": PATHS["bearing"],
+}
 
 
 class RangesForm:
