@@ -15,6 +15,7 @@ from ehlectric.tables.gear_tables import gear_rows
 from tests.gear.pairs import case_of
 from tests.helpers.each import each
 from tests.helpers.gears import spur_case
+from tests.helpers.places import EXAMPLES
 
 STRENGTH = "discharge.dielectric_strength"
 BULK = "gear.operation.bulk_temperature"
@@ -151,6 +152,17 @@ def test_usual_ranges_and_ranges_of_the_file():
 def test_wrong_ranges_are_refused(ranges, text):
     with pytest.raises(InputError, match=text):
         case_of().replace({"ranges": ranges})
+
+
+@pytest.mark.parametrize("changes", [{}, {"gear.lead_crowning": "20 um", "gear.tip_relief": None}])
+def test_unchanged_films_give_the_capacitance_of_the_solution(changes):
+    """Also if relief or crowning keeps parts of the flanks apart."""
+    case = GearCase.from_toml(EXAMPLES / "gear_pair.toml")
+    if changes:
+        case = case.replace({**changes, "gear.tip_relief_length": None})
+    solution = solve_gear_pair(case)
+    (same,) = capacitances_over_films(solution, np.array([1.0]))
+    assert same == pytest.approx(solution.loads.mean(solution.capacitance), rel=1e-9)
 
 
 def test_the_range_of_the_capacitance_contains_the_error_of_the_films():

@@ -74,20 +74,19 @@ def capacitances_over_films(solution: GearSolution, factors: Array) -> Array:
     shape (k,). The films of the solution are from the atlas or from a formula.
     """
     case = solution.case
-    at = OperatingPair.of(case)
-    sharing = at.sharing(case.gear)
-    loads = sharing.loads(unloaded=False)
-    oils = flank_oils(case.lubricant, np.array([at.bulk_temperature]))
-    flanks = at.flanks(case, oils.each[0])
-    placed = contacts_of(flanks, loads.places, loads.load)
+    pair = _loaded_pair(0, case, unloaded=False)
+    oils = flank_oils(case.lubricant, np.array([pair.at.bulk_temperature]))
+    flanks = pair.at.flanks(case, oils.each[0])
+    placed = contacts_of(flanks, *pair.contacts)
     (table,) = film_tables(oils.oil, oils.groups, [_ranges(placed.groups)])
     films, shape = flank_films(flanks, placed, table, by_formula=case.contacts == "formula")
-    number, back = loads.phases.size, solution.back_capacitance
+    loads, back = pair.loads, solution.back_capacitance
     means = []
     for factor in factors.tolist():
         scaled = replace(films, central=factor * films.central, minimum=factor * films.minimum)
-        lines = loads.along(capacitance_per_length(flanks, scaled, shape))
-        opened = open_capacitance(flanks, sharing.opened, float(np.nanmax(scaled.central)), number)
+        lines = loads.along(capacitance_per_length(flanks, scaled, shape)[: loads.load.size])
+        lightest = float(scaled.central[-1])
+        opened = open_capacitance(flanks, pair.opened, lightest, loads.phases.size)
         means.append(loads.mean(lines + opened + back))
     return np.array(means)
 
@@ -109,15 +108,20 @@ def _solved_together(cases: Sequence[GearCase], *, unloaded: bool) -> list[Outco
     pairs: list[_LoadedPair] = []
     for number, case in enumerate(cases):
         try:
-            at = OperatingPair.of(case)
-            sharing = at.sharing(case.gear)
-            loads = sharing.loads(unloaded=unloaded)
-            pairs.append(_LoadedPair(number, case, at, loads, loads_at_points(sharing), sharing.opened))
+            pairs.append(_loaded_pair(number, case, unloaded=unloaded))
         except InputError as error:
             outcomes[number] = error
     for lubricant, places in by_lubricant(pair.case.lubricant for pair in pairs):
         outcomes |= _solved(lubricant, [pairs[place] for place in places])
     return [outcomes[number] for number in range(len(cases))]
+
+
+def _loaded_pair(number: int, case: GearCase, *, unloaded: bool) -> _LoadedPair:
+    """Gear pair of a case with its loads. Raises InputError for drawings that cannot run."""
+    at = OperatingPair.of(case)
+    sharing = at.sharing(case.gear)
+    loads = sharing.loads(unloaded=unloaded)
+    return _LoadedPair(number, case, at, loads, loads_at_points(sharing), sharing.opened)
 
 
 def _solved(lubricant: Lubricant, pairs: Sequence[_LoadedPair]) -> dict[int, Outcome]:
