@@ -230,9 +230,10 @@ def _phase_nodes(ends: Array, overlap: float, accuracy: int) -> tuple[Array, Arr
         early[0] += gap
         bends = np.concatenate([late, early])
     bends = np.sort(bends % 1.0)
-    bends = bends[np.diff(bends, prepend=-1.0) > (min(_CLOSE, 0.1 * gap) if overlap else _CLOSE)]
-    bends = np.append(bends[bends < 1.0 - _CLOSE], 1.0)
-    begin, width = bends[:-1], np.diff(bends)
+    apart = bends[1:] - bends[:-1] > (min(_CLOSE, 0.1 * gap) if overlap else _CLOSE)
+    bends = np.concatenate([bends[:1], bends[1:][apart]])
+    bends = np.concatenate([bends[bends < 1.0 - _CLOSE], [1.0]])
+    begin, width = bends[:-1], bends[1:] - bends[:-1]
     if overlap == 0.0:
         at, part = lobatto((_SPUR_PHASES - 1) * accuracy + 1)
         wide = width[:, np.newaxis]
@@ -240,24 +241,23 @@ def _phase_nodes(ends: Array, overlap: float, accuracy: int) -> tuple[Array, Arr
         tau = begin[:, np.newaxis] + np.clip(wide * at, gaps, wide - gaps)
         return np.ravel(tau), np.ravel(wide * part)
     numbers = accuracy * np.maximum(np.where(width > _NARROW, 2, 1), np.rint(_PHASES * width)).astype(int)
-    at, part, interval, first, last = _around(tuple(numbers.tolist()))
-    weights = width[interval] * part
-    # The first node of an interval is the last one of the interval before.
-    weights[first] += np.roll(width * last, 1)
-    return begin[interval] + width[interval] * at, weights
+    at, part, before, interval = _around(tuple(numbers.tolist()))
+    wide = width[interval]
+    return begin[interval] + wide * at, wide * part + width[interval - 1] * before
 
 
 @lru_cache(maxsize=256)
-def _around(numbers: tuple[int, ...]) -> tuple[Array, Array, IntArray, IntArray, Array]:
+def _around(numbers: tuple[int, ...]) -> tuple[Array, Array, Array, IntArray]:
     """Nodes of intervals that follow each other around a phase, without the last node of each.
 
-    ``numbers``, nodes of each interval next to the last one. Returns places and weights in the intervals,
-    numbers of the intervals, numbers of their first nodes, and weights of their last nodes.
+    ``numbers``, nodes of each interval next to the last one. Returns places, weights in the interval and in
+    the interval before it, whose last node is the first one of the interval, and numbers of the intervals.
     """
     nodes = [lobatto(number + 1) for number in numbers]
     at, part = (np.concatenate([each[k][:-1] for each in nodes]) for k in (0, 1))
-    first = np.concatenate([[0], np.cumsum(numbers)[:-1]])
-    return at, part, np.repeat(np.arange(len(numbers)), numbers), first, np.array([w[-1] for _, w in nodes])
+    before = np.zeros_like(at)
+    before[np.cumsum(numbers) - numbers] = [weights[-1] for _, weights in nodes[-1:] + nodes[:-1]]
+    return at, part, before, np.repeat(np.arange(len(numbers)), numbers)
 
 
 @lru_cache(maxsize=16)

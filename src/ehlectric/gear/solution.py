@@ -103,7 +103,7 @@ class GearSolution:
             return None
         return float(relaxation_time(oil.relative_permittivity, conductivity))
 
-    @property
+    @cached_property
     def gap(self) -> Array:
         """Gap under the highest summits on all lines [m]; 0 where they touch, NaN without contact."""
         return np.maximum(self.films.minimum - self.summits, 0.0)
