@@ -67,14 +67,15 @@ _GEAR = (
 
 
 def names_of(inputs: Inputs) -> list[str]:
-    """Names of the shafts; what is no table of a shaft is skipped."""
+    """Names of the shafts; an empty name for what is no table of a shaft."""
     return [str(shaft.get("name", "")) for shaft in _tables(inputs, "shaft")]
 
 
 def _tables(inputs: Inputs, name: str) -> list[dict[str, Any]]:
-    """Tables of a list; none where the inputs have no list."""
+    """Tables of a list; an empty one for what is no table, and none where the inputs have no list."""
     tables = inputs.value(name)
-    return [table for table in tables if isinstance(table, dict)] if isinstance(tables, list) else []
+    listed = tables if isinstance(tables, list) else []
+    return [table if isinstance(table, dict) else {} for table in listed]
 
 
 def _pair_of(table: Mapping[str, Any], key: str) -> tuple[str, str]:
@@ -383,7 +384,8 @@ def without_table(inputs: Inputs, name: str, number: int) -> Inputs:
     remedies = []
     for remedy in _tables(inputs, "remedies"):
         changes = {}
-        for key, value in remedy.get("changes", {}).items():
+        given = remedy.get("changes")
+        for key, value in given.items() if isinstance(given, Mapping) else ():
             first, _, rest = key.partition(".")
             place, _, inner = rest.partition(".")
             if first == name and place.isdecimal() and name in ("mesh", "link"):
@@ -416,7 +418,8 @@ def with_mesh(inputs: Inputs) -> Inputs:
 
 def with_link(inputs: Inputs) -> Inputs:
     """Inputs with a further link: a ring from the last shaft to the housing."""
-    link = {"between": [names_of(inputs)[-1], HOUSING], "kind": "ring", "resistance": "1 ohm"}
+    names = names_of(inputs) or [""]
+    link = {"between": [names[-1], HOUSING], "kind": "ring", "resistance": "1 ohm"}
     return inputs.changed({"link": [*_tables(inputs, "link"), link]})
 
 

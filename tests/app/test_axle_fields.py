@@ -1,0 +1,76 @@
+"""Fields of an axle: groups that follow its elements, and rules of its inputs, also for inputs of anybody."""
+
+from ehlectric.app.form_fields.axle_fields import (
+    axle_groups,
+    names_of,
+    other_inputs,
+    remedy_presets,
+    summary_of,
+    with_bearing,
+    with_link,
+    with_shaft,
+    without_shaft,
+    without_table,
+)
+from ehlectric.app.form_fields.field_rules import changed
+from ehlectric.app.pages.frame import AXLE
+from ehlectric.cases.axle_case import AxleCase
+from tests.helpers.each import each
+
+
+def test_every_element_has_a_group_with_its_fields():
+    groups = {group.title: group for group in axle_groups(AXLE)}
+    titles = [f"Bearing {n} of {name}" for name in names_of(AXLE) for n in (1, 2)]
+    assert {*titles, "Gear mesh 1", "Gear mesh 2"} <= groups.keys()
+    assert summary_of(AXLE, "Bearing 2 of intermediate") == "NU 207, 110 mm"
+    # Keys without a field are listed below the form: a bulk temperature is in a field, a profile too.
+    shown = {
+        field.key.removesuffix(".1").removesuffix(".2") for group in groups.values() for field in group.fields
+    }
+    rest = {key for key in other_inputs(AXLE) if key not in shown}
+    assert all(key.startswith(("bearings.", "breakdown.")) for key in rest), rest
+
+
+def test_added_elements_make_a_valid_axle():
+    for inputs in (with_shaft(AXLE), with_link(AXLE), with_shaft(with_shaft(AXLE))):
+        AxleCase.from_written(inputs.table)
+    assert without_shaft(with_shaft(AXLE), 4) == AXLE
+    lost = without_table(AXLE, "bearing", 6)
+    AxleCase.from_written(with_bearing(lost, "output").table)
+
+
+def test_a_new_designation_keeps_what_the_axle_gives():
+    """No load, which follows from the gears, and no roughness, which all bearings share."""
+    inputs = AXLE.changed({"bearings.composite_rq": "0.04 um", "bearing.4.composite_rq": None})
+    bearing = changed(inputs, {"bearing.4.base": "32207"}).value("bearing.4")
+    assert bearing["base"] == "32207"
+    assert not {"axial_load", "radial_load", "composite_rq"} & bearing.keys()
+
+
+def test_numbers_in_remedies_follow_a_removed_mesh():
+    changes = [{"mesh.1.gear.flank_ra": "1 um"}, {"mesh.2.gear.flank_ra": "1 um"}]
+    remedies = [{"title": str(n), "changes": each} for n, each in enumerate(changes)]
+    after = without_table(AXLE.changed({"remedies": remedies}), "mesh", 1)
+    assert after.value("remedies") == [{"title": "1", "changes": {"mesh.1.gear.flank_ra": "1 um"}}]
+
+
+@each(
+    "changes",
+    [
+        {"shaft": [1, "rotor"]},
+        {"shaft": "rotor"},
+        {"bearing": [{}, 3]},
+        {"mesh": [{"gears": "rotor", "pair": []}]},
+        {"link": [{"between": [{}]}]},
+        {"remedies": [{"changes": ["link"]}, 1]},
+        {"bearings": ["6208"]},
+    ],
+)
+def test_inputs_of_anybody_have_groups(changes):
+    inputs = AXLE.changed(changes)
+    for group in axle_groups(inputs):
+        summary_of(inputs, group.title)
+    other_inputs(inputs)
+    remedy_presets(inputs)
+    with_link(without_table(inputs, "mesh", 1))
+    changed(inputs, {"bearing.1.base": "6308", "shaft.1.name": "wheel"})
