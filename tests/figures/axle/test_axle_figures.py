@@ -78,7 +78,8 @@ def test_the_network_shows_voltages_and_marks_the_first_element(result):
     assert any(text.endswith(f"= {ratio:.1f}") for text in written)
     assert "mesh, conducts" in written
     bold = [text.get_text() for text in ax.texts if text.get_weight() == "bold"]
-    assert bold[-2] == "mesh, 622.6 pF"
+    capacitance = next(each.capacitance for each in result.solution.elements if each.name == name)
+    assert bold[-2] == f"mesh, {1e12 * capacitance:.1f} pF"
     # Bars of all elements with a breakdown voltage; a half is filled at the breakdown voltage.
     filled = [patch for patch in ax.patches if patch.get_facecolor()[:3] == pytest.approx(_rgb(ORANGE))]
     assert len(filled) == 1
