@@ -102,7 +102,7 @@ def test_a_shaft_alone_has_the_divider_of_a_drive():
     bearings = []
     for number, (radial, axial) in enumerate(((800.0, 100.0), (400.0, 0.0))):
         result = solve_bearing(case.bearing_case(number, case.drive.speed, radial, axial))
-        element = bearing_element(result, breakdown, "drive_end")
+        element = bearing_element(result, breakdown)
         bearings.append(replace(element, capacitance=np.array([element.mean_capacitance])))
         assert axle.elements[number].breakdown_voltage == pytest.approx(np.min(element.breakdown), rel=1e-12)
     divider, _ = capacitive_divider(Circuit.from_dict(ALONE["circuit"]), bearings)

@@ -138,7 +138,7 @@ def test_the_scatter_of_the_drive_file_is_before_that_of_the_bearing_file(case):
     result = solve_bearing(bearing, workers=2)
     for given, shape in ((None, 10.0), (5.0, 5.0)):
         breakdown = case.breakdown.model_copy(update={"weibull_shape": given})
-        assert bearing_element(result, breakdown, ENDS[0]).shape == shape
+        assert bearing_element(result, breakdown).shape == shape
 
 
 def test_closed_films_conduct_as_those_of_the_netlist(case):

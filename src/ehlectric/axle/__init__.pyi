@@ -1,5 +1,6 @@
 """Names of axle that other packages may import."""
 
+from .axle_discharges import AxleDischarges as AxleDischarges
 from .axle_duty import AxleDuty as AxleDuty
 from .axle_netlist import axle_netlist as axle_netlist
 from .axle_netlist import write_axle_netlist as write_axle_netlist

@@ -6,6 +6,7 @@ import time
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from ehlectric.axle.axle_discharges import AxleDischarges, simulate_axle
 from ehlectric.axle.axle_duty import AxleDuty, check_axle_duty, run_axle_duty
 from ehlectric.axle.axle_verdict import axle_verdict
 from ehlectric.axle.solution import AxleSolution, solve_elements
@@ -60,6 +61,7 @@ class AxleResult(Shown):
     version: str = __version__
     probable: bool = True
     stored_duty: AxleDuty | None = field(default=None, compare=False)
+    simulated: AxleDischarges | None = field(default=None, compare=False)
 
     @property
     def case(self) -> AxleCase:
@@ -84,6 +86,17 @@ class AxleResult(Shown):
         InputError where the file of the cycle cannot be used.
         """
         return run_axle_duty(self.case) if self.stored_duty is None else self.stored_duty
+
+    @read_only_property
+    def discharges(self) -> AxleDischarges | None:
+        """Discharges over the simulated time; None without ``drive.duration``, and in previews.
+
+        They are simulated when they are first asked for. Raises InputError if an element lacks a value that
+        discharges need.
+        """
+        if self.case.drive.duration is None or not self.probable:
+            return None
+        return simulate_axle(self.solution) if self.simulated is None else self.simulated
 
     @read_only_property
     def verdict(self) -> Verdict:
@@ -120,6 +133,7 @@ class AxleResult(Shown):
             **axle_summary(self.solution),
             **({} if self.uncertainty is None else {"uncertainty": self.uncertainty.summary()}),
             **({} if self.duty is None else {"duty": self.duty.summary()}),
+            **({} if self.discharges is None else {"simulation": self.discharges.summary()}),
             "remedies": [
                 {"title": remedy.title, **axle_summary(solution)}
                 for remedy, solution in zip(self.case.remedies, self.remedies, strict=False)
@@ -202,4 +216,7 @@ def solve_axle(
     variants = case.variants()
     solution = solve_elements(case, progress)
     changed = tuple(solve_elements(variant, progress) for variant in variants) if remedies else ()
-    return AxleResult(solution, changed, seconds=time.perf_counter() - start, probable=probable)
+    timed = probable and case.drive.duration is not None
+    discharges = simulate_axle(solution, progress) if timed else None
+    seconds = time.perf_counter() - start
+    return AxleResult(solution, changed, seconds=seconds, probable=probable, simulated=discharges)

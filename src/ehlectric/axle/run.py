@@ -10,13 +10,14 @@ from ehlectric.axle.result import AxleResult, solve_axle
 from ehlectric.axle.stored import SCHEMA, duty_of, solutions_of
 from ehlectric.axle.summary import ELEMENT_COLUMNS, SHAFT_COLUMNS
 from ehlectric.cases.axle_case import AxleCase
+from ehlectric.quantities.results import EVENT_COLUMNS
 from ehlectric.runtime.file_rules import check_format, number_of, refusing, text_of
 from ehlectric.runtime.files import Content, column_head, csv_of, json_of, plain, write_together
 from ehlectric.runtime.folders import RESULT_LOCK, alone_in
 from ehlectric.runtime.netcdf import check_readable, content_of, load_library
 from ehlectric.runtime.progress import Progress, RunOutcome, silent
 from ehlectric.runtime.result_names import AXLE_NETCDF as NETCDF
-from ehlectric.runtime.result_names import ELEMENTS, SHAFTS, SUMMARY
+from ehlectric.runtime.result_names import ELEMENTS, EVENTS, SHAFTS, SUMMARY
 from ehlectric.runtime.result_names import OF_AXLES as FILES
 
 if TYPE_CHECKING:
@@ -52,6 +53,9 @@ def save(result: AxleResult, folder: str | Path, *, replaced: Sequence[str] = ()
     }
     if result.duty is not None:
         contents |= result.duty.contents()
+    if result.discharges is not None:
+        heads = ["element", *(column_head(name, unit) for name, unit in EVENT_COLUMNS.items())]
+        contents[EVENTS] = csv_of(heads, (row.values() for row in result.discharges.events()))
     with alone_in(folder, FILES, locks=[RESULT_LOCK]) as folder:
         files = write_together(folder, contents, (*FILES, *replaced))
     check_readable(layout, folder / NETCDF, result_of)

@@ -345,9 +345,10 @@ def drive(
     remedy of the file. With the table [duty] in the file, duty.csv and a figure have the expected discharges
     over the time of a duty cycle.
 
-    A file with tables [[shaft]] is an axle, which is not simulated. Its files are summary.json, elements.csv
-    and shafts.csv with the voltages of all bearings, gear meshes and shafts right after an edge, and a
-    figure.
+    A file with tables [[shaft]] is an axle. Its files are summary.json, elements.csv and shafts.csv with the
+    voltages of all bearings, gear meshes and shafts right after an edge, and figures. With drive.duration and
+    the table [breakdown] the axle is also simulated over time: events.csv has the discharges, and a figure
+    the voltages of the shafts.
 
     The folder then holds only this result: files of an earlier result are removed, other files stay. A
     folder with a sweep or with moving roughness is refused.
@@ -421,11 +422,14 @@ def _axle_tables(outcome: RunOutcome[object]) -> Iterator[Table]:
         elements_table,
         remedies_table,
         shafts_table,
+        simulation_table,
     )
     from ehlectric.tables.measured_tables import table_of
 
     yield elements_table(outcome.summary)
     yield shafts_table(outcome.summary)
+    if "simulation" in outcome.summary:
+        yield simulation_table(outcome.summary)
     if "duty" in outcome.summary:
         yield duty_table(outcome.summary)
     if "uncertainty" in outcome.summary:

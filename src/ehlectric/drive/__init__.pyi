@@ -12,6 +12,7 @@ from .discharges.films_and_source import films_of as films_of
 from .discharges.simulation import Measuring as Measuring
 from .discharges.simulation import simulate as simulate
 from .drive_bearings import BearingElement as BearingElement
+from .drive_bearings import bearing_element as bearing_element
 from .drive_cycle import DriveDuty as DriveDuty
 from .drive_cycle import DriveDutyRows as DriveDutyRows
 from .drive_netlist_files import about_source as about_source
@@ -22,10 +23,14 @@ from .drive_netlist_files import write_drive_netlist as write_drive_netlist
 from .drive_record import CHARGE as CHARGE
 from .drive_record import ENERGY as ENERGY
 from .drive_record import FILM as FILM
+from .drive_record import OFF as OFF
 from .drive_record import ON as ON
 from .drive_record import PEAK as PEAK
+from .drive_record import VALUES as VALUES
 from .drive_record import VOLTAGE as VOLTAGE
 from .drive_record import Record as Record
+from .drive_record import event_rate as event_rate
+from .drive_record import spread as spread
 from .measurable import DriveModel as DriveModel
 from .motor_circuit import FRAME as FRAME
 from .motor_circuit import WINDING as WINDING
@@ -60,6 +65,7 @@ from .run import result_of as result_of
 from .run import save as save
 from .run import solve_to_folder as solve_to_folder
 from .solver import SIMULATING as SIMULATING
+from .source_in_time import SourceInTime as SourceInTime
 from .stored import SCHEMA as SCHEMA
 from .summary import both_summary as both_summary
 from .summary import checked_summary as checked_summary

@@ -73,7 +73,7 @@ class BearingElement:
         return float(np.mean(self.capacitance))
 
 
-def bearing_element(result: BearingResult, breakdown: Breakdown, end: str) -> BearingElement:
+def bearing_element(result: BearingResult, breakdown: Breakdown) -> BearingElement:
     """Element of the circuit that a solved bearing is. Raises InputError where the bearing has no dielectric
     strength, or touches and has no ``contact_resistance``.
     """
@@ -83,7 +83,7 @@ def bearing_element(result: BearingResult, breakdown: Breakdown, end: str) -> Be
     touching = float(duty.contact_time_share) if duty.contact_time_share > _NEVER else 0.0
     if touching and bearing.contact_resistance is None:
         raise InputError(
-            f"{end}.bearing.contact_resistance",
+            "bearing.contact_resistance",
             f"missing; asperities close the films of this bearing for {readable(100.0 * touching)} % of "
             "the time",
             takes="the resistance of one closed contact; about 0.1 to 1 ohm",
@@ -91,7 +91,7 @@ def bearing_element(result: BearingResult, breakdown: Breakdown, end: str) -> Be
     circuits = solution.circuits()
     strengths = _breakdown(solution, breakdown.lowest_voltage)
     if not ceramic and not np.all(np.isfinite(strengths)):
-        raise InputError.missing(f"{end}.discharge.dielectric_strength", "the strength of the oil")
+        raise InputError.missing("discharge.dielectric_strength", "the strength of the oil")
     films = np.array([circuit.capacitance for circuit in circuits])
     if bearing.element_capacitance is not None:
         films = np.full(films.size, bearing.rows * bearing.elements * bearing.element_capacitance)

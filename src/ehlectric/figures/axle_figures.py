@@ -11,9 +11,11 @@ from matplotlib.patches import Patch
 
 from ehlectric.axle import AxleResult
 from ehlectric.errors import printable
+from ehlectric.figures.axle_discharges import axle_discharges, discharges_finding
 from ehlectric.figures.axle_duty import axle_duty, duty_finding
 from ehlectric.figures.axle_remedies import axle_remedies, remedies_finding
 from ehlectric.figures.figure_names import (
+    AXLE_DISCHARGES_FIGURE,
     AXLE_DUTY_FIGURE,
     AXLE_FIGURE_FILES,
     AXLE_REMEDIES_FIGURE,
@@ -98,6 +100,7 @@ FIGURES: Mapping[str, tuple[Callable[[AxleResult], Axes], Callable[[AxleResult],
             (shaft_forces, _torques),
             (axle_duty, duty_finding),
             (axle_remedies, remedies_finding),
+            (axle_discharges, discharges_finding),
         ),
         strict=True,
     )
@@ -105,11 +108,12 @@ FIGURES: Mapping[str, tuple[Callable[[AxleResult], Axes], Callable[[AxleResult],
 
 
 def drawings_of(result: AxleResult) -> list[str]:
-    """Names of the figures of an axle; figures of gears, a cycle and remedies only if it has them."""
+    """Names of the figures of an axle; of gears, a cycle, remedies and discharges only if it has them."""
     present = {
         FORCES_FIGURE: bool(result.case.mesh),
         AXLE_DUTY_FIGURE: result.case.duty is not None,
         AXLE_REMEDIES_FIGURE: bool(result.remedies),
+        AXLE_DISCHARGES_FIGURE: result.discharges is not None,
     }
     return [name for name in FIGURES if present.get(name, True)]
 

@@ -99,7 +99,15 @@ GEAR_FIGURE_FILES = (
 # Figures of an axle: voltage of each element over its breakdown voltage, network, and forces on the shafts.
 AXLE_FIGURE, NETWORK_FIGURE, FORCES_FIGURE = "axle_elements.png", "axle_network.png", "axle_forces.png"
 AXLE_DUTY_FIGURE, AXLE_REMEDIES_FIGURE = "axle_duty.png", "axle_remedies.png"
-AXLE_FIGURE_FILES = (AXLE_FIGURE, NETWORK_FIGURE, FORCES_FIGURE, AXLE_DUTY_FIGURE, AXLE_REMEDIES_FIGURE)
+AXLE_DISCHARGES_FIGURE = "axle_discharges.png"
+AXLE_FIGURE_FILES = (
+    AXLE_FIGURE,
+    NETWORK_FIGURE,
+    FORCES_FIGURE,
+    AXLE_DUTY_FIGURE,
+    AXLE_REMEDIES_FIGURE,
+    AXLE_DISCHARGES_FIGURE,
+)
 
 # Figures of an oil.
 OIL_FIGURE_FILES = ("oil_over_pressure.png", "oil_over_temperature.png")

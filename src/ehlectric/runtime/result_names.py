@@ -16,7 +16,7 @@ DRIVE_NETCDF, EVENTS, SPECTRUM = "drive.nc", "events.csv", "spectrum.csv"
 GEAR_NETCDF, PATH, MESH = "gear.nc", "path.csv", "mesh.csv"
 OF_GEARS = (SUMMARY, PATH, MESH, DUTY, GEAR_NETCDF)
 AXLE_NETCDF, ELEMENTS, SHAFTS = "axle.nc", "elements.csv", "shafts.csv"
-OF_AXLES = (SUMMARY, ELEMENTS, SHAFTS, DUTY, AXLE_NETCDF)
+OF_AXLES = (SUMMARY, ELEMENTS, SHAFTS, EVENTS, DUTY, AXLE_NETCDF)
 OF_DRIVES = (SUMMARY, EVENTS, SPECTRUM, DUTY, DRIVE_NETCDF)
 
 # Run with moving roughness, its journal while it is not complete, with SQLite's file of a transaction, and

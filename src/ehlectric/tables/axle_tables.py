@@ -98,6 +98,38 @@ def remedies_table(summary: Summary) -> Table:
     return columns_table(["\n".join(textwrap.wrap(head, _HEAD)) for head in heads], rows, wrapped=(0,))
 
 
+def simulation_cells(summary: Summary) -> Iterator[tuple[str, ...]]:
+    """Yield the heads of the table of discharges over time, then a row for each bearing and mesh."""
+    yield (
+        "discharges over time",
+        "1/s",
+        "U, median [V]",
+        "W, mean [nJ]",
+        "W, 95 % [nJ]",
+        "U peak [V]",
+        "U rms [V]",
+    )
+    for row in summary["simulation"]["elements"]:
+        yield (
+            printable(row["element"]),
+            _cell(row["events_per_second"]),
+            _cell(row["voltage_median"]),
+            _cell(row["energy_mean"], 1e9),
+            _cell(row["energy_high"], 1e9),
+            _cell(row["peak_voltage"]),
+            _cell(row["rms_voltage"]),
+        )
+    for row in summary["simulation"]["shafts"]:
+        voltages = _cell(row["peak_voltage"]), _cell(row["rms_voltage"])
+        yield f"shaft {printable(row['shaft'])}", "", "", "", "", *voltages
+
+
+def simulation_table(summary: Summary) -> Table:
+    """Table of the discharges of all bearings and meshes and the voltages of all shafts over time."""
+    heads, *rows = simulation_cells(summary)
+    return columns_table(heads, rows, wrapped=(0,))
+
+
 def chance_cells(summary: Summary) -> Iterator[tuple[str, ...]]:
     """Yield the heads of the table of probabilities, then a row for each bearing and mesh, the most probable
     first element first. None without probabilities.

@@ -188,8 +188,8 @@ def test_a_drive_breaks_down_at_the_voltage_under_the_summits_and_not_below_that
     assert conducts(changed)
     assert min(circuit.ring_to_ring_breakdown for circuit in changed.circuits()) < 0.5 * lowest
     touching = dataclasses.replace(ready.bearings[0], solution=changed)
-    found = bearing_element(touching, drive.breakdown, "drive_end").breakdown
+    found = bearing_element(touching, drive.breakdown).breakdown
     assert lowest < np.min(found) < 1.01 * lowest
     # An arc that a smooth film would not feed is refused as before.
     high = drive.breakdown.model_copy(update={"extinction_current": None, "extinction_voltage": 50.0})
-    assert np.all(bearing_element(ready.bearings[0], high, "drive_end").breakdown < 50.0)
+    assert np.all(bearing_element(ready.bearings[0], high).breakdown < 50.0)

@@ -36,7 +36,7 @@ def still(case):
     """Bearings of a drive as elements of the circuit, which stay at their mean capacitance."""
     found = []
     for one in case.bearings:
-        whole = bearing_element(solve_bearing(one, workers=1), case.breakdown, "drive_end")
+        whole = bearing_element(solve_bearing(one, workers=1), case.breakdown)
         whole.capacitance[:] = whole.mean_capacitance
         found.append(whole)
     return found

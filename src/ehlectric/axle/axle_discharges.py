@@ -1,0 +1,246 @@
+"""Discharges of an axle over the simulated time: films of its elements, and what a simulation records.
+
+An element keeps its positions if its capacitance or its breakdown voltage changes by more than 2 %; otherwise
+it has its mean values. The positions are those of the rolling elements, or of a spur mesh over one pitch.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from ehlectric.arrays import Array
+from ehlectric.axle.films_in_time import AxleInTime, TimedFilm
+from ehlectric.axle.network import HOUSING, Network
+from ehlectric.axle.solution import AxleSolution, load_of, loads_on_shafts
+from ehlectric.bearing import Path, solve_bearing
+from ehlectric.cases.axle_case import AxleCase
+from ehlectric.cases.drive_inputs import Breakdown
+from ehlectric.drive import (
+    CHARGE,
+    ENERGY,
+    FILM,
+    OFF,
+    ON,
+    PEAK,
+    SIMULATING,
+    VALUES,
+    VOLTAGE,
+    BearingElement,
+    Record,
+    SourceInTime,
+    bearing_element,
+    event_rate,
+    spread,
+)
+from ehlectric.errors import InputError, within
+from ehlectric.gear import GearSolution, solve_gear_pair
+from ehlectric.runtime.progress import Progress, silent
+
+# Relative change over the positions below which an element has mean values.
+_CONSTANT = 0.02
+
+# Positions of a spur mesh over one pitch.
+_PHASES = 8
+
+# Voltage of a discharge divided by the lowest voltage of its arc, at least.
+_BURNS = 1.001
+
+# Share of time with metallic contact below which it is neglected.
+_NEVER = 1e-6
+
+# Columns of a record by the names of the table of events.
+_RECORDED = {"time": ON, "duration": OFF, **VALUES}
+
+
+@dataclass(frozen=True, eq=False)
+class AxleDischarges:
+    """Discharges of an axle over time.
+
+    Attributes
+    ----------
+    names : tuple of str
+        Elements, of which ``record`` has a film each.
+    shafts : tuple of str
+        Shafts, whose voltages ``record`` has.
+    record : Record
+        What happened over the simulated time.
+    """
+
+    names: tuple[str, ...]
+    shafts: tuple[str, ...]
+    record: Record
+
+    def summary(self) -> dict[str, Any]:
+        """Return the table ``simulation`` of summary.json, SI units; None without a discharge."""
+        counts = np.sum(self.record.counts, axis=0)
+        return {
+            "duration": self.record.duration,
+            "events": int(np.sum(counts)),
+            **_rates(counts, self.record.duration),
+            "power": float(np.sum(self.record.sums[:, ENERGY])) / self.record.duration,
+            "elements": [self._element(b, name) for b, name in enumerate(self.names)],
+            "shafts": [self._shaft(k, name) for k, name in enumerate(self.shafts)],
+        }
+
+    def _element(self, b: int, name: str) -> dict[str, Any]:
+        record, number = self.record, int(np.sum(self.record.counts[b]))
+        rows = record.events[record.events[:, FILM] == b]
+        values: dict[str, Any] = {}
+        for key, column in {"voltage": VOLTAGE, "charge": CHARGE, "energy": ENERGY, "current": PEAK}.items():
+            mean, largest = (
+                (float(record.sums[b, column]) / number, float(record.largest[b, column]))
+                if number
+                else (None, None)
+            )
+            of_events = spread(np.abs(rows[:, column]), mean, largest)
+            values |= {f"{key}_{place}": value for place, value in of_events.items()}
+        return {
+            "element": name,
+            "events": number,
+            **_rates(record.counts[b], record.duration),
+            "power": float(record.sums[b, ENERGY]) / record.duration,
+            "peak_voltage": float(record.peak[b]),
+            "rms_voltage": float(record.rms[b]),
+            **values,
+        }
+
+    def _shaft(self, k: int, name: str) -> dict[str, Any]:
+        mean, rms, lowest, highest = self.record.shafts[k].tolist()
+        return {
+            "shaft": name,
+            "rms_voltage": rms,
+            "peak_voltage": max(abs(lowest), abs(highest)),
+            "mean_voltage": mean,
+            "lowest_voltage": lowest,
+            "highest_voltage": highest,
+        }
+
+    def events(self) -> list[dict[str, Any]]:
+        """Return the discharges in the order of time, SI units; the first 200 000 of them."""
+        rows = self.record.events
+        events = []
+        for row in rows[np.argsort(rows[:, ON], kind="stable")]:
+            values = {name: float(row[column]) for name, column in _RECORDED.items()}
+            values["duration"] -= values["time"]
+            events.append({"element": self.names[int(row[FILM])], **values})
+        return events
+
+    @cached_property
+    def trace(self) -> tuple[Array, Array, Mapping[str, Array]]:
+        """Times [s], voltage of the source, and voltages of the shafts by their names [V], in a short stretch
+        around a discharge.
+        """
+        table = self.record.trace
+        first = 2 + len(self.names)
+        shafts = {name: table[:, first + k] for k, name in enumerate(self.shafts)}
+        return table[:, 0], table[:, 1], shafts
+
+
+def _rates(counts: Array, duration: float) -> dict[str, float]:
+    rate = event_rate(counts, duration)
+    return {
+        "events_per_second": rate.mean,
+        "events_per_second_low": rate.low,
+        "events_per_second_high": rate.high,
+    }
+
+
+def simulate_axle(solution: AxleSolution, progress: Progress = silent) -> AxleDischarges:
+    """Simulate the discharges of a solved axle for the duration of its case.
+
+    ``progress`` is called with a percentage, 100, and a text. Raises InputError if an element lacks a value
+    that discharges need.
+    """
+    case, network = solution.case, solution.network()
+    breakdown = case.breakdown
+    if breakdown is None:
+        raise InputError.missing("breakdown", "the arc of the films; drive.duration needs it")
+    given = case.source
+    with within("source"):
+        running = given.at_speed(case.drive.speed)
+    source = SourceInTime.of(running, given, breakdown, case.drive.duration)
+    conducting = {each.name for each in solution.films() if each.conducts}
+    films = _films_of(case, breakdown, conducting)
+    names = {each.name for each in films}
+    fixed = Network(network.shafts, tuple(each for each in network.elements if each.name not in names))
+    axle = AxleInTime(fixed, tuple(films), breakdown, source.ring_rate)
+    divider = max((abs(value) for value in network.potentials(1.0).values()), default=0.0)
+    whole = source.settling + source.duration
+    record = axle.march(
+        source.chunks(),
+        source.measuring(divider),
+        case.drive.seed,
+        lambda time: progress(round(100.0 * min(time / whole, 1.0)), 100, SIMULATING),
+        lambda text: progress(0, 100, text),
+    )
+    return AxleDischarges(tuple(each.name for each in axle.active), axle.floating, record)
+
+
+def _films_of(case: AxleCase, breakdown: Breakdown, conducting: set[str]) -> list[TimedFilm]:
+    """Films of all bearings and meshes, except those that conduct for good."""
+    turning, loads, films = case.turning(), loads_on_shafts(case), []
+    for number, (name, bearing) in enumerate(zip(case.names_of_bearings(), case.bearing, strict=True)):
+        if name in conducting:
+            continue
+        radial, axial = load_of(case, number, loads)
+        of_bearing = case.bearing_case(number, turning[bearing.shaft].speed, radial, abs(axial))
+        with case.naming(number):
+            element = bearing_element(solve_bearing(of_bearing, workers=1), breakdown)
+        films.append(TimedFilm(name, bearing.shaft, HOUSING, _few_positions(element)))
+    for number, (name, mesh) in enumerate(zip(case.names_of_meshes(), case.mesh, strict=True)):
+        if name not in conducting:
+            with within(f"mesh.{number + 1}.pair"):
+                gears = solve_gear_pair(case.gear_case(number, turning))
+                films.append(TimedFilm(name, *mesh.gears, _few_positions(mesh_film(gears, breakdown))))
+    return films
+
+
+def _few_positions(film: BearingElement) -> BearingElement:
+    """Film with mean values in place of values that are constant within 2 %."""
+    capacitance, limit = (
+        np.array([np.mean(values)]) if np.ptp(values) <= _CONSTANT * np.mean(values) else values
+        for values in (film.capacitance, np.nan_to_num(film.breakdown, posinf=1e300))
+    )
+    return replace(film, capacitance=capacitance, breakdown=np.where(limit >= 1e299, math.inf, limit))
+
+
+def mesh_film(gears: GearSolution, breakdown: Breakdown) -> BearingElement:
+    """Film of a solved mesh, at positions over one pitch.
+
+    Under high summits it breaks down at the lowest voltage of an arc. Oil passes the Hertz zone in the time
+    2 b_H/u_m, in which a contact stays closed, and other oil with another threshold arrives. Raises
+    InputError without a dielectric strength, and without ``contact_resistance`` of a mesh that conducts at
+    times.
+    """
+    limits, gear, operation = gears.breakdown_voltage, gears.case.gear, gears.case.gear.operation
+    if limits is None:
+        raise InputError.missing("discharge.dielectric_strength", "the strength of the oil")
+    share = float(gears.loads.mean(gears.contact_time_share()))
+    touching = share if gear.contact.conduction == "by-film" and share > _NEVER else 0.0
+    if touching and gear.contact.contact_resistance is None:
+        raise InputError.missing(
+            "gear.contact.contact_resistance", "the resistance of the mesh while it conducts, about 1 ohm"
+        )
+    phases = np.arange(_PHASES) * limits.size // _PHASES
+    capacitance, tau = np.asarray(gears.capacitance)[phases], gears.relaxation_time
+    width, speed = gears.films.half_width[gears.thinnest], gears.films.mean_speed[gears.thinnest]
+    pitch = 2.0 * math.pi / (gears.pair.teeth[0] * operation.pinion_speed)
+    return BearingElement(
+        capacitance=capacitance,
+        conductance=0.0 if tau is None else float(np.mean(capacitance)) / tau,
+        breakdown=np.maximum(limits[phases], _BURNS * breakdown.lowest_voltage),
+        shape=breakdown.weibull_shape or math.inf,
+        step=pitch / _PHASES,
+        path=Path(),
+        touching=touching,
+        touch_resistance=gear.contact.contact_resistance or math.inf,
+        hertz_area=0.0,
+        largest_area=0.0,
+        transit=float(2.0 * width / speed),
+    )
