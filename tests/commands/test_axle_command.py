@@ -9,6 +9,7 @@ import pytest
 from scipy.io import loadmat
 
 from ehlectric import InputError, export, figure, load, save, solve
+from tests.axle.axles import two_stages
 from tests.helpers.places import EXAMPLES
 
 EXAMPLE = EXAMPLES / "e_axle.toml"
@@ -169,3 +170,46 @@ def test_damaged_files_are_refused(tmp_path, result):
 def test_other_solvers_are_refused():
     with pytest.raises(InputError, match="axle"):
         solve(EXAMPLE, solvers="paper")
+
+
+# Simulation of the example for some periods of the carrier.
+SIMULATED = {
+    "drive.duration": "2 ms",
+    "breakdown": {"arc_resistance": "10 ohm", "extinction_current": "10 mA", "recovery_time": "100 ns"},
+    "bearings.contact_resistance": "1 ohm",
+    "mesh.1.gear.contact.contact_resistance": "1 ohm",
+    "remedies": [],
+}
+
+
+@pytest.mark.slow
+@pytest.mark.gate
+def test_discharges_over_time(typed, tmp_path):
+    """Rates and powers of summary.json are those of the discharges in events.csv."""
+    (tmp_path / "axle.toml").write_text(two_stages(**SIMULATED).to_toml(), "utf-8")
+    done = typed("drive", "axle.toml", "-o", "out")
+    assert done.returncode == 0
+    assert "peak [V]" in done.stdout
+    table = json.loads((tmp_path / "out" / "summary.json").read_text("utf-8"))["simulation"]
+    with (tmp_path / "out" / "events.csv").open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert table["duration"] == pytest.approx(2e-3)
+    for each in table["elements"]:
+        own = [float(row["energy [J]"]) for row in rows if row["element"] == each["element"]]
+        assert each["events"] == len(own)
+        assert each["events_per_second"] == pytest.approx(len(own) / 2e-3)
+        assert each["power"] == pytest.approx(sum(own) / 2e-3)
+    assert table["events"] == len(rows) > 20
+    # A bearing of the rotor has the voltage of its shaft.
+    (rotor,) = (each for each in table["shafts"] if each["shaft"] == "rotor")
+    (bearing,) = (each for each in table["elements"] if each["element"] == "bearing 1 of rotor")
+    assert bearing["peak_voltage"] == pytest.approx(rotor["peak_voltage"], rel=1e-6)
+    assert (tmp_path / "out" / "axle_discharges.png").stat().st_size > 10_000
+    assert load(tmp_path / "out").summary()["simulation"] == table
+
+
+def test_a_simulation_without_an_arc_is_refused(typed, tmp_path):
+    (tmp_path / "axle.toml").write_text(two_stages(**{"drive.duration": "1 ms"}).to_toml(), "utf-8")
+    done = typed("drive", "axle.toml", "-o", "out")
+    assert done.returncode == 2
+    assert "breakdown" in done.stderr

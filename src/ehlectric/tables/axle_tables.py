@@ -99,16 +99,10 @@ def remedies_table(summary: Summary) -> Table:
 
 
 def simulation_cells(summary: Summary) -> Iterator[tuple[str, ...]]:
-    """Yield the heads of the table of discharges over time, then a row for each bearing and mesh."""
-    yield (
-        "discharges over time",
-        "1/s",
-        "U, median [V]",
-        "W, mean [nJ]",
-        "W, 95 % [nJ]",
-        "U peak [V]",
-        "U rms [V]",
-    )
+    """Yield the heads of the table of discharges over time, then a row for each bearing and mesh, and for
+    each shaft. U is the median voltage, and W the mean energy with its 95th percentile.
+    """
+    yield "discharges", "1/s", "U [V]", "W [nJ]", "95 %", "peak [V]", "rms [V]"
     for row in summary["simulation"]["elements"]:
         yield (
             printable(row["element"]),
