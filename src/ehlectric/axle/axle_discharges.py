@@ -1,7 +1,7 @@
 """Discharges of an axle over the simulated time: films of its elements, and what a simulation records.
 
 An element keeps its positions if its capacitance or its breakdown voltage changes by more than 2 %; otherwise
-it has its mean values. The positions are those of the rolling elements, or of a spur mesh over one pitch.
+it has its mean values. A bearing has positions of its rolling elements, and a mesh has phases of one pitch.
 """
 
 from __future__ import annotations
@@ -202,7 +202,7 @@ def _films_of(case: AxleCase, breakdown: Breakdown, conducting: set[str]) -> lis
 
 
 def _few_positions(film: BearingElement) -> BearingElement:
-    """Film with mean values in place of values that are constant within 2 %."""
+    """Film with mean values instead of values that are constant within 2 %."""
     capacitance, limit = (
         np.array([np.mean(values)]) if np.ptp(values) <= _CONSTANT * np.mean(values) else values
         for values in (film.capacitance, np.nan_to_num(film.breakdown, posinf=1e300))
