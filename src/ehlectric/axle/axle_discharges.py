@@ -197,7 +197,8 @@ def _films_of(case: AxleCase, breakdown: Breakdown, conducting: set[str]) -> lis
         if name not in conducting:
             with within(f"mesh.{number + 1}.pair"):
                 gears = solve_gear_pair(case.gear_case(number, turning))
-                films.append(TimedFilm(name, *mesh.gears, _few_positions(mesh_film(gears, breakdown))))
+                film = _few_positions(mesh_film(gears, breakdown))
+            films.append(TimedFilm(name, mesh.gears[0], mesh.gears[1], film))
     return films
 
 

@@ -16,6 +16,7 @@ from ehlectric.drive.motor_circuit import capacitive_divider
 from ehlectric.drive.source_in_time import SourceInTime
 from ehlectric.errors import InputError, within
 from ehlectric.quantities.inputs import ENDS
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable
 
 
@@ -33,6 +34,11 @@ class PreparedDrive:
     def highest_source(self) -> float:
         """Largest absolute voltage of the source [V]."""
         return self.source.highest
+
+    @property
+    def prior_warnings(self) -> tuple[ResultWarning, ...]:
+        """Warnings about the file of a measured source."""
+        return self.source.prior_warnings
 
     @property
     def duration(self) -> float:

@@ -10,8 +10,9 @@ from ehlectric.axle import AxleDischarges, AxleResult
 from ehlectric.cases.axle_inputs import HOUSING
 from ehlectric.errors import printable
 from ehlectric.figures.category_maps import colours_of_names
-from ehlectric.figures.style import legend_above, new_panels, unit_for
+from ehlectric.figures.style import legend_above, new_panels
 from ehlectric.quantities.palette import BLACK
+from ehlectric.quantities.units import unit_for
 from ehlectric.readable import readable
 
 _SIZE, _HEIGHT = 8.0, 1.5
