@@ -179,3 +179,20 @@ def test_an_axle_is_varied_on_the_page_of_sweeps(axle):
         arg=["Speed of the rotor", "Torque of the rotor"],
     )
     assert "/axle?" in page.get_by_role("link", name="Open the base case on its page").get_attribute("href")
+
+
+@pytest.mark.slow
+def test_a_gear_file_replaces_the_gears_of_a_mesh(axle):
+    page = axle
+    opened(page, "gear-mesh-1")
+    upload = page.get_by_test_id("upload-gear-1")
+    upload.set_input_files(EXAMPLES / "bearing_6208.toml")
+    page.get_by_test_id("error-gear-1").filter(has_text="no gear file").wait_for()
+    upload.set_input_files(EXAMPLES / "gear_pair.toml")
+    # The file of a pair in a drawing has no hand, which an axle needs.
+    error = page.get_by_test_id("error-mesh-1-pair-gear-hand")
+    error.filter(has_text="left").wait_for()
+    page.get_by_test_id("error-gear-1").wait_for(state="hidden")
+    page.get_by_test_id("field-mesh-1-pair-gear-hand").select_option("left")
+    error.wait_for(state="hidden")
+    assert page.get_by_test_id("group-gear-mesh-1").evaluate("box => box.open")

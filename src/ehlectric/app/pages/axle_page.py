@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 
 from nicegui import ui
 
-from ehlectric.app.calls import AXLE_QUICK, AXLE_REMEDIED, AXLE_WHOLE
+from ehlectric.app.calls import AXLE_QUICK, AXLE_REMEDIED, AXLE_WHOLE, FILES_UPLOADED
 from ehlectric.app.form_fields.axle_fields import (
     LISTS,
     axle_groups,
@@ -31,12 +31,20 @@ from ehlectric.app.form_fields.axle_fields import (
 from ehlectric.app.form_fields.drive_fields import remedies_of, with_remedy, without_remedy
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.answer_page import AnswerPage, ProbableView
+from ehlectric.app.pages.file_field import UploadField
 from ehlectric.app.pages.form import Form
 from ehlectric.app.pages.frame import AXLE, PATHS
-from ehlectric.app.pages.page_parts import GroupBox, button, mark, page_texts, removable
+from ehlectric.app.pages.page_parts import GroupBox, button, mark, page_texts, removable, say
 from ehlectric.app.pages.result_parts import behind, table_html
 from ehlectric.app.session import Session
-from ehlectric.app.view_models import AXLE_WITHOUT_PROBABILITY, AxleAnswer, NetworkNode, NetworkPart
+from ehlectric.app.view_models import (
+    AXLE_WITHOUT_PROBABILITY,
+    MOST_CASE,
+    AxleAnswer,
+    NetworkNode,
+    NetworkPart,
+)
+from ehlectric.errors import InputError, LostError
 
 REMEDIES = "remedies"
 
@@ -176,6 +184,43 @@ def _text(changes: Mapping[str, Any]) -> str:
     return ", ".join(f"{key} = {value}" for key, value in changes.items())
 
 
+class GearFileField:
+    """Field for the gear file of a mesh, whose tables replace the tables of the mesh; build it in its group.
+
+    ``take`` is called with the inputs that contain them.
+    """
+
+    def __init__(self, session: Session, number: int, take: Callable[[Inputs], None]) -> None:
+        self._session, self._number, self._take = session, number, take
+        name = f"gear-{number}"
+        with ui.element("div").classes("box"):
+            UploadField(
+                session, self._stored, self._refuse, name=name, label="Or a gear file (TOML)", most=MOST_CASE
+            )
+            self._error = ui.label().classes("error").props(f'role="alert" id="{name}-error"')
+            self._error.props(f'data-testid="error-{name}"')
+
+    async def _stored(self, file: str) -> None:
+        path, name = self._session.path_of(file), self._session.name_of(file)
+        if path is None:
+            return
+        content = path.read_bytes()
+        path.unlink()
+        try:
+            opened = await self._session.work.quick(FILES_UPLOADED, {name: content}, self._session.folder)
+        except (InputError, LostError) as error:
+            self._refuse(str(error))
+            return
+        if opened.kind != "gear":
+            self._refuse(f"{name}: is no gear file; open it with the button Open file")
+            return
+        self._refuse("")
+        self._take(self._session.inputs.changed({f"mesh.{self._number}.pair": dict(opened.table)}))
+
+    def _refuse(self, text: str) -> None:
+        say(self._error, text)
+
+
 class AxlePage(AnswerPage[AxleAnswer]):
     """Page of one tab."""
 
@@ -223,6 +268,8 @@ class AxlePage(AnswerPage[AxleAnswer]):
             for place, n in enumerate(mounted, 1):
                 self._remove(f"Bearing {place} of {name}", "bearing", n)
         for number in range(1, _count(inputs, "mesh") + 1):
+            with self.form.group(mesh_title(number)):
+                GearFileField(self.session, number, self.go_to)
             self._remove(mesh_title(number), "mesh", number)
         for number in range(1, _count(inputs, "link") + 1):
             self._remove(link_title(number), "link", number)
