@@ -152,7 +152,7 @@ def _keys(table: str, model: type[validation.Table]) -> Iterator[list[str]]:
     for name, field in model.known_keys().items():
         found = _find(field.annotation, field.metadata)
         takes = _takes(name, found, pair=get_origin(field.annotation) is tuple)
-        default = "–" if name == "non_drive_end" else _default(field)
+        default = "–" if field.default_factory is not None else _default(field)
         yield [f"`{name}`", meanings[name], takes, default]
 
 

@@ -388,8 +388,8 @@ def _without_void(
     """
     if not rows.cells:
         raise InputError(source, "has no rows below its headings", takes="at least one")
-    gaps = [place for place, column in columns.items() if column.name in book.gaps]
-    places = [place for place in columns if place not in gaps]
+    places = [place for place, column in columns.items() if column.name not in book.gaps]
+    gaps = [place for place in columns if place not in places and not columns[place].uncertainty]
     kept = [
         not any(is_void(row[place]) for place in places)
         and (not gaps or not all(is_void(row[place]) for place in gaps))
