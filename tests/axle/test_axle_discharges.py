@@ -5,7 +5,7 @@ import pytest
 from ehlectric import AxleCase, solve_axle
 from ehlectric.axle.films_in_time import AxleInTime, TimedFilm
 from ehlectric.axle.network import HOUSING, WINDING, Film, Network
-from ehlectric.drive.discharges.simulation import Measuring
+from ehlectric.drive.discharges.films_and_source import Measuring
 from ehlectric.errors import InputError
 from tests.axle.axles import ALONE
 from tests.helpers.drives import arc, element, march, motor, square

@@ -8,8 +8,8 @@ from ehlectric.bearing.circuit import Path
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.drive_inputs import Breakdown, Circuit
 from ehlectric.drive.circuit_states import drive_states
-from ehlectric.drive.discharges.films_and_source import Segments, films_of
-from ehlectric.drive.discharges.simulation import Measuring, simulate
+from ehlectric.drive.discharges.films_and_source import Measuring, Segments, films_of
+from ehlectric.drive.discharges.simulation import simulate
 from ehlectric.drive.drive_bearings import BearingElement
 from tests.helpers.places import EXAMPLES
 

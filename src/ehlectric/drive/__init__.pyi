@@ -7,9 +7,9 @@ from .bearing_remedies import with_remedy as with_remedy
 from .circuit_states import CircuitStates as CircuitStates
 from .circuit_states import states_in_time as states_in_time
 from .discharges.films_and_source import Films as Films
+from .discharges.films_and_source import Measuring as Measuring
 from .discharges.films_and_source import Segments as Segments
 from .discharges.films_and_source import films_of as films_of
-from .discharges.simulation import Measuring as Measuring
 from .discharges.simulation import simulate as simulate
 from .drive_bearings import BearingElement as BearingElement
 from .drive_bearings import bearing_element as bearing_element

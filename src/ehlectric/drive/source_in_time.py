@@ -9,8 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ehlectric.cases.drive_inputs import Breakdown, Source
-from ehlectric.drive.discharges.films_and_source import Segments
-from ehlectric.drive.discharges.simulation import Measuring
+from ehlectric.drive.discharges.films_and_source import Measuring, Segments
 from ehlectric.drive.inverter import steps_of
 from ehlectric.drive.measured_source import measured_source
 from ehlectric.drive.source_pieces import Ringing, edges, ringing_of, sampled

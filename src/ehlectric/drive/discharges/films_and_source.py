@@ -1,9 +1,10 @@
-"""Films of bearings and meshes, and pieces of the source, as the march through discharges reads them."""
+"""Films of bearings and meshes, pieces of the source, and settings of the march through discharges."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -37,6 +38,21 @@ class Segments(NamedTuple):
     level: Array
     slope: Array
     ring: Complex
+
+
+@dataclass(frozen=True)
+class Measuring:
+    """Settings of a measurement."""
+
+    # start and duration: time from which on it is measured, and how long [s].
+    start: float
+    duration: float
+    highest: float  # voltage that is about the highest one [V], of which tolerances are parts
+    limits: tuple[float, ...]  # limits of the voltage [V]
+    trace: float  # time that the trace covers [s]
+    # Whether the trace is around a typical one of the first events, where there are any, and not at the
+    # begin.
+    at_event: bool = False
 
 
 def films_of(bearings: Sequence[BearingElement], breakdown: Breakdown) -> Films:

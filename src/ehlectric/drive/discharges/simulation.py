@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from copy import deepcopy
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -71,7 +70,7 @@ from ehlectric.drive.discharges.event_loop import (
     empty_means,
     spectrum_of,
 )
-from ehlectric.drive.discharges.films_and_source import Films, Segments
+from ehlectric.drive.discharges.films_and_source import Films, Measuring, Segments
 from ehlectric.drive.discharges.voltages_in_time import empty_piece, empty_series
 from ehlectric.drive.drive_record import COLUMNS, FILM, KEPT, OFF, ON, VOLTAGE, Record
 from ehlectric.drive.motor_circuit import RATE_ROW
@@ -95,21 +94,6 @@ _FIRST = 5
 
 # Number of blocks of time in which events are counted, from which their scatter follows.
 BLOCKS = 40
-
-
-@dataclass(frozen=True)
-class Measuring:
-    """Settings of a measurement."""
-
-    # start and duration: time from which on it is measured, and how long [s].
-    start: float
-    duration: float
-    highest: float  # voltage that is about the highest one [V], of which tolerances are parts
-    limits: tuple[float, ...]  # limits of the voltage [V]
-    trace: float  # time that the trace covers [s]
-    # Whether the trace is around a typical one of the first events, where there are any, and not at the
-    # begin.
-    at_event: bool = False
 
 
 # Arrays of a march that contain its state.
