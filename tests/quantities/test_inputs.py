@@ -1,5 +1,6 @@
 """Book of inputs: one label for errors, forms, axes and descriptions; entries and sliders fit the keys."""
 
+import pint
 import pytest
 
 from ehlectric.app.form_fields import BEARING_GROUPS, GEAR_GROUPS
@@ -12,6 +13,7 @@ from ehlectric.cases.input_keys import input_field, input_of, tables_of_files
 from ehlectric.cases.measurements import CYCLE
 from ehlectric.cases.oil_inputs import law_parameters
 from ehlectric.cases.table import annotation_of, number_of
+from ehlectric.quantities.formats import scale_for
 from ehlectric.quantities.inputs import (
     REPLACED,
     SPEED,
@@ -28,6 +30,7 @@ from ehlectric.sweep.sweep_inputs import Sweep
 from tests.helpers.each import each
 from tests.helpers.moving_cases import TABLES as CONTACTS
 
+UNITS = pint.UnitRegistry(autoconvert_offset_to_baseunit=True)
 MODELS = {**tables_of_files(), "sweep": Sweep}
 FORMS = {
     "bearing": BEARING_GROUPS,
@@ -53,6 +56,13 @@ CASE = case_of_dict({name: table for name, table in CONTACTS["line"].items() if 
 def test_every_key_has_an_entry_and_every_entry_a_key(table):
     laws = law_parameters() if table == "lubricant" else {}
     assert set(inputs()[table]) | set(laws) == set(MODELS[table].known_keys())
+
+
+@each("unit", sorted({one.unit for table in inputs().values() for one in table.values() if one.unit}))
+def test_a_scale_of_an_axis_is_its_unit(unit):
+    scale = scale_for(3e-6, unit)
+    # Pint reads the printed unit.
+    assert UNITS.Quantity(1.0, scale.unit).to(unit).magnitude * scale.factor == pytest.approx(1.0)
 
 
 def test_every_table_of_the_book_is_one_of_a_file():

@@ -162,8 +162,8 @@ def scale_for(largest: float, unit: str) -> Scale:
     --------
     >>> scale_for(2.2e-8, "1/Pa")
     Scale(factor=1000000000.0, unit='1/GPa', offset=0.0)
-    >>> scale_for(3e-12, "m**2")
-    Scale(factor=1000000000000.0, unit='µm²', offset=0.0)
+    >>> scale_for(3e-12, "m**2"), scale_for(2e9, "1/m**2")
+    (Scale(factor=1000000000000.0, unit='µm²', offset=0.0), Scale(factor=1e-06, unit='1/mm²', offset=0.0))
     >>> scale_for(0.04, "Pa*s")
     Scale(factor=1000.0, unit='mPa s', offset=0.0)
     >>> scale_for(250.0, "N*m")
@@ -180,12 +180,15 @@ def scale_for(largest: float, unit: str) -> Scale:
         return Scale(1.0, printed(unit))  # it has a prefix
     if unit.startswith("1/"):
         # The prefix belongs to the unit in the denominator.
-        factor, prefixed = unit_for(1.0 / largest, unit[2:], least=0.001)
-        return Scale(round_factor(1.0 / factor), f"1/{prefixed}")
+        below = _prefixed(1.0 / largest, unit[2:], least=0.001)
+        return Scale(round_factor(1.0 / below.factor), f"1/{below.unit}")
+    return _prefixed(min(largest, 1.0) if unit == "s" else largest, unit)
+
+
+def _prefixed(value: float, unit: str, least: float = 0.1) -> Scale:
+    """Prefixed unit that suits a value > 0; the prefix of an area or a volume is raised to its power."""
     base, power = (unit[:-3], int(unit[-1])) if unit in ("m**2", "m**3") else (unit, 1)
-    if unit == "s":
-        largest = min(largest, 1.0)
-    factor, prefixed = unit_for(largest ** (1.0 / power), base)
+    factor, prefixed = unit_for(value ** (1.0 / power), base, least=least)
     return Scale(round_factor(factor) ** power, printed(prefixed) + {1: "", 2: "²", 3: "³"}[power])
 
 

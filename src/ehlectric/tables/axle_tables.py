@@ -95,7 +95,9 @@ def remedy_cells(summary: Summary) -> Iterator[tuple[str, ...]]:
 def remedies_table(summary: Summary) -> Table:
     """Table of U/V_b of all bearings and meshes with each remedy, for the terminal."""
     heads, *rows = remedy_cells(summary)
-    return columns_table(["\n".join(textwrap.wrap(head, _HEAD)) for head in heads], rows, wrapped=(0,))
+    return columns_table(
+        ["\n".join(textwrap.wrap(head, _HEAD, break_long_words=False)) for head in heads], rows, wrapped=(0,)
+    )
 
 
 def simulation_cells(summary: Summary) -> Iterator[tuple[str, ...]]:
