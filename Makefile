@@ -58,7 +58,7 @@ $(VENV)/.dev: $(BIN)/python pyproject.toml requirements.lock
 	@touch $@
 
 $(VENV)/.docs: $(BIN)/python pyproject.toml requirements.lock
-	$(BIN)/python -m pip install --quiet --editable ".[docs,app,parquet,excel,cluster]"
+	$(BIN)/python -m pip install --quiet --editable ".[docs,app,parquet,excel,calibration,cluster]"
 	@touch $@
 
 # All extras in one step, in place of one step for each command below. Python compiles what is used at its first use.
