@@ -71,3 +71,17 @@ def test_modes_are_the_exponential_of_the_rates(values, time):
     mine = (modes.squares[SHAPES] * np.exp(rates * time)) @ modes.squares[INVERSE]
     np.testing.assert_allclose((mine * scale[:, None] / scale[None, :]).real, exact, atol=1e-7)
     assert np.all(rates.real <= 0.0)
+
+
+@pytest.mark.parametrize("burning", range(5))
+def test_modes_of_shafts_that_nothing_discharges(burning):
+    """Three shafts without leakage and an arc in one film: two rates are zero; expm is an independent method."""
+    ends = [("a", "frame"), ("a", "b"), ("b", "frame"), ("b", "c"), ("c", "frame")]
+    values = (0.5e-9, 1e-9, 5e-9, 4e-9, 11e-9)
+    own = [Element("capacitor", *pair, value) for pair, value in zip(ends, values, strict=True)]
+    own += [Element("capacitor", "winding", "a", 1e-10), Element("conductor", *ends[burning], 0.1)]
+    system = state_space(own, ("winding", "frame"))
+    modes = modes_of(system, ends)
+    exact = expm(system.rates * 1e-8)
+    mine = (modes.squares[SHAPES] * np.exp(modes.rows[RATE_ROW, :-2] * 1e-8)) @ modes.squares[INVERSE]
+    np.testing.assert_allclose(mine.real, exact, atol=1e-9)
