@@ -75,7 +75,7 @@ def test_modes_are_the_exponential_of_the_rates(values, time):
 
 @pytest.mark.parametrize("burning", range(5))
 def test_modes_of_shafts_that_nothing_discharges(burning):
-    """Three shafts without leakage and an arc in one film: two rates are zero; expm is an independent method."""
+    """Without leakage, and with an arc in one film, two rates are zero; expm is an independent method."""
     ends = [("a", "frame"), ("a", "b"), ("b", "frame"), ("b", "c"), ("c", "frame")]
     values = (0.5e-9, 1e-9, 5e-9, 4e-9, 11e-9)
     own = [Element("capacitor", *pair, value) for pair, value in zip(ends, values, strict=True)]
