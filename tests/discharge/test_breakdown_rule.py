@@ -1,6 +1,7 @@
 """Sampling errors of the rule of breakdown, against intervals of SciPy."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -55,3 +56,8 @@ def test_the_error_of_the_margins_is_the_error_of_random_points():
 def test_a_level_is_settled_beyond_the_sampling_error(margins, failed, touching, settled):
     chance = Chance.of(np.repeat(list(margins), list(margins.values())), failed)
     assert chance.is_settled(touching=touching) is settled
+
+
+def test_no_interval_is_stated_of_surfaces_that_touch():
+    chance = replace(Chance.of(np.zeros(512)), first="temperature", share=0.5)
+    assert [one.code for one in chance.statements()] == ["probability-of-touching", "measure-first"]

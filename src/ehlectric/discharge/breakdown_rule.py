@@ -250,8 +250,12 @@ class Chance:
         }
         if self.failed:
             about = {"failed": self.failed, "samples": self.samples}
+        # The margin is 0 where surfaces touch.
+        touch = not self.failed and self.high == 0.0
         return (
-            Statement.of(
+            Statement.of("probability-of-touching", probability=self.stated)
+            if touch
+            else Statement.of(
                 "probability-between" if self.failed else "probability",
                 probability=self.stated,
                 doubts=without,
