@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ehlectric import AxleCase, InputError, write_axle_netlist
-from ehlectric.axle.axle_netlist import AxleNetlist, _distinct, axle_netlist
+from ehlectric.axle.axle_netlist_files import AxleNetlist, _distinct, axle_netlist
 from ehlectric.axle.films_in_time import AxleInTime
 from ehlectric.drive import Measuring, Segments, write_files
 from tests.axle.axles import two_stages

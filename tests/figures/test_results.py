@@ -18,6 +18,7 @@ from ehlectric import (
     AxleResult,
     BearingCase,
     BearingResult,
+    Calibration,
     Case,
     DriveResult,
     FilmFactors,
@@ -98,6 +99,7 @@ def test_each_class_of_results_has_its_figures():
         FilmFactors,
         GearResult,
         AxleResult,
+        Calibration,
     ]
     assert {kind.result_kind for kind in [*classes, MotionRun]} == {*get_args(ResultKind)}
     for kind in get_args(ResultKind):

@@ -69,8 +69,9 @@ BALL_DOMAINS = DomainLaw(
 )
 
 # Domains for contacts of which only ratios of results are used: errors of polynomials and of integrals are
-# about 1e-5. Their polynomials need the integrals of 20 to 100 contacts.
-_COARSE_DOMAINS = replace(BALL_DOMAINS, coarseness=1e3, least=48, nodes=COARSE)
+# about 1e-5. Their polynomials need the integrals of 20 to 100 contacts, and fewer contacts than 150 are
+# integrated one by one.
+_COARSE_DOMAINS = replace(BALL_DOMAINS, coarseness=1e3, least=150, nodes=COARSE)
 
 # Domains of rollers cost 0.3 to 1.2 % of the film. Beyond a hundred half-widths the inlet has eight lengths,
 # and three hundred half-widths at the most, which costs 2.5 % of the film and 1.3 % of the capacitance: with

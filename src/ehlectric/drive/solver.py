@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
 from ehlectric.bearing import life_summary
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.drive.discharges.simulation import simulate
@@ -35,7 +37,8 @@ def solve(case: DriveCase, progress: Progress = silent, *, workers: int | None =
     return DriveSolution(
         case=case,
         elements=ready.elements,
-        record=replace(record, trace=record.trace[:, : 2 + len(ENDS)]),
+        # The values of its only shaft are in the record.
+        record=replace(record, trace=record.trace[:, : 2 + len(ENDS)], shafts=np.zeros((0, 4))),
         divider=ready.divider,
         highest_source=source.highest,
         converged=all(bearing.converged for bearing in ready.bearings),

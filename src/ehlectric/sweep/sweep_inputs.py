@@ -641,7 +641,7 @@ def _values(key: str, field: FieldInfo, values: Sequence[Any], *, written: bool)
 def stored_value(key: str, field: FieldInfo) -> Callable[..., Any]:
     """Function that parses a value of a key, as a case stores it; numbers are in SI units."""
     annotation = annotation_of(field)
-    if isinstance(annotation, Amount | AmountOrWord):
+    if isinstance(annotation, Amount | AmountOrWord) and number_of(field) is not None:
         return _stored_amount(key, annotation, parser_of(field, key))
     return _stored_entry(key, field)
 
