@@ -39,6 +39,7 @@ from ehlectric.bearing import (
     grade_changes,
     label_of,
     load_change,
+    logs_of_factors,
     proportional_to_strength,
     spread_at,
     strength_changes,
@@ -208,11 +209,8 @@ class AxleDesign:
 
     def log_factors(self, at: Array) -> Array:
         """Logarithms of the factors on the margin at points from 0 to 1, shape (n, width - number)."""
-        columns = []
-        for k, change in enumerate(self.factors, self.number):
-            low, high = change.ends
-            columns.append(np.log((low + (high - low) * at[:, k]) / change.value))
-        return np.stack(columns, axis=-1) if columns else np.empty((len(at), 0))
+        ends = [(change.ends, change.value) for change in self.factors]
+        return logs_of_factors(ends, at[:, self.number : self.width])
 
     def names(self) -> Iterator[Names]:
         """Names of the uncertain inputs, in the order of the columns."""

@@ -149,6 +149,7 @@ from .uncertainty import MarginBand as MarginBand
 from .uncertainty import Names as Names
 from .uncertainty import UncertainInput as UncertainInput
 from .uncertainty import Uncertainty as Uncertainty
+from .uncertainty import logs_of_factors as logs_of_factors
 from .uncertainty import quick_chance as quick_chance
 from .uncertainty import refined as refined
 from .uncertainty import spread_at as spread_at

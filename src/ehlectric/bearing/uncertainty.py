@@ -253,6 +253,16 @@ class Sampled(Protocol):
         """Names of the uncertain inputs, in the order of the columns."""
 
 
+def logs_of_factors(ends: Sequence[tuple[tuple[float, float], float]], at: Array) -> Array:
+    """Logarithms of inputs over their values, at points from 0 to 1 of their ranges, shape (n, inputs).
+
+    ``ends``, both ends of the range of each input, and its value.
+    """
+    low, high, value = np.array([(*both, middle) for both, middle in ends]).reshape(-1, 3).T
+    logs: Array = np.log((low + (high - low) * at) / value)
+    return logs
+
+
 @dataclass(frozen=True)
 class Design:
     """Uncertain inputs of a bearing, and how its margin follows from numbers from 0 to 1 for each of them."""
@@ -335,17 +345,15 @@ class Design:
 
     def log_factors(self, at: Array) -> Array:
         """Logarithms of the factors on the margin at points from 0 to 1, shape (n, width - number)."""
-        columns, k = [], self.number
         ends = [(change.ends, change.value) for change in self.factors]
         if not self.rough:
             ends.append((self.films, 1.0))
-        for (low, high), value in ends:
-            columns.append(np.log((low + (high - low) * at[:, k]) / value))
-            k += 1
-        if self.shape is not None:
-            # Part of the strength at 63.2 % at which a share of equal films has broken down.
-            columns.append(np.log(-np.log1p(-at[:, k])) / self.shape)
-        return np.stack(columns, axis=-1)
+        factors = logs_of_factors(ends, at[:, self.number : self.number + len(ends)])
+        if self.shape is None:
+            return factors
+        # Part of the strength at 63.2 % at which a share of equal films has broken down.
+        shares = np.log(-np.log1p(-at[:, self.number + len(ends)])) / self.shape
+        return np.column_stack([factors, shares])
 
     def names(self) -> Iterator[Names]:
         """Names of the uncertain inputs, in the order of the columns."""
