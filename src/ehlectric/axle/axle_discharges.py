@@ -17,9 +17,8 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.axle.films_in_time import AxleInTime, TimedFilm
 from ehlectric.axle.network import HOUSING, Network
-from ehlectric.axle.solution import AxleSolution, load_of, loads_on_shafts
-from ehlectric.bearing import Path, solve_bearing
-from ehlectric.cases.axle_case import AxleCase
+from ehlectric.axle.solution import AxleSolution, SolvedFilms, solve_films
+from ehlectric.bearing import Path
 from ehlectric.cases.drive_inputs import Breakdown
 from ehlectric.drive import (
     CHARGE,
@@ -39,7 +38,7 @@ from ehlectric.drive import (
     spread,
 )
 from ehlectric.errors import InputError, within
-from ehlectric.gear import GearSolution, solve_gear_pair
+from ehlectric.gear import GearSolution
 from ehlectric.runtime.progress import Progress, silent
 
 # Relative change over the positions below which an element has mean values.
@@ -151,11 +150,13 @@ def _rates(counts: Array, duration: float) -> dict[str, float]:
     }
 
 
-def simulate_axle(solution: AxleSolution, progress: Progress = silent) -> AxleDischarges:
+def simulate_axle(
+    solution: AxleSolution, progress: Progress = silent, *, films: SolvedFilms | None = None
+) -> AxleDischarges:
     """Simulate the discharges of a solved axle for the duration of its case.
 
-    ``progress`` is called with a percentage, 100, and a text. Raises InputError if an element lacks a value
-    that discharges need.
+    ``films``, solved films of the axle; by default they are solved. ``progress`` is called with a percentage,
+    100, and a text. Raises InputError if an element lacks a value that discharges need.
     """
     case, network = solution.case, solution.network()
     breakdown = case.breakdown
@@ -166,10 +167,10 @@ def simulate_axle(solution: AxleSolution, progress: Progress = silent) -> AxleDi
         running = given.at_speed(case.drive.speed)
     source = SourceInTime.of(running, given, breakdown, case.drive.duration)
     conducting = {each.name for each in solution.films() if each.conducts}
-    films = _films_of(case, breakdown, conducting)
-    names = {each.name for each in films}
+    timed = _films_in_time(solve_films(case) if films is None else films, breakdown, conducting)
+    names = {each.name for each in timed}
     fixed = Network(network.shafts, tuple(each for each in network.elements if each.name not in names))
-    axle = AxleInTime(fixed, tuple(films), breakdown, source.ring_rate)
+    axle = AxleInTime(fixed, tuple(timed), breakdown, source.ring_rate)
     divider = max((abs(value) for value in network.potentials(1.0).values()), default=0.0)
     whole = source.settling + source.duration
     record = axle.march(
@@ -182,22 +183,18 @@ def simulate_axle(solution: AxleSolution, progress: Progress = silent) -> AxleDi
     return AxleDischarges(tuple(each.name for each in axle.active), axle.floating, record)
 
 
-def _films_of(case: AxleCase, breakdown: Breakdown, conducting: set[str]) -> list[TimedFilm]:
+def _films_in_time(solved: SolvedFilms, breakdown: Breakdown, conducting: set[str]) -> list[TimedFilm]:
     """Films of all bearings and meshes, except those that conduct for good."""
-    turning, loads, films = case.turning(), loads_on_shafts(case), []
+    case, films = solved.case, list[TimedFilm]()
     for number, (name, bearing) in enumerate(zip(case.names_of_bearings(), case.bearing, strict=True)):
-        if name in conducting:
-            continue
-        radial, axial = load_of(case, number, loads)
-        of_bearing = case.bearing_case(number, turning[bearing.shaft].speed, radial, abs(axial))
-        with case.naming(number):
-            element = bearing_element(solve_bearing(of_bearing, workers=1), breakdown)
-        films.append(TimedFilm(name, bearing.shaft, HOUSING, _few_positions(element)))
+        if name not in conducting:
+            with case.naming(number):
+                element = bearing_element(solved.bearings[number], breakdown)
+            films.append(TimedFilm(name, bearing.shaft, HOUSING, _few_positions(element)))
     for number, (name, mesh) in enumerate(zip(case.names_of_meshes(), case.mesh, strict=True)):
         if name not in conducting:
             with within(f"mesh.{number + 1}.pair"):
-                gears = solve_gear_pair(case.gear_case(number, turning))
-                film = _few_positions(mesh_film(gears, breakdown))
+                film = _few_positions(mesh_film(solved.meshes[number], breakdown))
             films.append(TimedFilm(name, mesh.gears[0], mesh.gears[1], film))
     return films
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from ehlectric.axle.axle_discharges import AxleDischarges, simulate_axle
 from ehlectric.axle.axle_duty import AxleDuty, check_axle_duty, run_axle_duty
 from ehlectric.axle.axle_verdict import axle_verdict
-from ehlectric.axle.solution import AxleSolution, solve_elements
+from ehlectric.axle.solution import AxleSolution, elements_of, solve_elements, solve_films
 from ehlectric.axle.stored import layout_of
 from ehlectric.axle.summary import ELEMENT_COLUMNS, axle_summary, tables_of_point
 from ehlectric.axle.uncertainty import AxleUncertainty, has_chance, uncertainty_of
@@ -214,9 +214,10 @@ def solve_axle(
     check_axle_duty(case)
     start = time.perf_counter()
     variants = case.variants()
-    solution = solve_elements(case, progress)
+    films = solve_films(case, progress)
+    solution = elements_of(films)
     changed = tuple(solve_elements(variant, progress) for variant in variants) if remedies else ()
     timed = probable and case.drive.duration is not None
-    discharges = simulate_axle(solution, progress) if timed else None
+    discharges = simulate_axle(solution, progress, films=films) if timed else None
     seconds = time.perf_counter() - start
     return AxleResult(solution, changed, seconds=seconds, probable=probable, simulated=discharges)

@@ -21,6 +21,7 @@ from ehlectric.axle.adjusted_rows import AdjustedRows
 from ehlectric.axle.network import HOUSING, WINDING, Film, Network, rank
 from ehlectric.axle.shaft_loads import BearingLoads, ForceAt, bearing_loads, forces_of_mesh
 from ehlectric.bearing import (
+    BearingResult,
     BearingSolution,
     InclinedRow,
     breakdown_of,
@@ -274,33 +275,61 @@ def _adjusted_rows(case: AxleCase, shaft: Shaft) -> AdjustedRows | None:
     return AdjustedRows((rows[0], rows[1]), adjustment, case.bearing[first].at < case.bearing[second].at)
 
 
+@dataclass(frozen=True, eq=False)
+class SolvedFilms:
+    """Solved bearings and meshes of an axle, in the order of its case."""
+
+    case: AxleCase
+    turning: Mapping[str, Turning]  # speeds and torques of the shafts
+    loads: Mapping[str, BearingLoads]  # of the bearings of each shaft with gears
+    bearings: tuple[BearingResult, ...]
+    axial: tuple[float, ...]  # axial forces along z on the bearings [N]; 0 if the file contains the load
+    meshes: tuple[GearSolution, ...]
+
+
+def solve_films(case: AxleCase, progress: Progress = silent) -> SolvedFilms:
+    """Solve bearings and meshes of an axle; arguments and errors as in ``solve_elements``."""
+    turning, loads = case.turning(), loads_on_shafts(case)
+    bearings: list[BearingResult] = []
+    axial: list[float] = []
+    meshes: list[GearSolution] = []
+    names, count = (*case.names_of_bearings(), *case.names_of_meshes()), len(case.bearing) + len(case.mesh)
+    for number, bearing in enumerate(case.bearing):
+        radial, force = load_of(case, number, loads)
+        of_bearing = case.bearing_case(number, turning[bearing.shaft].speed, radial, abs(force))
+        with case.naming(number):
+            bearings.append(solve_bearing(of_bearing, workers=1))
+        axial.append(force)
+        progress(len(bearings), count, names[len(bearings) - 1])
+    for number in range(len(case.mesh)):
+        with within(f"mesh.{number + 1}.pair"):
+            meshes.append(solve_gear_pair(case.gear_case(number, turning)))
+        done = len(bearings) + len(meshes)
+        progress(done, count, names[done - 1])
+    return SolvedFilms(case, turning, loads, tuple(bearings), tuple(axial), tuple(meshes))
+
+
 def solve_elements(case: AxleCase, progress: Progress = silent) -> AxleSolution:
     """Solve the films of all bearings and meshes of an axle.
 
     ``progress`` is called with the number of solved elements, the number of all, and a text. Raises
     InputError where a bearing cannot carry its load, or gears cannot run together.
     """
-    turning, loads = case.turning(), loads_on_shafts(case)
-    names = case.names_of_bearings()
-    elements: list[Element] = []
-    warnings = [*adjustment_warnings(case, loads)]
-    count = len(case.bearing) + len(case.mesh)
-    for number, bearing in enumerate(case.bearing):
-        radial, axial = load_of(case, number, loads)
-        of_bearing = case.bearing_case(number, turning[bearing.shaft].speed, radial, abs(axial))
-        with case.naming(number):
-            result = solve_bearing(of_bearing, workers=1)
-        warnings.append((names[number], result.warnings))
-        elements += bearing_elements(result.solution, [(names[number], bearing.shaft, axial)])
-        progress(len(elements), count, names[number])
-    for number, mesh in enumerate(case.mesh):
-        with within(f"mesh.{number + 1}.pair"):
-            gears = solve_gear_pair(case.gear_case(number, turning))
-        name = case.names_of_meshes()[number]
+    return elements_of(solve_films(case, progress))
+
+
+def elements_of(films: SolvedFilms) -> AxleSolution:
+    """Axle with the elements of its solved films."""
+    case, elements = films.case, list[Element]()
+    warnings = [*adjustment_warnings(case, films.loads)]
+    mounted = zip(case.names_of_bearings(), case.bearing, films.bearings, films.axial, strict=True)
+    for name, bearing, result, axial in mounted:
+        warnings.append((name, result.warnings))
+        elements += bearing_elements(result.solution, [(name, bearing.shaft, axial)])
+    for name, mesh, gears in zip(case.names_of_meshes(), case.mesh, films.meshes, strict=True):
         elements.append(mesh_element(name, mesh.gears, gears))
         warnings.append((name, tuple(gear_warnings(gears))))
-        progress(len(elements), count, name)
-    return AxleSolution(case, turning, tuple(elements), tuple(named_warnings(warnings)))
+    return AxleSolution(case, films.turning, tuple(elements), tuple(named_warnings(warnings)))
 
 
 def adjustment_warnings(
