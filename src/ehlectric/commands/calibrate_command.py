@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ehlectric.commands.options import command, figure_options
-from ehlectric.commands.solve_commands import print_and_draw
-from ehlectric.commands.terminal import progress_line, user_errors
+from ehlectric.commands.options import command
+from ehlectric.commands.solve_commands import solve_file
+from ehlectric.commands.terminal import progress_line
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -40,20 +39,22 @@ def calibrate(
 
     Exit status 0: calibrated. 2: the input is wrong. 3: nothing within the ranges explains the measurement.
     """
-    with ExitStack() as locked:
-        with user_errors():
-            look = figure_options(formats, style)
+    from ehlectric.runs import by_kind
 
-            from ehlectric.runs import by_kind
-            from ehlectric.runs.file_kinds import expect
-            from ehlectric.runtime.folders import RESULT_LOCK, alone_in
-
-            file = expect(case_file, *by_kind.CALIBRATED_KINDS)
-            case = by_kind.RUNS[file.kind].read(file)
-            folder = locked.enter_context(alone_in(output, locks=[RESULT_LOCK]))
-            with progress_line(shown=not quiet) as progress:
-                outcome = by_kind.run_calibration(case, folder, progress, measured=measured)
-        print_and_draw(outcome, _tables, folder, look if plots else None, quiet=quiet, as_json=as_json)
+    solve_file(
+        case_file,
+        dict.fromkeys(by_kind.CALIBRATED_KINDS, _tables),
+        output,
+        progress=progress_line,
+        run=lambda _, case, folder, progress: by_kind.run_calibration(
+            case, folder, progress, measured=measured
+        ),
+        plots=plots,
+        formats=formats,
+        style=style,
+        quiet=quiet,
+        as_json=as_json,
+    )
 
 
 def _tables(outcome: RunOutcome[Calibration]) -> Iterator[Table]:

@@ -356,12 +356,12 @@ def drive(
     Exit status 0: solved. 2: the input is wrong. 3: a contact is not converged, all files are still
     written; or memory ran out, or the process of a contact was killed four times.
     """
-    _solve(
+    solve_file(
         drive_file,
         {"drive": _drive_tables, "axle": _axle_tables},
         output,
         progress=progress_bar,
-        contacts=contacts,
+        run=_solver(contacts),
         plots=plots,
         formats=formats,
         style=style,
@@ -370,20 +370,34 @@ def drive(
     )
 
 
-def _solve(
+def _solver(contacts: str) -> Callable[..., RunOutcome[Any]]:
+    """Function that solves a case of a kind of files to a folder, with a way to find contacts."""
+
+    def run(kind: FileKind, case: Any, folder: Path, progress: Progress) -> RunOutcome[Any]:
+        from ehlectric.runs import by_kind
+
+        return by_kind.RUNS[kind].run(case, folder, progress, contacts=contacts)
+
+    return run
+
+
+def solve_file(
     path: Path,
     tables: Mapping[FileKind, Tables],
     output: Path,
     *,
     progress: Callable[..., AbstractContextManager[Progress]],
-    contacts: str,
+    run: Callable[..., RunOutcome[Any]],
     plots: bool,
     formats: list[str] | None,
     style: str,
     quiet: bool,
     as_json: bool,
 ) -> None:
-    """Solve a file whose kind ``tables`` contains, and print and draw its answer with the given options."""
+    """Solve a file whose kind ``tables`` contains, and print and draw its answer with the given options.
+
+    ``run`` takes the kind of the file, its case, the folder and the progress, and returns the outcome.
+    """
     with ExitStack() as locked:
         with user_errors():
             look = figure_options(formats, style)
@@ -393,10 +407,10 @@ def _solve(
             from ehlectric.runtime.folders import RESULT_LOCK, alone_in
 
             file = expect(path, *tables)
-            kind, case = by_kind.RUNS[file.kind], by_kind.RUNS[file.kind].read(file)
+            case = by_kind.RUNS[file.kind].read(file)
             folder = locked.enter_context(alone_in(output, locks=[RESULT_LOCK]))
             with progress(shown=not quiet) as shown:
-                outcome = kind.run(case, folder, shown, contacts=contacts)
+                outcome = run(file.kind, case, folder, shown)
         print_and_draw(
             outcome, tables[file.kind], folder, look if plots else None, quiet=quiet, as_json=as_json
         )
@@ -461,12 +475,12 @@ def gear(
 
     Exit status 0: solved. 2: the input is wrong.
     """
-    _solve(
+    solve_file(
         gear_file,
         {"gear": _gear_tables},
         output,
         progress=progress_line,
-        contacts=contacts,
+        run=_solver(contacts),
         plots=plots,
         formats=formats,
         style=style,
