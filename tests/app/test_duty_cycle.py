@@ -5,7 +5,7 @@ import zipfile
 
 import pytest
 
-from ehlectric.cases.duty_inputs import read_cycle
+from ehlectric.cases.duty_inputs import Duty, read_cycle
 from ehlectric.errors import InputError
 from ehlectric.runtime.memory import MOST_MEASURED
 from tests.app.driving import complete, seen, type_into, wait_for_address
@@ -111,7 +111,7 @@ def test_a_cycle_above_the_limit_of_its_reader_is_not_sent(page, tmp_path):
     assert not any("/upload/" in url for url in page.watch.requests)
     # The reader of the command has the same limit.
     with pytest.raises(InputError, match="8"):
-        read_cycle(path)
+        read_cycle(Duty(file=str(path)))
 
 
 @pytest.mark.slow

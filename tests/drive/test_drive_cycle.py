@@ -294,7 +294,7 @@ def test_the_example_agrees_with_the_simulation_of_150_random_rows():
     from tests.helpers.places import EXAMPLES
 
     case = DriveCase.from_toml(EXAMPLES / "duty_drive.toml")
-    cycle = read_cycle(case.duty.file)
+    cycle = read_cycle(case.duty)
     duty = run_drive_cycle(case, 200.0, solve)
     turning = np.flatnonzero(cycle.values["speed"] > 0.0)
     drawn = np.random.default_rng(11).choice(turning, 150)

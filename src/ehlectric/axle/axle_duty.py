@@ -14,7 +14,7 @@ from ehlectric.axle.many_axles import solve_axles
 from ehlectric.axle.solution import AxleSolution
 from ehlectric.bearing import duty_csv, edges_of, file_warnings, moves
 from ehlectric.cases.axle_case import AxleCase, changed_axle
-from ehlectric.cases.duty_inputs import Cycle, read_cycle
+from ehlectric.cases.duty_inputs import Cycle, Duty, read_cycle
 from ehlectric.cases.measurements import AXLE_CYCLE
 from ehlectric.errors import InputError
 from ehlectric.quantities.lubrication_states import AT_TIMES, CONDUCTS, INSULATES
@@ -165,7 +165,7 @@ _SHARES = {"conducting": CONDUCTS, "conducting_at_times": AT_TIMES, "insulating"
 def check_axle_duty(case: AxleCase) -> None:
     """Refuse the duty cycle of an axle that cannot be used, without its computation."""
     if case.duty is not None:
-        _points(read_cycle(case.duty.file, AXLE_CYCLE), case)
+        _points(_cycle_of(case, case.duty), case)
 
 
 def run_axle_duty(case: AxleCase) -> AxleDuty | None:
@@ -177,7 +177,7 @@ def run_axle_duty(case: AxleCase) -> AxleDuty | None:
     """
     if case.duty is None:
         return None
-    cycle = read_cycle(case.duty.file, AXLE_CYCLE)
+    cycle = _cycle_of(case, case.duty)
     table, rows = _points(cycle, case)
     quick = {"drive.contacts": "atlas"} if case.solves_films else {}
     alone = case.replace({"remedies": [], **quick}).model_copy(update={"duty": None, "ranges": None})
@@ -213,6 +213,12 @@ def run_axle_duty(case: AxleCase) -> AxleDuty | None:
         points=len(table),
         warnings=tuple(_warnings(case, cycle, rows, reasons)),
     )
+
+
+def _cycle_of(case: AxleCase, duty: Duty) -> Cycle:
+    """Cycle of an axle, whose meshes have the ratio of the rotor to the shaft of the wheels."""
+    ratio = None if duty.vehicle is None else case.ratio_to(duty.vehicle.shaft)
+    return read_cycle(duty, AXLE_CYCLE, ratio)
 
 
 # Keys of the case by the names of the columns.

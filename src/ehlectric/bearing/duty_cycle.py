@@ -49,7 +49,7 @@ from ehlectric.quantities.lubrication_states import FULL_FILM_LIMIT
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.result_warnings import ResultWarning
 
-_INPUTS = tuple(name for name in CYCLE.columns if name != "time")
+_INPUTS = tuple(name for name, column in CYCLE.columns.items() if column.key)
 _VOLTAGE = "common_mode_voltage"
 
 # SI unit and meaning of the columns of duty.csv.
@@ -118,7 +118,7 @@ def run_duty(case: BearingCase) -> DutyResult | None:
     """
     if case.duty is None:
         return None
-    cycle = read_cycle(case.duty.file)
+    cycle = read_cycle(case.duty)
     quick, refused = required_quick_case(case)
     _check_cycle(quick, cycle)
     rows, points = rows_of(quick, cycle)
@@ -157,7 +157,7 @@ def life_of(case: BearingCase, rows: DutyRows, points: PointValues) -> CycleLife
 def check_duty(case: BearingCase) -> None:
     """Refuse the duty cycle of a bearing file that cannot be used, without its computation."""
     if case.duty is not None:
-        _check_cycle(case, read_cycle(case.duty.file))
+        _check_cycle(case, read_cycle(case.duty))
 
 
 def _check_cycle(case: BearingCase, cycle: Cycle) -> None:

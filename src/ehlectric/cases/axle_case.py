@@ -343,6 +343,17 @@ class AxleCase(CaseFile, book="axle_file"):
                 )
         return done
 
+    def ratio_to(self, name: str | None) -> float:
+        """Return the speed of the rotor divided by the speed of a shaft, by default of the slowest one.
+
+        Raises InputError if the axle does not contain the shaft.
+        """
+        speeds = {shaft: abs(turning.speed) for shaft, turning in self.turning().items()}
+        if name is not None and name not in speeds:
+            takes = " or ".join(repr(shaft) for shaft in speeds)
+            raise InputError("duty.vehicle.shaft", got=shown(name), takes=takes)
+        return speeds[self.rotor] / (min(speeds.values()) if name is None else speeds[name])
+
     def _joints(self) -> Iterator[tuple[str, str, str, float]]:
         """Joints that turn shafts: key, first and second shaft, torque of the second over the first."""
         for number, mesh in enumerate(self.mesh, 1):

@@ -22,6 +22,7 @@ from ehlectric.quantities import units
 from ehlectric.quantities.grouped_digits import doubt_of_column, readings
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.result_warnings import ResultWarning
+from ehlectric.quantities.unit_spelling import plain
 from ehlectric.runtime.memory import MOST_MEASURED
 from ehlectric.runtime.reading import read_bytes
 from ehlectric.runtime.text_table import (
@@ -117,6 +118,9 @@ GEAR_POINTS = _points(GEAR_CYCLE, "'torque [N m]', 'capacitance [pF]' and 'uncer
 
 _UNCERTAINTY = "uncertainty"
 
+# Name of the speed of a vehicle, from which a duty cycle computes the speed of its shaft.
+VEHICLE_SPEED = "vehicle_speed"
+
 # Longest head of a column [characters].
 _LONGEST = 200
 
@@ -204,10 +208,22 @@ def column_of(head: str, book: ColumnBook = MEASURED) -> Column | None:
     return _checked(known, text, unit, book)
 
 
+# Quantities that a speed may be, whose unit is a unit of a velocity.
+_VELOCITIES = ("entrainment_speed", VEHICLE_SPEED)
+
+# Units of the speeds of vehicles, in small letters: an entrainment speed in them needs its whole name.
+_OF_VEHICLES = ("km/h", "mph", "mi/h", "kn", "knot")
+
+
 def _checked(name: str, head: str, unit: str, book: ColumnBook) -> Column:
-    """Column whose unit belongs to its quantity; a speed in m/s is an entrainment speed if that is known."""
-    reasons, other = [], "entrainment_speed"
-    for candidate in (name, other) if name == "speed" and other in book.columns else (name,):
+    """Column whose unit belongs to its quantity; a speed in m/s is an entrainment speed or the speed of the
+    vehicle, if the book contains either of them.
+    """
+    reasons = []
+    others = tuple(other for other in _VELOCITIES if name == "speed" and other in book.columns)
+    if plain(unit).lower() in _OF_VEHICLES:
+        others = tuple(other for other in others if other == VEHICLE_SPEED)
+    for candidate in (name, *others):
         column = Column(candidate, head, unit, book=book)
         try:
             if book.columns[candidate].unit == "K":
@@ -327,6 +343,7 @@ class Measurement:
     uncertainties: Mapping[str, Array]
     ignored: tuple[str, ...] = ()  # heads of columns that are not known, and were ignored
     void: tuple[int, ...] = ()  # lines of rows without a value in a known column, which are not used
+    heads: Mapping[str, str] = field(default_factory=dict)  # heads of the quantities by name
 
     @property
     def size(self) -> int:
@@ -377,7 +394,8 @@ def read_measurement(measured: str | Path | pd.DataFrame, book: ColumnBook = MEA
     values = {columns[place].name: numbers[place] for place in numbers if not columns[place].uncertainty}
     uncertain = {place: numbers[place] for place in numbers if columns[place].uncertainty}
     uncertainties = _uncertainties(source, columns, uncertain, values)
-    return Measurement(source, rows.lines, values, uncertainties, ignored, void)
+    known = {columns[place].name: columns[place].head for place in numbers if not columns[place].uncertainty}
+    return Measurement(source, rows.lines, values, uncertainties, ignored, void, known)
 
 
 def _without_void(
@@ -464,7 +482,9 @@ def _heads(path: Path, lines: list[str], book: ColumnBook) -> tuple[list[str], i
 def _columns(
     source: str, heads: Sequence[str], book: ColumnBook
 ) -> tuple[dict[int, Column], tuple[str, ...]]:
-    """Known columns by their place, and heads of the others."""
+    """Known columns by their place, and heads of the others. If a speed of the shaft is known, the
+    speed of the vehicle is ignored.
+    """
     columns: dict[int, Column] = {}
     ignored = []
     for place, head in enumerate(heads):
@@ -483,6 +503,10 @@ def _columns(
                 takes="one of the two",
             )
         columns[place] = column
+    names = {column.name for column in columns.values()}
+    if "speed" in names:
+        spare = [place for place, column in columns.items() if column.name == VEHICLE_SPEED]
+        ignored += [printable(columns.pop(place).head[:60]) for place in spare]
     if all(column.uncertainty for column in columns.values()):
         raise InputError(
             source, "has no headings of known columns", takes=f"headings such as {book.examples}"

@@ -244,7 +244,7 @@ class _Ready:
 def check_drive_cycle(case: DriveCase) -> None:
     """Refuse the duty cycle of a drive file that cannot be used, without its computation."""
     if case.duty is not None:
-        _check(case, read_cycle(case.duty.file))
+        _check(case, read_cycle(case.duty))
 
 
 def run_drive_cycle(
@@ -262,7 +262,7 @@ def run_drive_cycle(
     """
     if case.duty is None:
         return None
-    ready = _ready(case, read_cycle(case.duty.file), peak)
+    ready = _ready(case, read_cycle(case.duty), peak)
     simulated = _simulated(ready, solve, progress)
     rows = _rows(ready, simulated.rates)
     return DriveDuty(

@@ -196,7 +196,7 @@ def run_mesh_duty(case: GearCase, *, probable: bool = True) -> MeshDuty | None:
     """
     if case.duty is None:
         return None
-    cycle = read_cycle(case.duty.file, GEAR_CYCLE)
+    cycle = read_cycle(case.duty, GEAR_CYCLE)
     quick = _quick(case)
     given = _given(quick, cycle)
     rows, points = _rows(quick, cycle, given)
@@ -223,7 +223,7 @@ def run_mesh_duty(case: GearCase, *, probable: bool = True) -> MeshDuty | None:
 def check_mesh_duty(case: GearCase) -> None:
     """Refuse the duty cycle of a gear file that cannot be used, without its computation."""
     if case.duty is not None:
-        read_cycle(case.duty.file, GEAR_CYCLE)
+        read_cycle(case.duty, GEAR_CYCLE)
 
 
 def _quick(case: GearCase) -> GearCase:

@@ -54,6 +54,8 @@ _WORDS = [
         (r"{}([kM]?)Nm{}", r"\1N m"),
         (r"{}kp{}", "kgf"),
         (r"{}Torr{}", "torr"),
+        # To pint, a kmph is a thousand miles per hour.
+        (r"{}(?i:kmph|kmh|kph|km/hr?){}", "km/h"),
         (r"(?i:ohms?){1}", "ohm"),
     )
 ]

@@ -265,11 +265,30 @@ def _rotation(written: str) -> str:
     if written.replace(" ", "").lower() in _TURNS:
         return "rpm"
     if _UNIT.fullmatch(written) is not None and _ANGLE.search(written) is None:
+        if is_unit(written, "m/s"):
+            raise ValueError(
+                f"{short(written)} is a speed of the vehicle or of a surface; give the speed of the shaft"
+            )
         raise ValueError(
             f"{short(written)} is a frequency, which may count turns or radians: "
             "write rpm, min^-1, rad/s or deg/s"
         )
     return written
+
+
+def is_unit(written: str, unit: str) -> bool:
+    """Whether a text is a unit of the quantity that has an SI unit.
+
+    Examples
+    --------
+    >>> is_unit("km/h", "m/s"), is_unit("Hz", "m/s")
+    (True, False)
+    """
+    try:
+        factor(written, unit)
+    except ValueError:
+        return False
+    return True
 
 
 def absolute(number: float, written: str) -> float:

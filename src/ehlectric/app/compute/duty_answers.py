@@ -21,7 +21,7 @@ from ehlectric.app.charts.plotly_panels import Plot
 from ehlectric.app.compute.answer_parts import lines_of, page_warnings_of, with_session_files
 from ehlectric.app.view_models import DutyAnswer, Figure, Line, Table
 from ehlectric.bearing import DutyResult
-from ehlectric.cases.duty_inputs import read_cycle
+from ehlectric.cases.duty_inputs import Duty, read_cycle
 from ehlectric.cases.measurements import CYCLE, GEAR_CYCLE, void_rows
 from ehlectric.gear import MeshDuty
 from ehlectric.quantities.quantity import Quantity
@@ -41,7 +41,7 @@ def look(file: str, session: Path, kind: str = "bearing") -> str:
     ``kind`` of the page, "bearing", "drive" or "gear". Raises InputError where the file is no duty cycle.
     """
     book = GEAR_CYCLE if kind == "gear" else CYCLE
-    cycle = read_cycle(with_session_files({"duty": {"file": file}}, session)["duty"]["file"], book)
+    cycle = read_cycle(Duty(**with_session_files({"duty": {"file": file}}, session)["duty"]), book)
     names = ", ".join(name.replace("_", " ").replace("common mode", "common-mode") for name in cycle.values)
     text = f"{cycle.time.size} rows over {readable(cycle.time[-1] - cycle.time[0], 6)} s: {names}."
     text += f" Ignored: {', '.join(cycle.ignored)}." if cycle.ignored else ""
