@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 import scipy
 
 from ehlectric.arrays import Array, IntArray
 from ehlectric.cases.drive_inputs import Source
-from ehlectric.drive.waveform_file import Waveform, edge_warnings, read_waveform, repeat_warnings
+from ehlectric.drive.waveform import Waveform
+from ehlectric.drive.waveform_file import read_waveform
+from ehlectric.drive.waveform_quality import edge_warnings, repeat_warnings
 from ehlectric.errors import InputError
 from ehlectric.quantities.result_warnings import ResultWarning
 
@@ -134,6 +137,8 @@ def measured_source(
             scale=source.scale,
         )
     except InputError as error:
+        if error.key == str(Path(source.file)):
+            raise error.with_text("source.file", f"{error.key} {error.text}") from None
         raise error.under("source") from None
     if source.resample is not None:
         waveform, warnings = _resampled(waveform, warnings, source.file, source.resample)

@@ -10,6 +10,7 @@ from io import BufferedReader
 from pathlib import Path
 
 from ehlectric.errors import InputError, shown
+from ehlectric.runtime.file_kinds import PEEKED, kind_of, not_text
 from ehlectric.runtime.files import reading
 from ehlectric.runtime.sizes import check_size
 
@@ -117,8 +118,11 @@ def read_text(
     Line ends are line feeds, as Python reads a text file; ``refuse`` as in ``read_bytes``. Raises an
     InputError.
     """
+    content = read_bytes(path, most=most, refuse=refuse)
+    if b"\0" in content[:PEEKED] and kind_of(content) is not None:
+        raise InputError(path, not_text(content))
     try:
-        text = read_bytes(path, most=most, refuse=refuse).decode("utf-8-sig")
+        text = content.decode("utf-8-sig")
     except UnicodeDecodeError:
         raise InputError(path, "is not a text file in UTF-8") from None
     return text.replace("\r\n", "\n").replace("\r", "\n")

@@ -25,6 +25,7 @@ from ehlectric.arrays import Array
 from ehlectric.errors import InputError, shown
 from ehlectric.quantities.grouped_digits import has_thousands, proven_mark, readings, ungrouped, value_of
 from ehlectric.quantities.unit_spelling import typed
+from ehlectric.runtime.file_kinds import not_text
 from ehlectric.runtime.reading import blocks
 
 # Texts of a field without a value, in small letters, as NumPy, pandas and spreadsheets write them.
@@ -76,7 +77,7 @@ def decoded(path: Path, content: bytes) -> str:
     Raises InputError if the file is not text.
     """
     if not is_text(content):
-        raise InputError(path, "is not a text file")
+        raise InputError(path, not_text(content))
     for code in ("utf-16",) if content[:2] in _UTF_16 else ("utf-8-sig", "cp1252"):
         try:
             return content.decode(code).replace("\r\n", "\n").replace("\r", "\n")
@@ -91,15 +92,15 @@ def text_blocks(path: Path, *, most: int) -> Iterator[str]:
     Only the last line of the file may lack its end. Raises InputError if the file is too large, is not text
     or has a line of more than 100 000 characters.
     """
-    decoder, rest = None, ""
+    decoder, rest, first = None, "", b""
     for block in chain(blocks(path, most=most, size=_BLOCK), [b""]):
-        decoder, last = decoder or _decoder(block), len(block) < _BLOCK
+        decoder, last, first = decoder or _decoder(block), len(block) < _BLOCK, first or block
         try:
             text = rest + decoder.decode(block, final=last)
         except UnicodeDecodeError:
             raise InputError(path, "is not text in UTF-16") from None
         if "\0" in text:
-            raise InputError(path, "is not a text file")
+            raise InputError(path, not_text(first))
         end = text.rfind("\n") + 1
         if len(text) - end > _LONGEST:
             got = f"has a line of more than {_LONGEST} characters"
@@ -517,7 +518,8 @@ def _first_row(
     begin = wrong = None
     for place, (_, line) in enumerate(filled):
         row = dialect.fields(line)
-        if len(row) > columns[-1] and dialect.is_row([row[k] for k in columns]):
+        whole = len(row) > columns[-1] and not _begins_with_key(dialect, columns, row)
+        if whole and dialect.is_row([row[k] for k in columns]):
             begin = place if begin is None else begin
             if strict or begin < place:
                 break
@@ -538,12 +540,19 @@ def _first_row(
     return filled[begin][0] - 1
 
 
+def _begins_with_key(dialect: Dialect, columns: Sequence[int], row: Sequence[str]) -> bool:
+    """Whether a line has a key left of its values, in a table of rows whose first field is empty."""
+    return columns[0] == 1 and not is_void(row[0]) and dialect.number(row[0]) is None
+
+
 def _is_broken_row(above: Sequence[list[str]], dialect: Dialect, columns: Sequence[int], count: int) -> bool:
     """Whether the last line above the first row is a row that lacks a number, and not a part of the header.
 
     A header may end with the number of rows; ``count`` is the number of known rows.
     """
     row = above[-1]
+    if _begins_with_key(dialect, columns, row):
+        return False
     numbers = {k: dialect.number(field) for k, field in enumerate(row) if not is_void(field)}
     if None not in numbers.values():
         known = list(numbers.values())

@@ -4,8 +4,8 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.drive.waveform_file import (
-    Waveform,
+from ehlectric.drive.waveform import Waveform
+from ehlectric.drive.waveform_quality import (
     clipped_levels,
     few_levels,
     longest_run,

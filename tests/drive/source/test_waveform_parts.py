@@ -7,10 +7,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.drive import waveform_file as reader
-from ehlectric.drive.waveform_file import _Choice, _Head, _Samples
+from ehlectric.drive import waveform_heads as reader
+from ehlectric.drive.waveform_choice import Choice
+from ehlectric.drive.waveform_heads import Head, parts_of, unit_of
+from ehlectric.drive.waveform_samples import Samples, line_of
+from ehlectric.drive.waveform_times import timing
 from ehlectric.errors import InputError
-from ehlectric.runtime.text_table import Dialect, Layout, layout_of
+from ehlectric.runtime.text_table import layout_of
 from tests.helpers.each import each
 
 PATH = Path("scope.csv")
@@ -31,13 +34,17 @@ def layout(text):
         ("time_ms", "time", "ms"),
         ("U mV", "U", "mV"),
         ("Channel A", "Channel A", ""),
+        ("V(vcm)", "V(vcm)", "V"),
+        ("V(s)", "V(s)", "V"),
+        ("V(n001,n002)", "V(n001,n002)", "V"),
+        ("Ix(U1:A)", "Ix(U1:A)", "A"),
         ("CH1 V", "CH1", "V"),
         ("U [furlong]", "U", "furlong"),
         ("", "", ""),
     ],
 )
 def test_names_and_units_of_heads(head, name, unit):
-    assert reader._parts(head) == (name, unit)
+    assert parts_of(head) == (name, unit)
 
 
 @each(
@@ -49,14 +56,14 @@ def test_names_and_units_of_heads(head, name, unit):
         ("\u03bcs", ("s", 1e-6)),
         ("µs", ("s", 1e-6)),
         ("mV", ("V", 1e-3)),
-        ("MV", ("V", 1e6)),
+        ("KV", ("V", 1e3)),
         ("Seq", ("", 1.0)),
         ("M", ("", 1.0)),
         ("", ("", 1.0)),
     ],
 )
 def test_spellings_of_units(written, unit):
-    assert reader._unit(written) == unit
+    assert unit_of(written) == unit
 
 
 @pytest.mark.parametrize(
@@ -83,17 +90,17 @@ def test_rows_of_names_and_of_units(above, heads):
     assert [(head.name, head.unit) for head in found] == heads
 
 
-def test_lines_that_go_backward_are_numbered_in_the_file():
-    columns = Layout(Dialect(","), (0, 1), 2, 0, ())
-    blocks = ["0,1\n\n1,2\n", "\n2,3\n1,4\n"]
-    with pytest.raises(InputError, match="line 6 goes backward"):
-        reader._samples(PATH, columns, (1, 0), blocks, ordered=True)
+def test_lines_of_samples_are_numbered_in_the_file(tmp_path):
+    path = tmp_path / "scope.csv"
+    text = "t,u\n0,1\n\n1,2\n" + "\n2,3\n1,4\n"
+    path.write_text(text)
+    assert [line_of(path, layout(text), k) for k in range(4)] == [2, 4, 6, 7]
 
 
 def spaced(times, digit=0.0):
     """Step of times with a last printed digit."""
-    choice = _Choice(_Head(1, "u", "V"), 1.0, _Head(0, "t", "s"), 1.0, ())
-    return reader._timing(PATH, _Samples(np.zeros(times.size), times, digit), choice, None)[1]
+    choice = Choice(Head(1, "u", "V"), 1.0, Head(0, "t", "s"), 1.0, ())
+    return timing(PATH, Samples(np.zeros(times.size), times, digit), choice, None)[1]
 
 
 @given(st.floats(1e-12, 1e3), st.integers(-10_000, 10_000), st.integers(3, 70_000))

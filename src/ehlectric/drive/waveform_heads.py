@@ -1,0 +1,288 @@
+"""Heads of a waveform in text: names and units of the columns, and what lines above the numbers state.
+
+The names and units of the columns are the last lines above the numbers.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+from ehlectric.errors import printable, short
+from ehlectric.quantities.unit_spelling import typed
+from ehlectric.runtime.text_table import Dialect, Layout, name_and_unit
+
+# Longest name of a column in a message [characters].
+_LONGEST_NAME = 40
+
+# Units as oscilloscopes write them, in small letters, and factors by the first letter of a prefix.
+_UNIT = re.compile(
+    "(milli|micro|nano|pico|kilo|[muµnpk]?)(?:(?P<s>s|secs?|seconds?)|(?P<V>v|volts?)|(?P<A>a|amps?|amperes?))"
+)
+_FACTORS = {"": 1.0, "m": 1e-3, "u": 1e-6, "µ": 1e-6, "n": 1e-9, "p": 1e-12, "k": 1e3}
+
+# Between two units of which one is meant.
+_OR = " or "
+
+# Names of columns of times, and names and "units" of columns that number the samples.
+_TIME_NAMES = ("time", "t", "zeit", "temps", "tiempo", "tempo", "x-axis", "timestamp")
+_NUMBERINGS = ("nr", "no", "no.", "#", "index", "sample", "samples", "point", "points", "sequence")
+
+# Voltage of a node or current of an element as circuit simulators write it: "V(vcm)", "I(R1)", "Id(M1)".
+_SIMULATED = re.compile(r"(?:([Vv])|[Ii][a-zA-Z]?)\(([^()]+)\)")
+
+# Signs between a key above the numbers and its values.
+_BETWEEN = re.compile("[:;,=\t]")
+
+# Meanings of keys above the numbers, and their spellings in small letters without spaces and signs.
+SPELLINGS = {
+    "length": ("recordlength", "memorylength", "waveformlength", "datalength", "points", "blocksize"),
+    "segments": (
+        "segments", "segmentcount", "numberofsegments", "frames", "framecount", "numberofframes",
+        "fastframecount", "blocknumber", "numberofblocks",
+    ),
+    "division": (
+        "verticalscale", "voltsdiv", "voltdiv", "vdiv", "voltsperdivision", "voltsperdiv", "vscale",
+        "verticalsensitivity", "scalevdiv",
+    ),
+    "format": ("pointformat", "ptfmt", "acquisitionmode", "acquiremode", "decimation", "acquisition"),
+}  # fmt: skip
+
+# Words of keys of the sampling interval, and of keys in general, which are no names of columns.
+INTERVALS = ("interval", "increment", "xinc", "tinc", "hresolution", "rate", "period", "frequency", "delta")
+_STATED = ("unit", "length", *INTERVALS)
+
+# First letters of keys of units above the numbers that belong to the other axis: "Vertical Units", "xunit".
+_OTHERS = {"s": "vy", "V": "hxt"}
+
+# Run of a circuit simulator below the heads: "Step Information: R=1 (Run: 1/3)".
+_RUN = re.compile(r"\(Run:\s*\d+/(\d+)\)")
+
+
+@dataclass(frozen=True)
+class Head:
+    """Head of a column at a place from 0; name and unit are empty where they are missing."""
+
+    place: int
+    name: str = ""
+    unit: str = ""
+
+    @property
+    def base(self) -> str:
+        """SI unit of the column; empty where it is not known."""
+        return unit_of(self.unit)[0]
+
+    @property
+    def is_numbering(self) -> bool:
+        """Whether the column numbers the samples."""
+        return (self.unit or self.name).lower() in _NUMBERINGS
+
+    @property
+    def is_time(self) -> bool:
+        """Whether the column is a time by its unit, or by its name if it has no unit."""
+        return self.base == "s" if self.unit else self.name.lower() in _TIME_NAMES
+
+    def __str__(self) -> str:
+        column = f"column {self.place + 1}"
+        return f"{short(printable(self.name), _LONGEST_NAME)} ({column})" if self.name else column
+
+
+def unit_of(text: str) -> tuple[str, float]:
+    """SI unit and factor of a unit as oscilloscopes write it; an empty unit for other texts.
+
+    The factor is NaN if the text may mean two units: heads in capitals write mV as MV.
+
+    Examples
+    --------
+    >>> unit_of("mV"), unit_of("MV"), unit_of("KV"), unit_of("furlong")
+    (('V', 0.001), ('V', nan), ('V', 1000.0), ('', 1.0))
+    """
+    if _OR in text:
+        return unit_of(text.partition(_OR)[0])[0], math.nan
+    text = typed(text)
+    match = _UNIT.fullmatch(text.lower())
+    if match is None:
+        return "", 1.0
+    prefix = match[1]
+    in_doubt = prefix == "m" and text[0] == "M"
+    return match.lastgroup or "", math.nan if in_doubt else _FACTORS[prefix.replace("micro", "u")[:1]]
+
+
+def parts_of(head: str, *, bare_time: bool = False) -> tuple[str, str]:
+    """Name and unit of a head such as "Time (us)", "CH1 [kV]", "C1 in V", "time_ms" or "V(node)".
+
+    ``bare_time``, whether the head of the times has no unit, as circuit simulators write it.
+
+    Examples
+    --------
+    >>> parts_of("Time (us)"), parts_of("C1 in V"), parts_of("time_ms"), parts_of("Channel A")
+    (('Time', 'us'), ('C1', 'V'), ('time', 'ms'), ('Channel A', ''))
+    >>> parts_of("V(vcm)"), parts_of("I(R1)"), parts_of("V(s)"), parts_of("V(mV)", bare_time=True)
+    (('V(vcm)', 'V'), ('I(R1)', 'A'), ('V(s)', 'V'), ('V(mV)', 'V or mV'))
+    """
+    simulated = _SIMULATED.fullmatch(head.strip())
+    if simulated is not None:
+        base = "V" if simulated[1] else "A"
+        known, factor = unit_of(simulated[2])
+        if known != base:
+            return head.strip(), base
+        if bare_time:
+            return head.strip(), base if factor == 1.0 else f"{base}{_OR}{simulated[2]}"
+    text, unit = name_and_unit(head)
+    if unit is not None:
+        return text, unit
+    words = text.replace("_", " ").replace("/", " ").split()
+    base = unit_of(words[-1])[0] if words else ""
+    if len(words) > 1 and words[-2].lower() == "in" and base:
+        return " ".join(words[:-2]), words[-1]
+    if len(words) == 1 and base in ("s", "V") and len(text) > 1:
+        return text, text
+    # "Channel A" is a name: of bare words, only those that no channel has are units.
+    if len(words) > 1 and (base == "V" or (base == "s" and words[0].lower() in _TIME_NAMES)):
+        return " ".join(words[:-1]), words[-1]
+    return text, ""
+
+
+@dataclass(frozen=True)
+class Stated:
+    """Key above or left of the numbers, with its values and the number of its line."""
+
+    key: str  # as the file writes it
+    values: tuple[str, ...]
+    line: int
+    text: str  # as a message shows it
+
+    @property
+    def spelling(self) -> str:
+        """Key in small letters, without spaces and signs."""
+        return "".join(filter(str.isalnum, self.key.lower()))
+
+    @property
+    def number(self) -> float | None:
+        """First number among the values, which a name of a channel or a unit may accompany."""
+        for value in self.values:
+            match = re.search(r"(?<![\w.])[-+]?\d[\d.]*(?:[eE][-+]?\d+)?(?=\s*[a-zA-Zµ/]*$)", value)
+            number = None if match is None else Dialect(None).number(match[0])
+            if match is not None and number is not None:
+                factor = unit_of(value[match.end() :].strip())[1]
+                return number * factor
+        return None
+
+
+@dataclass(frozen=True)
+class Labels:
+    """Heads of the columns, and what the lines above the numbers and the fields left of them state."""
+
+    heads: list[Head]
+    header: tuple[str, ...] = ()  # lines above the numbers
+    stated: tuple[Stated, ...] = ()
+
+    @property
+    def above(self) -> str:
+        """Last line above the numbers; empty without any."""
+        return next((line.strip() for line in reversed(self.header) if line.strip()), "")
+
+    def of(self, meaning: str) -> list[Stated]:
+        """Keys of a meaning of ``SPELLINGS``."""
+        return [each for each in self.stated if each.spelling in SPELLINGS[meaning]]
+
+    def units_above(self, base: str) -> list[str]:
+        """Units above the numbers for columns of an SI unit; the first line of a key counts."""
+        firsts = {each.spelling: each for each in reversed(self.stated)}
+        return [
+            value
+            for spelling, each in firsts.items()
+            if "unit" in spelling and spelling[:1] not in _OTHERS[base]
+            for value in each.values
+        ]
+
+    @property
+    def interval(self) -> str | None:
+        """Text of the first statement that may be the sampling interval; None without any."""
+        named = [each for each in self.stated if any(word in each.spelling for word in INTERVALS)]
+        # Words in a sentence are none of a key; a number is what the user needs.
+        named = [each for each in named if each.number is not None] or named
+        return named[0].text if named else None
+
+
+def labels_of(layout: Layout, lines: Sequence[str]) -> Labels:
+    """Heads of the columns of a layout, and the keys that some lines of the beginning state."""
+    left = layout.columns[0] if layout.columns[0] > 1 else 0
+    keys = [",".join(layout.dialect.fields(line)[:left]) for line in lines[layout.first :]] if left else []
+    stated = (*_of_names_above(layout), *_stated([*layout.header, *keys]))
+    return Labels(_heads(layout), layout.header, stated)
+
+
+def _stated(lines: Iterable[str]) -> Iterator[Stated]:
+    """Values of keys such as "Vertical Units,V", and of texts such as "tInc = 1e-6" within a line."""
+    for number, line in enumerate(lines, 1):
+        key, *values = (text.strip(' "') for text in _BETWEEN.split(line))
+        if any(values):
+            yield Stated(key, tuple(value for value in values if value), number, line.strip())
+        for field in re.split("[;,\t]", line)[1:]:
+            name, sign, value = field.partition("=")
+            if sign and value.strip():
+                yield Stated(name.strip(' "'), (value.strip(' "'),), number, field.strip())
+        run = _RUN.search(line)
+        if run is not None:
+            yield Stated("Segments", (run[1],), number, line.strip())
+
+
+def _of_names_above(layout: Layout) -> Iterator[Stated]:
+    """Values below names, to the right of the columns of numbers: "Start,Increment" above "-3e-5,1e-6"."""
+    rows = [layout.dialect.fields(line) for line in layout.header]
+    for number, (names, values) in enumerate(pairwise(rows), 2):
+        for name, value in list(zip(names, values, strict=False))[layout.width :]:
+            if layout.dialect.number(name) is None and layout.dialect.number(value) is not None:
+                yield Stated(name, (value,), number, f"{name}: {value}")
+
+
+def _heads(layout: Layout) -> list[Head]:
+    """Heads of the columns of numbers, by the last one or two lines above them."""
+    rows = [row for row in (_head_fields(layout, line) for line in layout.header) if any(row)]
+    rows = [[], *(row if _covers(layout, row) else [] for row in rows)][-2:]
+    if not rows[-1]:
+        return [Head(place) for place in layout.columns]
+    last = [rows[-1][place] for place in layout.columns]
+    enclosed = [text[:1] + text[-1:] in ("()", "[]") for text in last]
+    bare = [text[1:-1].strip() if inside else text for text, inside in zip(last, enclosed, strict=True)]
+    known = [bool(unit_of(text)[0]) or text.lower() in _NUMBERINGS for text in bare]
+    if any(known) and all(a or b or not c for a, b, c in zip(known, enclosed, last, strict=True)):
+        names = rows[-2] if rows[0] and _are_names(layout, rows[-2]) else []
+        pairs = zip(layout.columns, bare, strict=True)
+        return [Head(place, parts_of(names[place])[0] if names else "", unit) for place, unit in pairs]
+    names = rows[-1] if _are_names(layout, rows[-1]) else []
+    bare_time = any(name.lower() in _TIME_NAMES for name in names)
+    return [
+        Head(place, *(parts_of(names[place], bare_time=bare_time) if names else ()))
+        for place in layout.columns
+    ]
+
+
+def _head_fields(layout: Layout, line: str) -> list[str]:
+    """Fields of a line of heads: between columns of white space, names have spaces and units brackets."""
+    row = layout.dialect.fields(line)
+    if layout.dialect.separator is None and len(row) != layout.width:
+        wide = [text.strip() for text in line.replace("\t", "  ").split("  ") if text.strip()]
+        joined = line.replace(" (", "(").replace(" [", "[").split()
+        return wide if len(wide) == layout.width else joined
+    return row
+
+
+def _covers(layout: Layout, row: Sequence[str]) -> bool:
+    """Whether a row has a field for every column of numbers; the first one may be empty."""
+    # Any sentence has as many words as there are columns.
+    enough = len(row) == layout.width or (len(row) > layout.width and layout.dialect.separator is not None)
+    return enough and all(row[place] for place in layout.columns[1:])
+
+
+def _are_names(layout: Layout, row: Sequence[str]) -> bool:
+    """Whether a row has names in the columns of numbers: texts, or whole numbers of channels."""
+    if any(word in row[0].lower() for word in _STATED):
+        return False
+    texts = [row[place] for place in layout.columns]
+    numbers = [text for text in texts if layout.dialect.number(text) is not None]
+    return len(numbers) < len(texts) and all(text.isdigit() and len(text) <= 2 for text in numbers)
