@@ -1,6 +1,7 @@
 """Pictures of every page for the documentation; the folder EHLECTRIC_SCREENSHOTS keeps them."""
 
 import os
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -12,12 +13,19 @@ from tests.app.test_contact_page import wait_until_solved
 from tests.app.test_drive import AT_PEAK, short, simulate
 from tests.app.test_first_page import capacitance
 from tests.app.test_sweep_page import run, sweep, wait_for_points
+from tests.helpers.places import EXAMPLES
 from tests.helpers.processes import PATIENCE, wait_until
 
 pytestmark = pytest.mark.browser
 
 # Largest picture [bytes], and the number of its colours.
 _MOST, _COLOURS = 250_000, 128
+
+# A bearing with measured values.
+MEASURED = {
+    **tomllib.loads((EXAMPLES / "bearing_6208.toml").read_text(encoding="utf-8")),
+    "measured": {"capacitance": "250 pF +- 5 %", "outer_ring_temperature": "74 degC +- 2 K"},
+}
 
 # Height beyond which a picture of a page is cut off [px].
 _TALLEST = 4000
@@ -34,6 +42,12 @@ def folder(tmp_path):
 def bearing(page):
     wait_for_number(page, "bearing.capacitance", capacitance())
     complete(page)
+
+
+def measured(page):
+    bearing(page)
+    page.get_by_test_id("calibrate").click()
+    page.locator("[data-testid=calibration][data-explained=true]").wait_for()
 
 
 def drive(page):
@@ -71,6 +85,7 @@ def compared(page):
 # Name of the picture: address of the page, and what waits until it is complete.
 PAGES = {
     "bearing": (lambda: "/", bearing),
+    "measured": (lambda: address_of("/", MEASURED), measured),
     "drive": (lambda: address_of("/drive", short("0.05 s")), drive),
     "gear": (lambda: "/gear", gear),
     "axle": (lambda: "/axle", gear),

@@ -10,6 +10,7 @@ from typing import Any, Generic, TypeVar, cast
 from ehlectric.app.view_models import (
     AxleAnswer,
     BearingAnswer,
+    CalibrationAnswer,
     ContactAnswer,
     DriveAnswer,
     DutyAnswer,
@@ -65,6 +66,10 @@ REMEDY_WHOLE: Call[RemedyAnswer] = Call("remedy_answers.whole_remedy")
 # A duty cycle: what its file has, and its result.
 DUTY_LOOK: Call[str] = Call("duty_answers.look")
 BEARING_DUTY: Call[DutyAnswer] = Call("bearing_answers.duty_answer")
+
+# Measured values: how many there are, and the calibration with them.
+CALIBRATION_CHECKED: Call[str] = Call("calibration_answers.checked")
+CALIBRATED: Call[CalibrationAnswer] = Call("calibration_answers.calibrated")
 
 # A drive.
 DRIVE_QUICK: Call[DriveAnswer] = Call("drive_answers.quick_answer")

@@ -641,6 +641,21 @@ class DutyAnswer:
 
 
 @dataclass(frozen=True, kw_only=True)
+class CalibrationAnswer:
+    """Answer about the uncertain inputs of a case after a measurement."""
+
+    explained: bool  # whether inputs within the ranges explain the measurement
+    verdict: Verdict  # with the updated probability
+    chances: Table | None  # probability and margins before and after; None without a margin
+    inputs: Table | None  # ranges of the inputs before and after; None unless explained
+    compared: Table  # measured next to computed values
+    figures: Mapping[str, Figure]  # "ranges" unless the measurement is not explained, and "compared"
+    warnings: tuple[PageWarning, ...]
+    updated: Mapping[str, Any] | None  # tables of the case with the updated ranges; None unless explained
+    seconds: float  # computing time [s]
+
+
+@dataclass(frozen=True, kw_only=True)
 class BearingAnswer(PageAnswer):
     """Answer about a bearing, in SI units."""
 

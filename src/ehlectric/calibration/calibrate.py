@@ -102,7 +102,7 @@ def calibrate(
     (True, 2)
     """
     model = model_of(case)
-    given = _given(case, measured)
+    given = given_points(case, measured)
     _check(model, given)
     compared = _Compared(model, given, seed, progress)
     posterior = infer(
@@ -117,8 +117,8 @@ def calibrate(
     return compared.calibration(case, posterior)
 
 
-def _given(case: Any, measured: str | Path | pd.DataFrame | None) -> MeasuredPoints:
-    """Measured values of the arguments or of the case."""
+def given_points(case: Any, measured: str | Path | pd.DataFrame | None = None) -> MeasuredPoints:
+    """Measured values of a case, or of a file or a table instead. Raises InputError as ``calibrate`` does."""
     table: Measured | None = case.measured
     if measured is None and table is None:
         raise InputError.missing("measured", "a table [measured], or a file of measured operating points")

@@ -24,16 +24,19 @@ _CORRELATED = 0.5
 
 def inputs_table(result: Calibration) -> Table:
     """Table of the inputs with their 90 % ranges before and after the measurement."""
-    rows = []
+    heads, *rows = input_cells(result)
+    return columns_table(heads, rows, "Uncertain inputs", left=(0, 1, 2, 4), wrapped=(0, 4), padding=2)
+
+
+def input_cells(result: Calibration) -> Iterator[tuple[str, ...]]:
+    """Heads, and the inputs with their 90 % ranges before and after the measurement, as texts."""
+    yield "input", "before (90 %)", "after (90 %)", "variance\nremoved", "correlated with"
     for place, entry in enumerate(result.inputs):
         if entry.posterior is None or entry.reduction is None:
             continue
-        correlated = _correlated(result, place)
         removed = f"{100.0 * max(entry.reduction, 0.0):.0f} %"
         before, after = (range_text(entry, ends) for ends in (entry.prior, entry.posterior))
-        rows.append((entry.label.partition(" (")[0], before, after, removed, correlated))
-    heads = ("input", "before (90 %)", "after (90 %)", "variance\nremoved", "correlated with")
-    return columns_table(heads, rows, "Uncertain inputs", left=(0, 1, 2, 4), wrapped=(0, 4), padding=2)
+        yield entry.label.partition(" (")[0], before, after, removed, _correlated(result, place)
 
 
 def calibration_rows(result: Calibration) -> Iterator[Row]:
@@ -66,14 +69,19 @@ def range_text(entry: CalibratedInput, ends: tuple[float, float, float]) -> str:
 
 def compared_table(result: Calibration) -> Table:
     """Table of measured next to computed values."""
-    labels = {entry.key: entry.label.partition(" (")[0] for entry in result.inputs}
-    rows = [_row(row, labels) for row in result.rows[:_PRINTED]]
-    third = "after (90 %)" if result.explained else "nearest"
-    heads = ("measured", "value", "+-", "before (90 %)", third, "residual\n/ s", "decides")
+    heads, *rows = compared_cells(result)
     title = "Measured and computed"
     if len(result.rows) > _PRINTED:
         title += f": {_PRINTED} of {len(result.rows)} values"
-    return columns_table(heads, rows, title, left=(0, 6), wrapped=(0, 6), padding=2)
+    return columns_table(heads, rows[:_PRINTED], title, left=(0, 6), wrapped=(0, 6), padding=2)
+
+
+def compared_cells(result: Calibration) -> Iterator[tuple[str, ...]]:
+    """Heads, and all measured values next to computed ones, as texts."""
+    labels = {entry.key: entry.label.partition(" (")[0] for entry in result.inputs}
+    third = "after (90 %)" if result.explained else "nearest"
+    yield "measured", "value", "+-", "before (90 %)", third, "residual\n/ s", "decides"
+    yield from (_row(row, labels) for row in result.rows)
 
 
 def _row(row: Compared, labels: dict[str, str]) -> tuple[str, ...]:

@@ -169,6 +169,11 @@ def kind_of(table: Mapping[str, Any]) -> FileKind:
     return kind_of_tables(table) or "contact"
 
 
+def at_operating_point(table: Mapping[str, Any]) -> dict[str, Any]:
+    """Tables without a duty cycle and measured values, which have answers of their own and may name files."""
+    return {key: value for key, value in table.items() if key not in ("duty", "measured")}
+
+
 def with_session_files(table: Mapping[str, Any], folder: Path | None) -> dict[str, Any]:
     """Tables in which the names of files are paths in the folder of a session. ``folder``, folder of the
     session; None where it has no files. Raises InputError if a file is not there, or lies elsewhere.

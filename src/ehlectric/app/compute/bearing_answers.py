@@ -20,6 +20,7 @@ from ehlectric.app.charts.bearing_charts import (
 )
 from ehlectric.app.compute.answer_parts import (
     UNUSABLE,
+    at_operating_point,
     cards,
     case_of,
     gauge_text,
@@ -290,7 +291,7 @@ def bearing_case(table: Mapping[str, Any], contacts: str = "", session: Path | N
 
 def without_cycle(table: Mapping[str, Any], session: Path | None) -> BearingCase:
     """Case of a bearing at its own operating point, which needs no file of a duty cycle."""
-    return bearing_case({key: value for key, value in table.items() if key != "duty"}, session=session)
+    return bearing_case(at_operating_point(table), session=session)
 
 
 def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> BearingAnswer:

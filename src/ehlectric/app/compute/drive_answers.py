@@ -9,6 +9,7 @@ from typing import Any
 
 from ehlectric.app.compute.answer_parts import (
     UNUSABLE,
+    at_operating_point,
     card,
     drive_of,
     lines_of,
@@ -178,7 +179,7 @@ def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> Drive
     InputError if the tables are no valid drive, or its films have to be solved.
     """
     # The simulation has the duty cycle, whose file this session may lack.
-    case = drive_of({key: value for key, value in table.items() if key != "duty"}, session)
+    case = drive_of(at_operating_point(table), session)
     # A wrong remedy is refused as by the command.
     case.variants()
     quick, key = quick_drive(case)

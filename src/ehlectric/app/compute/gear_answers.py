@@ -9,6 +9,7 @@ from typing import Any
 
 from ehlectric.app.charts.gear_charts import film_figure, flank_figure, mesh_figure, path_figure
 from ehlectric.app.compute.answer_parts import (
+    at_operating_point,
     cards,
     gauge_text,
     gear_of,
@@ -85,7 +86,7 @@ def _check_both(gear: Any) -> None:
 
 def _alone(table: Mapping[str, Any], session: Path | None) -> GearCase:
     """Gear pair at its own operating point without solved films, which needs no file of a duty cycle."""
-    case = gear_case({key: value for key, value in table.items() if key != "duty"}, session)
+    case = gear_case(at_operating_point(table), session)
     return case.replace({"contacts": quick_way(case.contacts)})
 
 

@@ -14,17 +14,19 @@ from nicegui import ui
 
 from ehlectric.app.calls import Call
 from ehlectric.app.form_fields.field import Group
+from ehlectric.app.form_fields.measured_fields import measured_fields, measured_keys
 from ehlectric.app.latest_answer import LatestAnswer
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.downloads import Downloads
 from ehlectric.app.pages.form import Form
 from ehlectric.app.pages.frame import PAGE_PATIENCE, Toolbar, framed, session_of, show_address
+from ehlectric.app.pages.measured_box import CalibrationView, MeasuredBox
 from ehlectric.app.pages.page_parts import Strip, button, heading, lines_html, mark, say
 from ehlectric.app.pages.result_parts import FigureBox, NoteList, NumberBox, Panel, behind
 from ehlectric.app.pages.solving import Solving
 from ehlectric.app.processes import Returned
 from ehlectric.app.session import Session
-from ehlectric.app.view_models import PENDING, PageAnswer, notes_of
+from ehlectric.app.view_models import PENDING, CalibrationAnswer, PageAnswer, notes_of
 from ehlectric.app.work import Work, key_of
 from ehlectric.errors import InputError
 
@@ -56,6 +58,7 @@ class AnswerPage(Generic[A]):
 
     def __init__(self, session: Session) -> None:
         self.session = session
+        self._measured: MeasuredBox | None = None  # None for a page without measured values
         self._latest_answer: LatestAnswer[Inputs, A] = LatestAnswer(
             lambda inputs: self._answer(self.quick, inputs),
             [partial(self._answer, call) for call in self.later],
@@ -116,6 +119,10 @@ class AnswerPage(Generic[A]):
             with ui.element("div").classes("inputs"):
                 self.build_form()
                 self.build_boxes()
+                if measured_fields(self.kind):
+                    self._measured = MeasuredBox(
+                        self.session, self.kind, self.form.take, self._show_calibration
+                    )
             with ui.element("section").classes("answer").props('aria-label="Answer"'):
                 self._build_answer()
 
@@ -127,13 +134,14 @@ class AnswerPage(Generic[A]):
         leads.bind_visibility_from(
             self._notice, "visible", lambda shown: shown and self.form.wrong is not None
         )
+        self._calibration = CalibrationView(self.session, self.go_to)
         self.build_view()
         self._downloads = Downloads(self.session, self.kind, self.folder)
 
     def build_form(self) -> None:
         """Build the form."""
-        inputs, first = self.session.inputs, self.first
-        self.form = Form(self.groups, inputs, self.change, elsewhere=self.elsewhere, first=first)
+        inputs, elsewhere = self.session.inputs, (*self.elsewhere, *measured_keys(self.kind))
+        self.form = Form(self.groups, inputs, self.change, elsewhere=elsewhere, first=self.first)
 
     def folder(self) -> Path | None:
         """Folder with the files of the answer that is shown; None where they are still to be made."""
@@ -164,8 +172,13 @@ class AnswerPage(Generic[A]):
         self.form.set(self.session.inputs)
         self._answer_again()
 
+    def _show_calibration(self, answer: CalibrationAnswer | None, state: str) -> None:
+        self._calibration.show(answer, state)
+
     def _answer_again(self) -> None:
         self.show_boxes()
+        if self._measured is not None:
+            self._measured.refresh()
         self._address.set_visibility(False)
         show_address(self.session.inputs, self.path)
         self.refresh()
@@ -178,6 +191,8 @@ class AnswerPage(Generic[A]):
     def close(self) -> None:
         """Want no further answers."""
         self._latest_answer.drop()
+        if self._measured is not None:
+            self._measured.close()
 
     def _ask(self, *, at_once: bool = False) -> asyncio.Future[None]:
         """Show the solved answer where there is one, or ask for the quick one; the one before is dimmed."""

@@ -115,8 +115,8 @@ def facts_html(facts: Iterable[tuple[str, str]]) -> str:
 class VerdictBox:
     """Traffic light of a bearing, and below the number that decides its sentences."""
 
-    def __init__(self) -> None:
-        self._box = ui.element("div").classes("verdict grey").props('data-testid="verdict"')
+    def __init__(self, test: str = "verdict") -> None:
+        self._box = ui.element("div").classes("verdict grey").props(f'data-testid="{test}"')
         with self._box:
             with ui.element("h2").classes("lead"):
                 ui.element("span").classes("sign").props('aria-hidden="true"')

@@ -1,0 +1,130 @@
+"""Answers about measured values: what was measured, and the calibration of the uncertain inputs with them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+from ehlectric.app.charts.calibration_charts import compared_figure, ranges_figure
+from ehlectric.app.compute.answer_parts import page_warnings_of, run_case_of
+from ehlectric.app.form_fields.field_defaults import end_and_key
+from ehlectric.app.form_fields.field_rules import changed
+from ehlectric.app.page_inputs import Inputs
+from ehlectric.app.view_models import CalibrationAnswer, Table
+from ehlectric.calibration import Calibration, calibrate, given_points
+from ehlectric.cases.input_keys import unit_of
+from ehlectric.discharge.breakdown_rule import Chance
+from ehlectric.quantities.inputs import input_at
+from ehlectric.quantities.quantity import data_file
+from ehlectric.quantities.units import in_unit, rounded
+from ehlectric.readable import capital, chance_text, ratio_text, readable
+from ehlectric.runtime.progress import Progress
+from ehlectric.tables.calibration_tables import compared_cells, input_cells
+
+_TEXTS = data_file("ehlectric.app", "page_texts.toml")["calibration"]
+
+# Digits of the updated values.
+_DIGITS = 5
+
+# Keys of an updated case whose values the page keeps: how its films are computed.
+_KEPT = ("contacts", "drive_end.contacts", "non_drive_end.contacts")
+
+
+def checked(table: Mapping[str, Any], session: Path | None = None) -> str:
+    """Sentence on the measured values of a case. Raises InputError if one of them cannot be used."""
+    given = given_points(run_case_of(table, session))
+    counts = (
+        f"{n} {name}{'' if n == 1 else 's'}"
+        for n, name in ((len(given.values), "measured value"), (len(given.points), "operating point"))
+    )
+    return f"{' at '.join(counts)}."
+
+
+def calibrated(table: Mapping[str, Any], session: Path, progress: Progress) -> CalibrationAnswer:
+    """Answer about the uncertain inputs of a case after its measurement. Raises InputError if the tables are
+    no valid case, or ``calibrate`` refuses its measured values.
+    """
+    begin = perf_counter()
+    case = run_case_of(table, session)
+    result = calibrate(case, progress=progress)
+    figures = {"compared": compared_figure(result)}
+    if result.explained:
+        figures["ranges"] = ranges_figure(result)
+    return CalibrationAnswer(
+        explained=result.explained,
+        verdict=result.verdict,
+        chances=_chances(result),
+        inputs=_table(_TEXTS["inputs"], input_cells(result)) if result.explained else None,
+        compared=_table(_TEXTS["compared"], compared_cells(result)),
+        figures=figures,
+        warnings=page_warnings_of(result.warnings),
+        updated=_updated(table, case, result) if result.case is not None else None,
+        seconds=perf_counter() - begin,
+    )
+
+
+def _table(caption: str, cells: Iterator[tuple[str, ...]]) -> Table:
+    heads, *rows = cells
+    return Table(caption, tuple(capital(head.replace("\n", " ")) for head in heads), tuple(rows))
+
+
+def _chances(result: Calibration) -> Table | None:
+    """Probability of breakdown and margins before and after the measurement."""
+    before, after = result.before, result.after
+    if before is None or after is None:
+        return None
+    rows = zip(_TEXTS["chances"], _texts(before), _texts(after), strict=True)
+    return Table(_TEXTS["probable"], ("", "Before", "After"), tuple(rows))
+
+
+def _texts(chance: Chance) -> tuple[str, str, str]:
+    low, high = chance.bounds
+    probability = (
+        f"{readable(100.0 * low, 2)} to {readable(100.0 * high, 2)} %"
+        if chance.failed
+        else chance_text(chance.probability, chance.error)
+    )
+    interval = " to ".join(map(ratio_text, (chance.low, chance.high)))
+    return probability, ratio_text(chance.median), interval
+
+
+def _updated(table: Mapping[str, Any], case: Any, result: Calibration) -> dict[str, Any]:
+    """Tables of a page with the values and ranges that the measurement changed, without measured values."""
+    before, after = (Inputs(each.to_dict()).flat() for each in (case, result.case))
+    changes = {
+        key: _written(key, value)
+        for key, value in after.items()
+        if value != before.get(key, _resolved(case, key)) and key not in _KEPT
+    }
+    return dict(changed(Inputs(table).changed({"measured": None}), changes).table)
+
+
+def _resolved(case: Any, key: str) -> Any:
+    """Value that a case has of a dotted key, also from the library; None where it has none."""
+    value = case
+    for name in key.split("."):
+        value = getattr(value, name, None)
+    return value
+
+
+def _written(key: str, value: Any) -> Any:
+    """Value of an input, or the ends of a range, as a person writes it: with the unit of its field."""
+    if isinstance(value, list | tuple):
+        return [_written(key, each) for each in value]
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return value
+    *_, name = _parts(key)
+    entry, unit = input_at(end_and_key(name)[1]), unit_of(end_and_key(name)[1])
+    if not unit:
+        return float(rounded(value, _DIGITS))
+    shown = unit if entry is None or not entry.shown else entry.shown
+    number = in_unit(f"{value!r} {unit}", shown)
+    return f"{value!r} {unit}" if number is None else f"{rounded(number, _DIGITS)} {shown}"
+
+
+def _parts(key: str) -> tuple[str, str]:
+    """Table of ranges before a dotted key, and the key; a range has the key of its input in quotes."""
+    ranges, quote, name = key.rstrip('"').partition('"')
+    return (ranges, name) if quote else ("", key)

@@ -1,0 +1,107 @@
+"""Answers about measured values: what they contain, and the case with the updated ranges."""
+
+import pytest
+
+import ehlectric
+from ehlectric.app.compute.calibration_answers import calibrated, checked
+from ehlectric.app.form_fields.field import form_data
+from ehlectric.app.form_fields.measured_fields import measured_fields, with_uncertainty, with_value
+from ehlectric.app.page_inputs import Inputs, example_inputs
+from ehlectric.cases.measurements import CALIBRATED
+from ehlectric.errors import InputError
+from ehlectric.quantities.units import in_unit
+from ehlectric.runtime.progress import silent
+from tests.helpers.each import each
+
+START = {"bearing": "bearing_6208", "drive": "drive", "gear": "gear_pair"}
+
+
+def tables(kind, **measured):
+    return dict(example_inputs(START[kind]).changed({"measured": measured}).table)
+
+
+@each("kind", START)
+def test_a_page_offers_quantities_that_the_model_of_its_kind_computes(kind):
+    offered = form_data("measured")[kind]
+    cases = {
+        "bearing": (ehlectric.BearingCase, "bearing"),
+        "drive": (ehlectric.DriveCase, "drive"),
+        "gear": (ehlectric.GearCase, "gear"),
+    }
+    case_type, _ = cases[kind]
+    case = case_type.from_toml(ehlectric.example(f"{START[kind]}.toml"))
+    from ehlectric.calibration.models import model_of
+
+    assert set(offered) == set(model_of(case).quantities)
+    assert set(offered) <= set(CALIBRATED)
+
+
+@each(
+    "name, typed, expected",
+    [
+        ("capacitance", "250", "250 pF +- 5 %"),
+        ("capacitance", "0.25 nF", "0.25 nF +- 5 %"),
+        ("outer_ring_temperature", "74", "74 degC +- 1 K"),
+        ("conducting_share", "0.1", "0.1 +- 0.02"),
+        # 5 % of the value, as the table of the columns has it.
+        ("bearing_voltage_ratio", "0.04", "0.04 +- 0.002"),
+    ],
+)
+def test_a_typed_value_has_the_unit_of_its_field_and_the_usual_uncertainty(name, typed, expected):
+    field = measured_fields("bearing")[name]
+    text = with_value(Inputs(), name, field, typed)
+    assert text == expected
+    assert checked(tables("bearing", **{name: text})) == "1 measured value at 1 operating point."
+
+
+def test_a_value_without_an_uncertainty_is_refused_by_its_key():
+    field = measured_fields("bearing")["capacitance"]
+    inputs = Inputs({"measured": {"capacitance": "250 pF +- 5 %"}})
+    text = with_uncertainty(inputs, "capacitance", field, "")
+    assert text == "250 pF"
+    with pytest.raises(InputError) as caught:
+        checked(tables("bearing", capacitance=text))
+    assert caught.value.key == "measured.capacitance"
+
+
+@pytest.mark.slow
+@pytest.mark.gate
+def test_the_updated_case_has_the_values_of_the_calibration_and_all_other_inputs(tmp_path):
+    table = tables("bearing", capacitance="250 pF +- 5 %", outer_ring_temperature="74 degC +- 2 K")
+    answer = calibrated(table, tmp_path, silent)
+    assert answer.explained
+    case = ehlectric.BearingCase.from_written(table)
+    result = ehlectric.calibrate(case)
+    updated = Inputs(answer.updated)
+    for entry in result.inputs:
+        ends = updated.value(f'ranges."{entry.key}"')
+        assert (ends is not None) == (entry.reduction > 0.05), entry.key
+    temperature = next(entry for entry in result.inputs if entry.key == "bearing.temperature")
+    # Texts of the page have five digits.
+    expected = [end - 273.15 for end in temperature.posterior]
+    low, high = updated.value('ranges."bearing.temperature"')
+    shown = [in_unit(text, "degC") for text in (low, updated.value("bearing.temperature"), high)]
+    assert shown == pytest.approx(expected, rel=1e-4)
+    # The updated tables are a valid case, and a page keeps what the measurement does not concern.
+    again = ehlectric.BearingCase.from_written(dict(updated.table))
+    assert again.measured is None
+    changed = {key for key, value in updated.flat().items() if value != Inputs(table).flat().get(key)}
+    radial = {"bearing.radial_load", "bearing.axial_load"}
+    assert (
+        changed
+        <= {f'ranges."{entry.key}"' for entry in result.inputs}
+        | {entry.key for entry in result.inputs}
+        | radial
+    )
+    probability = answer.chances.rows[0][2]
+    assert probability.startswith(f"{100.0 * result.after.probability:.2g} %")
+
+
+@pytest.mark.slow
+def test_a_measurement_that_nothing_explains_updates_nothing(tmp_path):
+    answer = calibrated(tables("gear", capacitance="1 uF +- 1 %"), tmp_path, silent)
+    assert not answer.explained
+    assert answer.updated is None
+    assert answer.inputs is None
+    assert "ranges" not in answer.figures
+    assert answer.verdict.code == "measurement-unexplained"

@@ -1,0 +1,74 @@
+"""Measured values on the pages, as a user types them: calibration, its verdict, and the updated case."""
+
+import tomllib
+
+import pytest
+
+from tests.app.driving import complete, drawn, field, type_into, wait_for_address
+from tests.app.outputs import command, downloaded, fits
+from tests.app.test_accessibility import findings
+
+pytestmark = pytest.mark.browser
+
+
+def add(page, name, value):
+    """Add a measured value, and wait until the page has taken it over."""
+    group = page.get_by_test_id("group-measured-values")
+    if not group.evaluate("box => box.open"):
+        group.locator("summary").first.click()
+    page.get_by_test_id("field-measured-add").select_option(name)
+    type_into(page, f"measured.{name}", value)
+    wait_for_address(page, f"measured.{name}={value}")
+
+
+def calibrate(page, *, explained):
+    page.get_by_test_id("measured-used").get_by_text("operating point").wait_for()
+    page.get_by_test_id("calibrate").click()
+    page.locator(f"[data-testid=calibration][data-explained={str(explained).lower()}]").wait_for()
+
+
+@pytest.mark.slow
+@pytest.mark.gate
+def test_measured_values_update_the_ranges_as_the_command_does(open_page, app_server, tmp_path):
+    page = open_page(app_server, "/")
+    complete(page)
+    add(page, "capacitance", "250")
+    assert field(page, "measured.capacitance").input_value() == "250 pF"
+    assert field(page, "measured.capacitance.uncertainty").input_value() == "5 %"
+    add(page, "outer_ring_temperature", "74")
+    type_into(page, "measured.outer_ring_temperature.uncertainty", "2")
+    wait_for_address(page, "74 degC +- 2 K")
+    case = downloaded(page, "download-toml", tmp_path)
+    calibrate(page, explained=True)
+    command("calibrate", case, "--no-plots", "-o", "out", folder=tmp_path)
+    by_command = tomllib.loads((tmp_path / "out" / "calibrated.toml").read_text(encoding="utf-8"))
+    updated = tomllib.loads(downloaded(page, "download-calibrated", tmp_path).read_text(encoding="utf-8"))
+    assert updated["ranges"].keys() == by_command["ranges"].keys()
+    assert "measured" not in updated
+    drawn(page)
+    assert findings(page) == []
+    page.set_viewport_size({"width": 400, "height": 800})
+    assert fits(page)
+    # The updated ranges are inputs of the page, which has the measured values again after an undo.
+    page.get_by_test_id("use-calibrated").click()
+    wait_for_address(page, 'ranges."bearing.temperature"')
+    assert not page.get_by_test_id("calibration").is_visible()
+    page.get_by_test_id("undo").click()
+    page.get_by_test_id("calibration").wait_for()
+
+
+@pytest.mark.slow
+def test_what_nothing_explains_and_what_is_wrong_is_stated(open_page, app_server):
+    page = open_page(app_server, "/gear")
+    page.locator("[data-testid=answer][data-whole=true][aria-busy=false]").wait_for()
+    add(page, "capacitance", "900 nF")
+    calibrate(page, explained=False)
+    verdict = page.get_by_test_id("calibration-verdict")
+    assert verdict.get_attribute("data-level") == "grey"
+    assert not page.get_by_test_id("use-calibrated").is_visible()
+    type_into(page, "measured.capacitance", "5 V")
+    page.get_by_test_id("error-measured-capacitance").get_by_text("expected").wait_for()
+    page.get_by_test_id("calibration-state").get_by_text("earlier inputs").wait_for()
+    assert page.get_by_test_id("calibrate").is_disabled()
+    page.get_by_test_id("remove-measured-capacitance").click()
+    page.get_by_test_id("calibration").wait_for(state="hidden")
