@@ -83,8 +83,8 @@ DOUBTFUL = [
     ([], [*rows_of(";")[:-1], "9e99;1"], " 10 m"),
     (["x [um];z [nm]", "0.00"], rows_of(";")[1:], "line 2 is '0.00'"),
     # The rows above a wrong one are no header.
-    ([], [*rows_of(";")[:1], "0.50;BAD", *rows_of(";")[2:]], "line 2\\b.*'BAD'|line 2 is"),
-    (["x [um];z [nm]"], [*rows_of(";")[:1], "0.50;BAD", *rows_of(";")[2:]], "line 3\\b.*'BAD'"),
+    ([], [*rows_of(";")[:1], "0.50;WORD", *rows_of(";")[2:]], "line 2\\b.*'WORD'|line 2 is"),
+    (["x [um];z [nm]"], [*rows_of(";")[:1], "0.50;WORD", *rows_of(";")[2:]], "line 3\\b.*'WORD'"),
 ]
 
 
@@ -208,7 +208,9 @@ def test_units_of_length_in_heads(tmp_path, head, metres):
     assert np.ptp(surface.heights) == pytest.approx(2.0 * metres[1])
 
 
-@each("void", ["", "NaN", "nan", "-nan", "N/A", "#N/A"])
+@each(
+    "void", ["", "NaN", "nan", "-nan", "N/A", "#N/A", "BAD", "bad", "***", "********", "-", "---", "NoData"]
+)
 def test_points_without_a_value_are_void(tmp_path, void):
     """As np.savetxt, pandas and spreadsheets write them, in every separator and at the end of the file."""
     for separator in (";", ",", "\t", " "):

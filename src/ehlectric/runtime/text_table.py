@@ -28,8 +28,13 @@ from ehlectric.quantities.unit_spelling import typed
 from ehlectric.runtime.file_kinds import not_text
 from ehlectric.runtime.reading import blocks
 
-# Texts of a field without a value, in small letters, as NumPy, pandas and spreadsheets write them.
-_VOIDS = frozenset(("", "nan", "+nan", "-nan", "na", "n/a", "#n/a", "#na", "<na>", "null", "none"))
+# Texts of a field without a value, in small letters, as programs and instruments write them.
+_VOIDS = frozenset(
+    ("", "nan", "+nan", "-nan", "na", "n/a", "#n/a", "#na", "<na>", "null", "none", "bad", "-", "nodata")
+)
+
+# Signs that fill a field without a value, as Fortran and instruments write it.
+_FILLERS = ("*", "-")
 
 # Texts of a number beyond the range of an instrument, in small letters.
 _INFINITE = ("inf", "infinity", "∞")
@@ -59,31 +64,32 @@ _TRIED = 400
 _FILLER = "beyond-the-last-column"
 
 _QUOTED = re.compile(r'"[^"]*+"')
-_UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
+# First bytes of a text in UTF-16.
+UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 
 
 class NoTableError(InputError):
-    """Error of a text without the columns of numbers that its reader expects."""
+    """Error of a file without the columns of numbers that its reader expects."""
 
 
 def is_text(content: bytes) -> bool:
     """Whether the content of a file looks like text."""
-    return content[:2] in _UTF_16 or b"\0" not in content[:4096]
+    return content[:2] in UTF_16 or b"\0" not in content[:4096]
 
 
 def decoded(path: Path, content: bytes) -> str:
     """Text of a file in UTF-8, UTF-16 or Windows-1252 with line feeds at the ends of its lines.
 
-    Raises InputError if the file is not text.
+    Raises NoTableError if the file is not text.
     """
     if not is_text(content):
-        raise InputError(path, not_text(content))
-    for code in ("utf-16",) if content[:2] in _UTF_16 else ("utf-8-sig", "cp1252"):
+        raise NoTableError(path, not_text(content))
+    for code in ("utf-16",) if content[:2] in UTF_16 else ("utf-8-sig", "cp1252"):
         try:
             return content.decode(code).replace("\r\n", "\n").replace("\r", "\n")
         except UnicodeDecodeError:
             continue
-    raise InputError(path, "is not text in UTF-8, UTF-16 or Windows-1252")
+    raise NoTableError(path, "is not text in UTF-8, UTF-16 or Windows-1252")
 
 
 def text_blocks(path: Path, *, most: int) -> Iterator[str]:
@@ -113,7 +119,7 @@ def text_blocks(path: Path, *, most: int) -> Iterator[str]:
 
 def _decoder(beginning: bytes) -> io.IncrementalNewlineDecoder:
     encoding, errors = "utf-8-sig", "replace"
-    if beginning[:2] in _UTF_16:
+    if beginning[:2] in UTF_16:
         encoding, errors = "utf-16", "strict"
     else:
         try:
@@ -128,10 +134,11 @@ def is_void(field: str) -> bool:
 
     Examples
     --------
-    >>> is_void(" NaN"), is_void(""), is_void("0")
-    (True, True, False)
+    >>> is_void(" NaN"), is_void(""), is_void("***"), is_void("0")
+    (True, True, True, False)
     """
-    return field.strip().lower() in _VOIDS
+    text = field.strip().lower()
+    return text in _VOIDS or (text[:1] in _FILLERS and text == text[0] * len(text))
 
 
 @dataclass(frozen=True)

@@ -13,13 +13,14 @@ import io
 import lzma
 import math
 import struct
+import warnings
 import zipfile
 import zlib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
-from typing import TypeAlias
+from typing import NamedTuple
 from xml.etree import ElementTree
 
 import numpy as np
@@ -30,7 +31,7 @@ from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.runtime.memory import in_bytes
 from ehlectric.runtime.reading import read_bytes, regular
 from ehlectric.runtime.sizes import check_memory_for
-from ehlectric.runtime.text_table import NoTableError, is_text
+from ehlectric.runtime.text_table import UTF_16, NoTableError, is_text
 from ehlectric.surfaces.maps import Map, filled, without_void_borders
 from ehlectric.surfaces.profiles import LEAST_POINTS, Profile
 from ehlectric.surfaces.text_profiles import read_profile
@@ -133,13 +134,24 @@ _DECOMPRESS: Mapping[int, Callable[[bytes, int], bytes]] = MappingProxyType(
 )
 
 
-# Largest number of points of a map, and largest size of its XML description [bytes].
+# Largest number of points of a map.
 MOST_POINTS = 100_000_000
-_MOST_XML = 2_000_000
 
-# Heights (rows, columns) [m] with NaN at points without data, distance between neighbours in a row [m], and
-# distance between rows [m], None for a single row.
-HeightMap: TypeAlias = tuple[Array, float, float | None]
+# Name of the XML description of X3P, its largest size without and with a list of heights [bytes], and memory
+# of the parsed description / its size, as measured.
+_MAIN = "main.xml"
+_MOST_XML, _MOST_LIST = 2_000_000, 200_000_000
+_XML_COPIES = 10.0
+
+
+class HeightMap(NamedTuple):
+    """Heights on a regular grid, as read from a file."""
+
+    heights: Array  # heights [m], NaN at points without data, shape (rows, columns)
+    spacing_x: float  # distance between neighbouring points of a row [m]
+    spacing_y: float | None  # distance between neighbouring rows [m]; None for a single row
+    warnings: tuple[ResultWarning, ...] = ()  # warnings about the data in the file
+
 
 # Memory of each point while a map is read [bytes]: its height, and whether it is valid.
 _POINT = 10
@@ -150,18 +162,22 @@ _KINDS = {"D": "<f8", "F": "<f4", "L": "<i4", "I": "<i2"}
 def read_x3p(path: Path, content: bytes) -> HeightMap:
     """Read the height map in an X3P file (ISO 25178-72).
 
-    The file is a ZIP archive with main.xml, a binary block of heights and, optionally, a block that marks the
-    valid points. A height is Offset + Increment times the stored number, after the schema of openGPS. The
-    schema requires the increment for integers only. For floats the increment is 1 by default, and is applied
-    if the file contains one, as SurfaceTopography does. Each valid point is one bit, in the order of the
-    heights and with the lowest bit of a byte first.
+    The file is a ZIP archive with main.xml, which may be in a folder. The heights are in a binary block, or
+    in main.xml as a list. An optional block marks the valid points: each valid point is one bit, in the order of
+    the heights and with the lowest bit of a byte first. An empty item of a list is a point without data.
+
+    The height is Offset + Increment times the stored number if the stored numbers are integers, and Offset +
+    the stored number [m] if they are floats. The schema of openGPS, iso5436_2.xsd, defines the increment for
+    "incremental axis and integer data types". The library of openGPS, ``ConvertPointToCoord``, and x3ptools
+    add no increment to floats either. A warning names an increment of floats that is not 1.
 
     Returns heights and spacings [m]. Raises InputError if the file is broken, or has other data than heights
     over a regular grid.
     """
     try:
         archive = opened(content)
-        root = ElementTree.fromstring(member(archive, content, "main.xml", _MOST_XML))
+        main = _main_of(archive)
+        root = ElementTree.fromstring(member(archive, content, main, _most_xml(path, archive, main)))
     except InputError as error:
         raise error.under(str(path)) from None
     except BROKEN:
@@ -173,27 +189,103 @@ def read_x3p(path: Path, content: bytes) -> HeightMap:
     kind = np.dtype(_KINDS[_text(root, "CZ/DataType")])
     points = rows * columns
     _check_size(path, (rows, columns), kind.itemsize + _POINT)
-    data = _binary_block(path, archive, content, root, "PointDataLink", points * kind.itemsize)
-    assert data is not None
-    increment = _number(path, root, "CZ/Increment", None if kind.kind == "i" else 1.0)
-    if increment <= 0.0:
-        raise InputError(path, f"the increment of its heights is {increment:g}", takes="a positive one")
-    # NaN and infinite numbers become voids.
+    increment, unused = _increment(path, root, whole=kind.kind == "i")
+    items = root.findall(".//DataList/Datum")
+    if items and not _text(root, "PointDataLink"):
+        heights = _listed(path, items, columns, points)
+    else:
+        data = _binary_block(path, archive, content, root, "PointDataLink", points * kind.itemsize)
+        assert data is not None
+        # NaN and infinite numbers become voids.
+        with np.errstate(all="ignore"):
+            heights = np.frombuffer(data, kind).astype(float)
+        del data
     with np.errstate(all="ignore"):
         # In place: each copy of a large map takes as much memory again.
-        heights = np.frombuffer(data, kind).astype(float)
         heights *= increment
         heights += _number(path, root, "CZ/Offset", 0.0)
     heights[~np.isfinite(heights)] = np.nan
-    del data
     mask = _binary_block(path, archive, content, root, "ValidPointsLink", -(-points // 8))
     if mask is not None:
         bits = np.unpackbits(np.frombuffer(mask, np.uint8), count=points, bitorder="little")
         heights[bits == 0] = np.nan
     dx = _number(path, root, "CX/Increment", None)
+    if unused:
+        _check_floats(path, heights, abs(dx) * max(rows, columns), root)
     # A single row has no neighbour, even if the file states a distance between rows.
     dy = None if rows == 1 else _number(path, root, "CY/Increment", None)
-    return heights.reshape(rows, columns), dx, dy
+    return HeightMap(heights.reshape(rows, columns), dx, dy, unused)
+
+
+def _main_of(archive: zipfile.ZipFile) -> str:
+    """Name of the XML description in an archive, which may be in a folder. Raises KeyError without one."""
+    names = [name for name in archive.namelist() if _plain(name).rpartition("/")[2] == _MAIN]
+    if not names:
+        raise KeyError(_MAIN)
+    return min(names, key=lambda name: (_plain(name).count("/"), name))
+
+
+def _plain(name: str) -> str:
+    """Name of a member with slashes and small letters, without a dot or slash at its start."""
+    return name.replace("\\", "/").removeprefix("./").lstrip("/").lower()
+
+
+def _most_xml(path: Path, archive: zipfile.ZipFile, main: str) -> int:
+    """Largest size of the XML description that is read [bytes], as a list of heights may be in it.
+
+    Raises an InputError if the memory for a larger description is too small.
+    """
+    size = archive.getinfo(main).file_size
+    if size > _MOST_XML:
+        check_memory_for(path, size * _XML_COPIES, f"says it has {in_bytes(size)} of XML")
+    return _MOST_LIST
+
+
+def _increment(
+    path: Path, root: ElementTree.Element, *, whole: bool
+) -> tuple[float, tuple[ResultWarning, ...]]:
+    """Factor of the stored heights [m], and a warning about an increment that floats do not use."""
+    increment = _number(path, root, "CZ/Increment", None if whole else 1.0)
+    if increment <= 0.0:
+        raise InputError(path, f"the increment of its heights is {increment:g}", takes="a positive one")
+    if whole or increment == 1.0:
+        return increment, ()
+    return 1.0, (ResultWarning.of("increment-unused", file=path, increment=increment),)
+
+
+def _check_floats(path: Path, heights: Array, length: float, root: ElementTree.Element) -> None:
+    """Raise an InputError if heights as floats, whose increment is not used, are larger than the map [m]."""
+    there = np.isfinite(heights)
+    if not there.any() or float(np.ptp(heights[there])) <= length:
+        return
+    increment = shown(_text(root, "CZ/Increment"))
+    raise InputError(
+        path,
+        f"contains floats up to {np.max(np.abs(heights[there])):.3g} and an increment of {increment}, "
+        "which ISO 25178-72 defines for integers only",
+        takes="floats in metres, or integers with an increment",
+    )
+
+
+def _listed(path: Path, items: list[ElementTree.Element], columns: int, points: int) -> Array:
+    """Stored heights of a list, in its order; NaN for an empty item.
+
+    An item is the height, or column, row and height between semicolons.
+    """
+    if len(items) != points:
+        raise InputError(path, f"lists {len(items)} heights", takes=f"{points} for the size of the map")
+    heights = np.empty(points)
+    for place, item in enumerate(items):
+        text = (item.text or "").strip()
+        *position, height = text.split(";")
+        try:
+            if position and [float(each) for each in position] != [place % columns, place // columns]:
+                raise ValueError(text)
+            heights[place] = float(height) if text else np.nan
+        except ValueError:
+            takes = "a number, or column;row;number in the order of the rows"
+            raise InputError(path, f"item {place + 1} of its list is {shown(text)}", takes=takes) from None
+    return heights
 
 
 def _check_size(path: Path, shape: tuple[int, ...], each: int = 0) -> None:
@@ -260,8 +352,9 @@ def _binary_block(
     if not name and link == "ValidPointsLink":
         return None
     try:
-        held = archive.getinfo(name).file_size
-        data = member(archive, content, name, size) if held == size else b""
+        place = _place(archive, name)
+        held = archive.getinfo(place).file_size
+        data = member(archive, content, place, size) if held == size else b""
     except InputError as error:
         raise InputError(path, f"{shown(name)} {error.text}") from None
     except BROKEN:
@@ -269,6 +362,13 @@ def _binary_block(
     if held != size:
         raise InputError(path, f"{shown(name)} has {held} bytes", takes=f"{size} for the size of the map")
     return data
+
+
+def _place(archive: zipfile.ZipFile, link: str) -> str:
+    """Name of the member to which a link of the description refers, relative to the folder of main.xml."""
+    folder = _plain(_main_of(archive)).removesuffix(_MAIN)
+    names = {_plain(name): name for name in archive.namelist()}
+    return names.get(folder + _plain(link)) or names[_plain(link)]
 
 
 def read_al3d(path: Path, content: bytes) -> HeightMap:
@@ -306,7 +406,7 @@ def read_al3d(path: Path, content: bytes) -> HeightMap:
     with np.errstate(all="ignore"):
         heights = block[:, :columns].astype(float)
         heights[np.isclose(heights, void, rtol=1e-6, atol=0.0) | ~np.isfinite(heights)] = np.nan
-    return heights, dx, None if rows == 1 else dy
+    return HeightMap(heights, dx, None if rows == 1 else dy)
 
 
 def _al3d_tags(content: bytes) -> dict[str, str]:
@@ -344,11 +444,14 @@ FINEST, COARSEST = 1e-12, 1e-3
 _HIGHEST = 10.0
 
 
+# First bytes of a ZIP archive.
+_ZIP = b"PK\x03\x04"
+
 # First bytes of a workbook and a name in it: Excel since 2007, OpenDocument, and older Excel files
 # with the name in UTF-16.
 _WORKBOOKS = (
-    (b"PK\x03\x04", b"xl/workbook."),
-    (b"PK\x03\x04", b"opendocument.spreadsheet"),
+    (_ZIP, b"xl/workbook."),
+    (_ZIP, b"opendocument.spreadsheet"),
     (b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", "Workbook".encode("utf-16-le")),
 )
 
@@ -442,6 +545,7 @@ class Surface:
 
 def _checked(profile: Profile, source: str) -> Profile:
     """Return the profile; raise an error if its heights are not credible for a surface."""
+    _refuse_constant("line", profile.heights, source)
     slope = float(np.max(np.abs(np.diff(profile.heights)))) / profile.spacing
     if slope > STEEPEST:
         raise InputError(
@@ -456,6 +560,7 @@ def _checked(profile: Profile, source: str) -> Profile:
 def _checked_map(surface: Map, source: str) -> Map:
     """Return the map; raise an error if its heights are not credible for a surface."""
     z = surface.heights
+    _refuse_constant("map", z, source)
     slopes = [np.abs(np.diff(z, axis=0)) / surface.spacing_x, np.abs(np.diff(z, axis=1)) / surface.spacing_y]
     steep = max(float(np.mean(slope > STEEPEST)) for slope in slopes)
     if steep > _MOST_STEEP:
@@ -466,6 +571,13 @@ def _checked_map(surface: Map, source: str) -> Map:
         )
     _check_range("map", max(surface.length_x, surface.length_y), z, source, "its units")
     return surface
+
+
+def _refuse_constant(name: str, heights: Array, source: str) -> None:
+    """Raise an InputError if all heights of a line or map are equal, which is no measured surface."""
+    if np.ptp(heights) == 0.0:
+        got = f"is constant, all {heights.size} heights of the {name} are {heights.flat[0]:g} m"
+        raise InputError(source, got, takes="heights that differ; is this line or channel the right one?")
 
 
 def _check_range(name: str, length: float, heights: Array, source: str, units: str) -> None:
@@ -489,16 +601,31 @@ def read_surface(path: str | Path, *, x_unit: str | None = None, z_unit: str | N
     if any(content.startswith(magic) and mark in content for magic, mark in _WORKBOOKS):
         raise InputError(path, "is a workbook of a spreadsheet program; save the sheet as CSV")
     suffix = path.suffix.lower()
-    if suffix == ".x3p" or content.startswith(b"PK\x03\x04"):
+    if suffix == ".x3p" or _is_x3p(content):
         surface = _of_map(path, read_x3p(path, content), x_unit, z_unit)
     elif suffix == ".al3d" or content.startswith(b"AliconaImaging"):
         surface = _of_map(path, read_al3d(path, content), x_unit, z_unit)
-    elif is_text(content):
+    elif _is_text(content):
         surface = _of_text(path, content, x_unit, z_unit)
     else:
         surface = _of_map(path, _read_other(path), x_unit, z_unit)
     _check_scale(surface)
     return surface
+
+
+def _is_x3p(content: bytes) -> bool:
+    """Whether a content is a ZIP archive with an XML description. Other formats are also ZIP archives."""
+    if not content.startswith(_ZIP):
+        return False
+    try:
+        return bool(_main_of(opened(content)))
+    except BROKEN:
+        return False
+
+
+def _is_text(content: bytes) -> bool:
+    """Whether the whole content is text; some formats have binary heights after a head of text."""
+    return is_text(content) and (content[:2] in UTF_16 or b"\0" not in content)
 
 
 def _of_text(path: Path, content: bytes, x_unit: str | None, z_unit: str | None) -> Surface:
@@ -515,7 +642,7 @@ def _of_map(path: Path, heights: HeightMap, x_unit: str | None, z_unit: str | No
     for name, unit in (("x_unit", x_unit), ("z_unit", z_unit)):
         if unit is not None:
             raise InputError(name, got=f"{unit!r}, but {path} is in a format that has its own unit")
-    return Surface(*heights, str(path))
+    return Surface(heights.heights, heights.spacing_x, heights.spacing_y, str(path), heights.warnings)
 
 
 def _content(path: Path) -> bytes:
@@ -552,22 +679,25 @@ def _read_other(path: Path, otherwise: str = "is no text profile, X3P or AL3D") 
     ``otherwise`` says why the readers of this package do not read it.
     """
     try:
-        from SurfaceTopography import open_topography  # type: ignore[import-not-found]
+        from SurfaceTopography import open_topography  # type: ignore[import-not-found,import-untyped,unused-ignore]
     except ImportError:
         text = f"{otherwise}; other formats take the extra ehlectric[instruments]"
         raise InputError(path, text) from None
     try:
-        reader = open_topography(str(path))
-        # The sizes in the header are known before the heights are read.
-        _check_size(path, (math.prod(reader.channels[0].nb_grid_pts or ()),))
-        topography = reader.topography().to_unit("m")
-        heights: Array = np.ma.filled(np.ma.asarray(topography.heights(), dtype=float), np.nan)
-        spacing = np.atleast_1d(topography.pixel_size)
+        # Its readers divide by zero where a format does not fit.
+        with warnings.catch_warnings(), np.errstate(all="ignore"):
+            warnings.simplefilter("ignore")
+            reader = open_topography(str(path))
+            # The sizes in the header are known before the heights are read.
+            _check_size(path, (math.prod(reader.channels[0].nb_grid_pts or ()),))
+            topography = reader.topography().to_unit("m")
+            heights: Array = np.ma.filled(np.ma.asarray(topography.heights(), dtype=float), np.nan)
+            spacing = np.atleast_1d(topography.pixel_size)
     except (InputError, MemoryError):
         raise
     except Exception as error:  # the readers of forty formats raise exceptions of any kind
-        text = f"{otherwise}; it cannot be read by SurfaceTopography either, {str(error)[:80]}"
-        raise InputError(path, text) from None
+        why = "" if type(error).__name__ == "CannotDetectFileFormat" else f", {str(error)[:80]}"
+        raise InputError(path, f"{otherwise}; it cannot be read by SurfaceTopography either{why}") from None
     if heights.ndim == 1:
-        return heights[np.newaxis], float(spacing[0]), None
-    return heights.T, float(spacing[0]), float(spacing[1])
+        return HeightMap(heights[np.newaxis], float(spacing[0]), None)
+    return HeightMap(heights.T, float(spacing[0]), float(spacing[1]))
