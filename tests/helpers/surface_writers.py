@@ -77,8 +77,8 @@ def plux(path, heights, spacing):
     size = f"<IMAGE_SIZE_X>{columns}</IMAGE_SIZE_X><IMAGE_SIZE_Y>{rows}</IMAGE_SIZE_Y>"
     step = f"<FOV_X>{spacing * 1e6}</FOV_X><FOV_Y>{spacing * 1e6}</FOV_Y>"
     index = (
-        f"<xml><GENERAL><DATE>2001-01-01 10:00:00</DATE>{size}{step}</GENERAL><LAYER_0><FILENAME_Z>LAYER_0.raw"
-        "</FILENAME_Z></LAYER_0><INFO><ITEM_0><NAME>Device</NAME><VALUE>S</VALUE></ITEM_0></INFO></xml>"
+        f"<xml><GENERAL><DATE>2001-01-01 10:00:00</DATE>{size}{step}</GENERAL><LAYER_0><FILENAME_Z>"
+        "LAYER_0.raw</FILENAME_Z></LAYER_0><INFO><ITEM_0><NAME>Device</NAME><VALUE>S</VALUE></ITEM_0></INFO></xml>"
     )
     with zipfile.ZipFile(path, "w") as archive:
         archive.writestr("index.xml", index)
