@@ -164,7 +164,8 @@ def read_x3p(path: Path, content: bytes) -> HeightMap:
 
     The file is a ZIP archive with main.xml, which may be in a folder. The heights are in a binary block, or
     in main.xml as a list. An optional block marks the valid points: each valid point is one bit, in the
-    order of the heights and with the lowest bit of a byte first. An empty item of a list is a point without data.
+    order of the heights and with the lowest bit of a byte first. An empty item of a list is a point without
+    data.
 
     The height is Offset + Increment times the stored number if the stored numbers are integers, and Offset +
     the stored number [m] if they are floats. The schema of openGPS, iso5436_2.xsd, defines the increment for
