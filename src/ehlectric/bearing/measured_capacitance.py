@@ -476,6 +476,10 @@ def _row(
     yield from (("film_factor", factor), ("slope", slope), ("lambda_ratio", ratio))
 
 
+# Quantities of a row that are used.
+_USED = ("time", "speed", "temperature", "capacitance", "impedance", "phase", "frequency")
+
+
 def bearing_factors(
     case: BearingCase,
     measured: Measurement,
@@ -499,6 +503,7 @@ def bearing_factors(
     fitted = background is None
     background = case.bearing.parallel_capacitance if background is None else background
     rows, off = _changes(case, measured), background or 0.0
+    measured = measured.only(*_USED)
     targets = meter.value - off
     if not np.any(targets > 0.0):
         raise InputError(

@@ -49,6 +49,8 @@ class Measurable(Amount):
     # Usual standard uncertainty of a measured value, as a part of the value or in the SI unit; 0 if unknown.
     relative: float = 0.0
     absolute: float = 0.0
+    # Whether a column without a unit is ignored, as its numbers may be fractions or per cent.
+    spare: bool = False
 
 
 @dataclass(frozen=True)
@@ -188,6 +190,36 @@ def column_of(head: str, book: ColumnBook = MEASURED) -> Column | None:
     >>> column_of("remark") is None
     True
     """
+    read = _parts_of(head, book)
+    if read is None:
+        return None
+    if read.unit is None:
+        if not read.uncertain and book.columns[read.known].spare:
+            return None
+        usual = "%" if read.uncertain else book.columns[read.known].usual
+        raise InputError(
+            f"column {shown(read.text)}",
+            "has no unit",
+            takes=f"a unit in brackets, as '{read.name} [{usual}]'",
+        )
+    if read.uncertain:
+        return Column(read.known, read.text, read.unit, uncertainty=True, book=book)
+    return _checked(read.known, read.text, read.unit, book)
+
+
+@dataclass(frozen=True)
+class _Head:
+    """Head of a column with a known quantity."""
+
+    text: str
+    name: str  # without the unit, as it is written
+    unit: str | None
+    known: str  # name of the quantity in its book; "" of an uncertainty without one
+    uncertain: bool
+
+
+def _parts_of(head: str, book: ColumnBook) -> _Head | None:
+    """Name and unit of a head; None for an unknown quantity."""
     text = " ".join(head[: _LONGEST + 1].strip().strip("\"'").split())
     if len(text) > _LONGEST:
         return None
@@ -197,15 +229,7 @@ def column_of(head: str, book: ColumnBook = MEASURED) -> Column | None:
     words = bare.replace(_UNCERTAINTY + " of", "").replace(_UNCERTAINTY, "").strip()
     if words not in book.names and not (uncertain and not words):
         return None
-    known = book.names.get(words, "")
-    if unit is None:
-        usual = "%" if uncertain else book.columns[known].usual
-        raise InputError(
-            f"column {shown(text)}", "has no unit", takes=f"a unit in brackets, as '{name} [{usual}]'"
-        )
-    if uncertain:
-        return Column(known, text, unit, uncertainty=True, book=book)
-    return _checked(known, text, unit, book)
+    return _Head(text, name, unit, book.names.get(words, ""), uncertain)
 
 
 # Quantities that a speed may be, whose unit is a unit of a velocity.
@@ -350,6 +374,16 @@ class Measurement:
         """Number of rows."""
         return len(self.lines)
 
+    def only(self, *names: str) -> Measurement:
+        """Measurement whose other quantities are ignored columns."""
+        spare = tuple(self.heads[name] for name in self.values if name not in names)
+        values, uncertain = (
+            {name: column for name, column in of.items() if name in names}
+            for of in (self.values, self.uncertainties)
+        )
+        ignored = (*self.ignored, *spare)
+        return replace(self, values=values, uncertainties=uncertain, ignored=ignored)
+
     def has(self, *names: str) -> bool:
         """Whether the measurement has all of some quantities."""
         return all(name in self.values for name in names)
@@ -361,6 +395,8 @@ class _Rows:
     cells: Sequence[Sequence[str]]
     lines: tuple[int, ...]
     dialect: Dialect
+    units: Mapping[int, Sequence[str]]  # units of the cells of known columns by their place
+    skipped: tuple[str, ...] = ()  # names of tables that are not used
 
 
 def read_measurement(measured: str | Path | pd.DataFrame, book: ColumnBook = MEASURED) -> Measurement:
@@ -381,21 +417,47 @@ def read_measurement(measured: str | Path | pd.DataFrame, book: ColumnBook = MEA
     (2, array([2.6e-10, 1.9e-10]))
     """
     if hasattr(measured, "columns") and hasattr(measured, "itertuples"):
-        source, rows = "table", _of_table(measured)
+        source, rows = "table", _of_table(measured, book)
     else:
         path = Path(measured)
         source, rows = str(path), _of_text(path, decoded(path, read_bytes(path, most=MOST_MEASURED)), book)
-    columns, ignored = _columns(source, rows.heads, book)
+    columns, ignored, twins = _columns(source, rows.heads, book)
     if len(rows.cells) > book.most_rows:
         takes = f"at most {book.most_rows}; average them"
         raise InputError(source, f"has more than {book.most_rows} rows", takes=takes)
     rows, void = _without_void(source, rows, columns, book)
     numbers = {place: _values(source, rows, place, column) for place, column in columns.items()}
+    _check_twins(source, rows, columns, numbers, twins)
+    columns = {place: column for place, column in columns.items() if place not in twins}
+    numbers = {place: numbers[place] for place in columns}
     values = {columns[place].name: numbers[place] for place in numbers if not columns[place].uncertainty}
     uncertain = {place: numbers[place] for place in numbers if columns[place].uncertainty}
     uncertainties = _uncertainties(source, columns, uncertain, values)
     known = {columns[place].name: columns[place].head for place in numbers if not columns[place].uncertainty}
+    ignored = (*ignored, *(rows.heads[place] for place in twins), *rows.skipped)
     return Measurement(source, rows.lines, values, uncertainties, ignored, void, known)
+
+
+# Largest relative difference of two columns with one head, as of the speed that a rig was set to and had.
+_ALIKE = 0.01
+
+
+def _check_twins(
+    source: str,
+    rows: _Rows,
+    columns: Mapping[int, Column],
+    numbers: Mapping[int, Array],
+    twins: Mapping[int, int],
+) -> None:
+    """Refuse columns with one head and different values; ``twins``, place of the first by the second."""
+    for second, first in twins.items():
+        one, other = numbers[first], numbers[second]
+        wrong = np.flatnonzero(np.abs(one - other) > _ALIKE * np.abs(one))
+        if wrong.size:
+            row = int(wrong[0])
+            got = f"has two columns {shown(columns[first].head)}, and line {rows.lines[row]} has "
+            got += f"{shown(rows.cells[row][first])} and {shown(rows.cells[row][second])}"
+            raise InputError(source, got, takes="one of the two")
 
 
 def _without_void(
@@ -418,7 +480,11 @@ def _without_void(
     cells = [row for row, whole in zip(rows.cells, kept, strict=True) if whole]
     lines = tuple(line for line, whole in zip(rows.lines, kept, strict=True) if whole)
     void = tuple(line for line, whole in zip(rows.lines, kept, strict=True) if not whole)
-    return replace(rows, cells=cells, lines=lines), void
+    used = {
+        place: [unit for unit, whole in zip(column, kept, strict=True) if whole]
+        for place, column in rows.units.items()
+    }
+    return replace(rows, cells=cells, lines=lines, units=used), void
 
 
 def void_rows(measured: Measurement) -> Iterator[ResultWarning]:
@@ -430,29 +496,191 @@ def void_rows(measured: Measurement) -> Iterator[ResultWarning]:
         )
 
 
-def _of_table(table: pd.DataFrame) -> _Rows:
+def _of_table(table: pd.DataFrame, book: ColumnBook) -> _Rows:
     heads = [str(name) for name in table.columns]
-    cells = [[str(cell) for cell in row] for row in table.itertuples(index=False, name=None)]
-    return _Rows(heads, cells, tuple(range(1, len(cells) + 1)), Dialect(None))
+    cells = [[str(cell).strip() for cell in row] for row in table.itertuples(index=False, name=None)]
+    if cells:
+        heads = _merged(heads, cells[0], Dialect(None), book)[0]
+    whole = _Table(0, heads, list(enumerate(cells, 1)))
+    own = {place: [column.unit] * len(cells) for place, column in _columns("table", heads, book)[0].items()}
+    return _with_units("table", whole, own, Dialect(None))
+
+
+@dataclass
+class _Table:
+    """Heads of a table in a file, and its rows with the numbers of their lines."""
+
+    line: int  # line of the heads, from 1
+    heads: list[str]
+    rows: list[tuple[int, list[str]]]
 
 
 def _of_text(path: Path, text: str, book: ColumnBook) -> _Rows:
-    """Heads and rows of a text; the heads may be in a line of comment above the numbers."""
+    """Heads and rows of a text; the heads may be in a line of comment above the numbers.
+
+    Tables below each other, as of the steps of a rig, are one table if their known columns are the same.
+    """
     lines = text.removesuffix("\n").split("\n")
+    tables, dialect = _tables_of(path, lines, book)
+    first, *others = tables
+    columns = _columns(str(path), first.heads, book)[0]
+    measures = _measures(columns)
+    places: list[int] = [*columns]
+    rows, skipped = list(first.rows), []
+    own = {place: [column.unit] * len(rows) for place, column in columns.items()}
+    for table in others:
+        known = _columns(str(path), table.heads, book)[0]
+        same = {_key(column): place for place, column in known.items()}
+        if measures and not _measures(known):
+            skipped.append(f"the table below line {table.line}")
+            continue
+        if set(same) != {_key(column) for column in columns.values()}:
+            got = f"has tables with different columns, below line {first.line} and line {table.line}"
+            raise InputError(path, got, takes="one table, or tables with one set of columns")
+        for place in places:
+            own[place] += [known[same[_key(columns[place])]].unit] * len(table.rows)
+        for number, row in table.rows:
+            cells = [""] * len(first.heads)
+            for place in places:
+                cells[place] = row[same[_key(columns[place])]]
+            rows.append((number, cells))
+    return _with_units(path, _Table(first.line, first.heads, rows), own, dialect, tuple(skipped))
+
+
+# Quantities that a film factor explains.
+_MEASURED = ("film", "capacitance", "impedance")
+
+
+def _measures(columns: Mapping[int, Column]) -> bool:
+    return any(column.name in _MEASURED and not column.uncertainty for column in columns.values())
+
+
+# Number with a unit in a cell, such as "123.4 pF".
+_CELL = re.compile(r"([-+]?[\d.,]*\d[\d.,]*(?:[eE][-+]?\d+)?)\s*+([^\W\d_].*|[%°Ω∞].*)")
+
+
+def _split(cell: str) -> tuple[str, str]:
+    """Number of a cell and its unit, "" without one.
+
+    Examples
+    --------
+    >>> _split("123.4 pF"), _split("-89.5°"), _split("1e-10"), _split("abc")
+    (('123.4', 'pF'), ('-89.5', '°'), ('1e-10', ''), ('abc', ''))
+    """
+    if not cell or cell[-1].isdigit():
+        return cell, ""
+    match = _CELL.fullmatch(cell)
+    return (cell, "") if match is None else (match[1], match[2])
+
+
+def _with_units(
+    path: object,
+    table: _Table,
+    own: Mapping[int, Sequence[str]],
+    dialect: Dialect,
+    skipped: tuple[str, ...] = (),
+) -> _Rows:
+    """Rows of a table whose cells may contain units; ``own``, units of the heads by place and row."""
+    cells = [row for _, row in table.rows]
+    numbers = tuple(number for number, _ in table.rows)
+    given: dict[int, Sequence[str]] = {}
+    for place, of_heads in own.items():
+        pairs = [_split(row[place]) for row in cells]
+        for row, (number, _) in zip(cells, pairs, strict=True):
+            row[place] = number
+        given[place] = [unit or head for (_, unit), head in zip(pairs, of_heads, strict=True)]
+        if table.heads[place].startswith(_FROM_CELLS):
+            bare = [k for k, (cell, unit) in enumerate(pairs) if not unit and not is_void(cell)]
+            if bare:
+                got = f"line {numbers[bare[0]]}: got {shown(cells[bare[0]][place])} without a unit"
+                raise InputError(path, got, takes="a unit in the head of the column, or in each of its cells")
+    heads = [head.removeprefix(_FROM_CELLS) for head in table.heads]
+    if dialect.separator is not None:
+        mark = decimal_mark(path, zip(numbers, cells, strict=True), dialect.separator)
+        dialect = replace(dialect, decimal=mark)
+    return _Rows(heads, cells, numbers, dialect, given, skipped=skipped)
+
+
+# Mark of a head whose unit is from the cells below it.
+_FROM_CELLS = "\x1f"
+
+
+def _tables_of(path: Path, lines: list[str], book: ColumnBook) -> tuple[list[_Table], Dialect]:
+    """Tables of a text, one or more below each other, and their dialect."""
     heads, first, dialect = _heads(path, lines, book)
-    rows: list[tuple[int, list[str]]] = []
+    table = _Table(first, heads, [])
+    tables, title = [table], ""
+    count = 0
     for number, row in dialect.records(path, lines, first):
         if not any(row) or row[0].startswith("#"):
             continue
-        if len(row) != len(heads):
-            raise InputError(
-                path, f"line {number} has {len(row)} columns", takes=f"{len(heads)} as in its headings"
-            )
-        rows.append((number, row))
-        if len(rows) > book.most_rows:
-            break
-    dialect = replace(dialect, decimal=decimal_mark(path, rows, dialect.separator))
-    return _Rows(heads, [row for _, row in rows], tuple(number for number, _ in rows), dialect)
+        if _is_heads(row, dialect, book):
+            table = _Table(number, row, [])
+            tables.append(table)
+            title = ""
+        elif title or _is_title(row, table.heads, dialect, book):
+            if any(_split(cell)[1] or dialect.number(cell) is not None for cell in row) and title:
+                got = f"line {number} has numbers below {shown(title)}"
+                raise InputError(path, got, takes="a line of headings below each title")
+            title = title or " ".join(filter(None, row))[:60]
+        else:
+            table.rows.append((number, _fitted(path, number, row, table.heads)))
+            count += 1
+            if count > book.most_rows:
+                break
+    for each in tables:
+        if each.rows:
+            each.heads, units_below = _merged(each.heads, each.rows[0][1], dialect, book)
+            each.rows = each.rows[1:] if units_below else each.rows
+    return [each for each in tables if each.rows] or tables[:1], dialect
+
+
+def _is_heads(row: Sequence[str], dialect: Dialect, book: ColumnBook) -> bool:
+    """Whether a row contains heads: at least one of them is known, and none is a number."""
+    if any(cell[:1].isdigit() or dialect.number(cell) is not None for cell in row):
+        return False
+    return any(_parts_of(cell, book) is not None for cell in row if cell)
+
+
+def _is_title(row: Sequence[str], heads: Sequence[str], dialect: Dialect, book: ColumnBook) -> bool:
+    """Whether a row is a text between two tables, as the name of a step."""
+    text, *others = row
+    if not text or any(others) or len(heads) == 1 or is_void(text):
+        return False
+    known = len(row) < len(heads) or _parts_of(heads[0], book) is not None
+    return known and dialect.number(_split(text)[0]) is None
+
+
+def _fitted(path: Path, number: int, row: list[str], heads: Sequence[str]) -> list[str]:
+    """Cells of a row below all heads; empty cells without a head, at the end of the line, do not count."""
+    more = row[len(heads) :]
+    less = heads[len(row) :]
+    if any(more) or any(less):
+        raise InputError(
+            path, f"line {number} has {len(row)} columns", takes=f"{len(heads)} as in its headings"
+        )
+    return [*row[: len(heads)], *less]
+
+
+def _merged(
+    heads: Sequence[str], row: Sequence[str], dialect: Dialect, book: ColumnBook
+) -> tuple[list[str], bool]:
+    """Heads, which get their units from the row below them if they contain none: a row of units, or cells
+    with units. Also returns whether the row contains units only.
+    """
+    merged, used = list(heads), False
+    lacking = {place: part for place, head in enumerate(heads) if (part := _parts_of(head, book)) is not None}
+    lacking = {place: part for place, part in lacking.items() if part.unit is None and place < len(row)}
+    of_units = not any(_split(cell)[1] or dialect.number(cell) is not None for cell in row)
+    for place, part in lacking.items():
+        unit = row[place].strip("[]() ") if of_units else _split(row[place])[1]
+        try:
+            known = column_of(f"{part.name} [{unit}]", book) if unit else None
+        except InputError:
+            continue
+        if known is not None:
+            merged[place], used = f"{'' if of_units else _FROM_CELLS}{part.name} [{unit}]", True
+    return merged, used and of_units
 
 
 def _heads(path: Path, lines: list[str], book: ColumnBook) -> tuple[list[str], int, Dialect]:
@@ -463,13 +691,15 @@ def _heads(path: Path, lines: list[str], book: ColumnBook) -> tuple[list[str], i
         text = uncommented(record)
         dialect = Dialect.of_heads(text)
         heads = dialect.fields(text)
+        if len(heads) > 1 and any(dialect.number(head) is not None for head in heads[:_MOST_COLUMNS]):
+            # The name of a quantity with its value, as above the table of a rig.
+            continue
         known = 0
-        for head in heads[:_MOST_COLUMNS]:
-            try:
-                known += column_of(head, book) is not None
-            except InputError as error:
-                # A sentence above the heads may be the name of a quantity, too: it has no unit.
-                wrong = wrong or error
+        try:
+            known = _number_known(heads, lines, below, dialect, book)
+        except InputError as error:
+            # A sentence above the heads may be the name of a quantity, too: it has no unit.
+            wrong = wrong or error
         if known:
             if len(heads) > _MOST_COLUMNS:
                 raise InputError(path, f"has {len(heads)} columns", takes=f"at most {_MOST_COLUMNS}")
@@ -479,27 +709,49 @@ def _heads(path: Path, lines: list[str], book: ColumnBook) -> tuple[list[str], i
     raise InputError(path, "has no headings of known columns", takes=f"headings such as {book.examples}")
 
 
+def _number_known(
+    heads: Sequence[str], lines: Sequence[str], below: int, dialect: Dialect, book: ColumnBook
+) -> int:
+    """Number of heads of known columns with a unit, which may be in the line below. Raises InputError if
+    there is none, and a known column has no unit or a wrong one.
+    """
+    next_row = next((dialect.fields(line) for line in lines[below : below + 3] if line.strip()), [])
+    known, wrong = 0, None
+    for head in _merged(heads[:_MOST_COLUMNS], next_row, dialect, book)[0]:
+        try:
+            known += column_of(head.removeprefix(_FROM_CELLS), book) is not None
+        except InputError as error:
+            wrong = wrong or error
+    if wrong is not None and not known:
+        raise wrong
+    return known
+
+
 def _columns(
     source: str, heads: Sequence[str], book: ColumnBook
-) -> tuple[dict[int, Column], tuple[str, ...]]:
-    """Known columns by their place, and heads of the others. If a speed of the shaft is known, the
-    speed of the vehicle is ignored.
+) -> tuple[dict[int, Column], tuple[str, ...], dict[int, int]]:
+    """Known columns by their place, heads of the others, and columns with the head of another column: the
+    place of the first by the place of the second. If a speed of the shaft is known, the speed of the vehicle
+    is ignored.
     """
     columns: dict[int, Column] = {}
-    ignored = []
+    ignored: list[str] = []
+    twins: dict[int, int] = {}
     for place, head in enumerate(heads):
         try:
-            column = column_of(head, book)
+            column = column_of(head.removeprefix(_FROM_CELLS), book)
         except InputError as error:
             raise InputError(source, str(error)) from None
         if column is None:
             ignored.append(printable(head[:60]))
             continue
-        same = [other for other in columns.values() if _key(other) == _key(column)]
-        if same:
+        same = [(at, other) for at, other in columns.items() if _key(other) == _key(column)]
+        if same and same[0][1].head == column.head:
+            twins[place] = same[0][0]
+        elif same:
             raise InputError(
                 source,
-                f"has the columns {shown(same[0].head)} and {shown(column.head)}",
+                f"has the columns {shown(same[0][1].head)} and {shown(column.head)}",
                 takes="one of the two",
             )
         columns[place] = column
@@ -511,7 +763,7 @@ def _columns(
         raise InputError(
             source, "has no headings of known columns", takes=f"headings such as {book.examples}"
         )
-    return columns, tuple(head for head in ignored if head)
+    return columns, tuple(head for head in ignored if head), twins
 
 
 def _key(column: Column) -> tuple[str, bool]:
@@ -520,10 +772,18 @@ def _key(column: Column) -> tuple[str, bool]:
 
 def _values(source: str, rows: _Rows, place: int, column: Column) -> Array:
     """Values of a column in SI units, shape (n,)."""
-    _refuse_grouped(source, [row[place] for row in rows.cells if rows.dialect.decimal in row[place]], column)
+    own = rows.units.get(place, [column.unit] * len(rows.cells))
+    kinds = {unit: replace(column, unit=unit) for unit in dict.fromkeys(own)}
+    for unit, kind in kinds.items():
+        marked = [
+            row[place]
+            for row, each in zip(rows.cells, own, strict=True)
+            if each == unit and rows.dialect.decimal in row[place]
+        ]
+        _refuse_grouped(source, marked, kind)
     values = np.empty(len(rows.cells))
     for k, (row, line) in enumerate(zip(rows.cells, rows.lines, strict=True)):
-        cell = row[place]
+        cell, kind = row[place], kinds[own[k]]
         if column.name in column.book.gaps and is_void(cell):
             values[k] = math.nan
             continue
@@ -532,11 +792,13 @@ def _values(source: str, rows: _Rows, place: int, column: Column) -> Array:
             # A relative uncertainty has no quantity of its own; others are converted with the quantity of the
             # value.
             later = column.uncertainty and column.unit != "%"
-            values[k] = number if later else column.value(number)
+            if column.uncertainty and kind.unit != column.unit:
+                raise ValueError(f"the unit {column.unit} of the column")
+            values[k] = number if later else kind.value(number)
         except ValueError as error:
-            raise InputError(
-                source, f"line {line}, {column.head}: got {shown(cell)}", takes=str(error)
-            ) from None
+            got = f"line {line}, {column.head}: got {shown(cell)}"
+            got += f" {kind.unit}" if kind.unit != column.unit else ""
+            raise InputError(source, got, takes=str(error)) from None
     return values
 
 

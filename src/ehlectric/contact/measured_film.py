@@ -43,6 +43,9 @@ _FORMULA_ERROR = 0.4
 # Number of films that are solved: three, one more for each further ratio of the film, and at most seven.
 _LEAST, _RATIO, _MOST = 3, 1.8, 7
 
+# Quantities of a row that the film of a contact depends on, or that describe the row.
+_USED = ("time", "entrainment_speed", "film", "temperature", "slide_to_roll_ratio")
+
 # Largest number of different speeds.
 MOST_POINTS = 5000
 
@@ -86,6 +89,7 @@ def contact_factors(
         raise InputError(
             f"{measured.source}: speed", got="a rotational speed", takes="a column 'entrainment speed [m/s]'"
         )
+    measured = measured.only(*_USED, *(("load",) if case.contact.geometry == "point" else ()))
     smooth = case.model_copy(update={"roughness": ()})
     rows = _changes(smooth, measured)
     formula = _formula_films(smooth, rows, measured)
@@ -100,21 +104,20 @@ def contact_factors(
 
 
 def _changes(case: Case, measured: Measurement) -> tuple[Mapping[str, Any], ...]:
-    """Changes of the case that make each row; the slide-to-roll ratio of the case stays."""
+    """Changes of the case that make each row; without a column, the slide-to-roll ratio of the case holds."""
     conditions = KINDS[case.contact.geometry].resolve(case)
     speeds = measured.values.get("entrainment_speed", np.full(measured.size, conditions.entrainment_speed))
-    warm = measured.values.get("temperature", np.zeros(measured.size))
-    different = len(set(zip(speeds.tolist(), warm.tolist(), strict=True)))
+    keys = {"contact.entrainment_speed": speeds}
+    keys["contact.slide_to_roll_ratio"] = np.full(measured.size, conditions.slide_to_roll_ratio)
+    of_columns = {f"contact.{name}": name for name in ("temperature", "load", "slide_to_roll_ratio")}
+    keys |= {key: measured.values[name] for key, name in of_columns.items() if measured.has(name)}
+    different = len(set(zip(*(values.tolist() for values in keys.values()), strict=True)))
     if different > MOST_POINTS:
         raise InputError(
             measured.source,
-            f"has {different} different speeds and temperatures",
+            f"has {different} different {', '.join(key.partition('.')[2] for key in keys)}".replace("_", " "),
             takes=f"at most {MOST_POINTS}; average neighbouring rows",
         )
-    keys = {"contact.entrainment_speed": speeds}
-    keys["contact.slide_to_roll_ratio"] = np.full(measured.size, conditions.slide_to_roll_ratio)
-    if measured.has("temperature"):
-        keys["contact.temperature"] = warm
     columns = (values.tolist() for values in keys.values())
     return tuple(dict(zip(keys, row, strict=True)) for row in zip(*columns, strict=True))
 
