@@ -451,8 +451,8 @@ def _check_twins(
 ) -> None:
     """Refuse columns with one head and different values; ``twins``, place of the first by the second."""
     for second, first in twins.items():
-        one, other = numbers[first], numbers[second]
-        wrong = np.flatnonzero(np.abs(one - other) > _ALIKE * np.abs(one))
+        earlier, later = numbers[first], numbers[second]
+        wrong = np.flatnonzero(np.abs(earlier - later) > _ALIKE * np.abs(earlier))
         if wrong.size:
             row = int(wrong[0])
             got = f"has two columns {shown(columns[first].head)}, and line {rows.lines[row]} has "
@@ -502,8 +502,10 @@ def _of_table(table: pd.DataFrame, book: ColumnBook) -> _Rows:
     if cells:
         heads = _merged(heads, cells[0], Dialect(None), book)[0]
     whole = _Table(0, heads, list(enumerate(cells, 1)))
-    own = {place: [column.unit] * len(cells) for place, column in _columns("table", heads, book)[0].items()}
-    return _with_units("table", whole, own, Dialect(None))
+    written = {
+        place: [column.unit] * len(cells) for place, column in _columns("table", heads, book)[0].items()
+    }
+    return _with_units("table", whole, written, Dialect(None))
 
 
 @dataclass
@@ -518,33 +520,40 @@ class _Table:
 def _of_text(path: Path, text: str, book: ColumnBook) -> _Rows:
     """Heads and rows of a text; the heads may be in a line of comment above the numbers.
 
-    Tables below each other, as of the steps of a rig, are one table if their known columns are the same.
+    Tables below each other, as of the steps of a rig, are one table if all contain one set of known columns.
     """
     lines = text.removesuffix("\n").split("\n")
     tables, dialect = _tables_of(path, lines, book)
     first, *others = tables
-    columns = _columns(str(path), first.heads, book)[0]
-    measures = _measures(columns)
-    places: list[int] = [*columns]
+    columns, _, twins = _columns(str(path), first.heads, book)
+    measures, numbered = _measures(columns), _numbered(columns, twins)
     rows, skipped = list(first.rows), []
-    own = {place: [column.unit] * len(rows) for place, column in columns.items()}
+    written = {place: [column.unit] * len(rows) for place, column in columns.items()}
     for table in others:
-        known = _columns(str(path), table.heads, book)[0]
-        same = {_key(column): place for place, column in known.items()}
+        known, _, twins = _columns(str(path), table.heads, book)
+        same = {key: place for place, key in _numbered(known, twins).items()}
         if measures and not _measures(known):
             skipped.append(f"the table below line {table.line}")
             continue
-        if set(same) != {_key(column) for column in columns.values()}:
+        if set(same) != set(numbered.values()):
             got = f"has tables with different columns, below line {first.line} and line {table.line}"
             raise InputError(path, got, takes="one table, or tables with one set of columns")
-        for place in places:
-            own[place] += [known[same[_key(columns[place])]].unit] * len(table.rows)
+        for place, key in numbered.items():
+            written[place] += [known[same[key]].unit] * len(table.rows)
         for number, row in table.rows:
             cells = [""] * len(first.heads)
-            for place in places:
-                cells[place] = row[same[_key(columns[place])]]
+            for place, key in numbered.items():
+                cells[place] = row[same[key]]
             rows.append((number, cells))
-    return _with_units(path, _Table(first.line, first.heads, rows), own, dialect, tuple(skipped))
+    return _with_units(path, _Table(first.line, first.heads, rows), written, dialect, tuple(skipped))
+
+
+def _numbered(columns: Mapping[int, Column], twins: Mapping[int, int]) -> dict[int, tuple[str, bool, int]]:
+    """Keys of columns by their place, with a number for the columns that have the head of another one."""
+    order = {
+        place: list(twins.values())[:k].count(first) + 1 for k, (place, first) in enumerate(twins.items())
+    }
+    return {place: (*_key(column), order.get(place, 0)) for place, column in columns.items()}
 
 
 # Quantities that a film factor explains.
@@ -576,15 +585,15 @@ def _split(cell: str) -> tuple[str, str]:
 def _with_units(
     path: object,
     table: _Table,
-    own: Mapping[int, Sequence[str]],
+    written: Mapping[int, Sequence[str]],
     dialect: Dialect,
     skipped: tuple[str, ...] = (),
 ) -> _Rows:
-    """Rows of a table whose cells may contain units; ``own``, units of the heads by place and row."""
+    """Rows of a table whose cells may contain units; ``written``, units of the heads by place and row."""
     cells = [row for _, row in table.rows]
     numbers = tuple(number for number, _ in table.rows)
     given: dict[int, Sequence[str]] = {}
-    for place, of_heads in own.items():
+    for place, of_heads in written.items():
         pairs = [_split(row[place]) for row in cells]
         for row, (number, _) in zip(cells, pairs, strict=True):
             row[place] = number
@@ -730,9 +739,8 @@ def _number_known(
 def _columns(
     source: str, heads: Sequence[str], book: ColumnBook
 ) -> tuple[dict[int, Column], tuple[str, ...], dict[int, int]]:
-    """Known columns by their place, heads of the others, and columns with the head of another column: the
-    place of the first by the place of the second. If a speed of the shaft is known, the speed of the vehicle
-    is ignored.
+    """Known columns by their place, heads of the others, and repeated columns: place of the first by the
+    place of the second. If a speed of the shaft is known, the vehicle speed is ignored.
     """
     columns: dict[int, Column] = {}
     ignored: list[str] = []
@@ -772,18 +780,11 @@ def _key(column: Column) -> tuple[str, bool]:
 
 def _values(source: str, rows: _Rows, place: int, column: Column) -> Array:
     """Values of a column in SI units, shape (n,)."""
-    own = rows.units.get(place, [column.unit] * len(rows.cells))
-    kinds = {unit: replace(column, unit=unit) for unit in dict.fromkeys(own)}
-    for unit, kind in kinds.items():
-        marked = [
-            row[place]
-            for row, each in zip(rows.cells, own, strict=True)
-            if each == unit and rows.dialect.decimal in row[place]
-        ]
-        _refuse_grouped(source, marked, kind)
+    written = rows.units.get(place, [column.unit] * len(rows.cells))
+    kinds = {unit: replace(column, unit=unit) for unit in dict.fromkeys(written)}
     values = np.empty(len(rows.cells))
     for k, (row, line) in enumerate(zip(rows.cells, rows.lines, strict=True)):
-        cell, kind = row[place], kinds[own[k]]
+        cell, kind = row[place], kinds[written[k]]
         if column.name in column.book.gaps and is_void(cell):
             values[k] = math.nan
             continue
@@ -799,6 +800,13 @@ def _values(source: str, rows: _Rows, place: int, column: Column) -> Array:
             got = f"line {line}, {column.head}: got {shown(cell)}"
             got += f" {kind.unit}" if kind.unit != column.unit else ""
             raise InputError(source, got, takes=str(error)) from None
+    for unit, kind in kinds.items():
+        marked = [
+            row[place]
+            for row, each in zip(rows.cells, written, strict=True)
+            if each == unit and rows.dialect.decimal in row[place]
+        ]
+        _refuse_grouped(source, marked, kind)
     return values
 
 
