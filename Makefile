@@ -58,7 +58,7 @@ $(VENV)/.dev: $(BIN)/python pyproject.toml requirements.lock
 	@touch $@
 
 $(VENV)/.docs: $(BIN)/python pyproject.toml requirements.lock
-	$(BIN)/python -m pip install --quiet --editable ".[docs,app,parquet,excel,calibration,cluster]"
+	$(BIN)/python -m pip install --quiet --editable ".[docs,app,parquet,excel,calibration,scopes,cluster]"
 	@touch $@
 
 # All extras in one step, in place of one step for each command below. Python compiles what is used at its first use.
@@ -194,8 +194,8 @@ bench-public: $(VENV)/.dev
 	$(BIN)/python benchmarks/public_solvers.py
 
 lock:
-	uv pip compile pyproject.toml --extra dev --extra docs --extra instruments --extra parquet --extra cluster --extra calibration --extra app --universal --python-version 3.11 --no-header --quiet --output-file requirements.lock
-	uv pip compile pyproject.toml packaging/build.in --extra app --extra excel --extra parquet --extra cluster --extra calibration --universal --python-version 3.11 --no-header --quiet --constraint requirements.lock --generate-hashes --output-file requirements.hashes
+	uv pip compile pyproject.toml --extra dev --extra docs --extra instruments --extra parquet --extra cluster --extra calibration --extra scopes --extra app --universal --python-version 3.11 --no-header --quiet --output-file requirements.lock
+	uv pip compile pyproject.toml packaging/build.in --extra app --extra excel --extra parquet --extra cluster --extra calibration --extra scopes --universal --python-version 3.11 --no-header --quiet --constraint requirements.lock --generate-hashes --output-file requirements.hashes
 
 # PDF of the paper on the software, by pandoc and typst from the registry.
 paper: $(VENV)/.dev

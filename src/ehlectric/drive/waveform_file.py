@@ -14,6 +14,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.drive.waveform import Waveform
+from ehlectric.drive.waveform_binaries import READERS, read_binary
 from ehlectric.drive.waveform_choice import Choice, Keys, choice_of
 from ehlectric.drive.waveform_heads import Labels, labels_of
 from ehlectric.drive.waveform_quality import quality_warnings
@@ -23,6 +24,8 @@ from ehlectric.drive.waveform_times import timing
 from ehlectric.errors import InputError
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable
+from ehlectric.runtime.file_kinds import PEEKED, kind_of
+from ehlectric.runtime.reading import regular
 from ehlectric.runtime.sizes import check_memory_for
 from ehlectric.runtime.text_table import Layout, layout_of, text_blocks
 
@@ -69,7 +72,8 @@ def read_waveform(
     path = Path(path)
     keys = Keys(column, time_column, step, time_unit, value_unit, scale)
     keys.check()
-    labels, choice, read = _of_text(path, keys)
+    kind = _binary_kind(path)
+    labels, choice, read = _of_text(path, keys) if kind is None else read_binary(path, kind, keys)
     if read.values.size < LEAST_SAMPLES:
         raise InputError(path, f"has {read.values.size} samples", takes=f"at least {LEAST_SAMPLES}")
     start, interval, gaps = timing(path, read, choice, step)
@@ -78,6 +82,13 @@ def read_waveform(
     waveform = Waveform(start, interval, _volts(path, read.values, choice, scale))
     warnings = (*_of_reading(path, labels, choice, read.values.size), *gaps)
     return waveform, (*warnings, *quality_warnings(str(path), waveform))
+
+
+def _binary_kind(path: Path) -> str | None:
+    """Kind of a binary file that a library reads; None for text, whose reader names all other kinds."""
+    with regular(path) as file:
+        kind = kind_of(file.read(PEEKED))
+    return kind if kind in READERS else None
 
 
 def _of_text(path: Path, keys: Keys) -> tuple[Labels, Choice, Samples]:

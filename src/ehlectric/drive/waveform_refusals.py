@@ -57,13 +57,14 @@ def refuse_stated(path: Path, labels: Labels) -> None:
     """Refuse a file that states several segments, or an envelope."""
     for stated in labels.of("segments"):
         if stated.number is not None and stated.number > 1:
-            raise _segments(path, int(stated.number), f"as line {stated.line} states ({shown(stated.text)})")
+            raise segments(path, int(stated.number), f"as line {stated.line} states ({shown(stated.text)})")
     for stated in labels.of("format"):
         if stated.values[0].lower().startswith(_ENVELOPES):
             raise InputError(path, envelope(f"as line {stated.line} states ({shown(stated.text)})"))
 
 
-def _segments(path: Path, count: int, where: str) -> InputError:
+def segments(path: Path, count: int, where: str) -> InputError:
+    """Error of a file with several records; ``where`` says what shows them."""
     return InputError(path, f"has {count} segments, {where}; save a single segment")
 
 
@@ -72,7 +73,7 @@ def refuse_words(path: Path, layout: Layout | None) -> None:
 
     The ``layout`` is None if its columns could not be recognised.
     """
-    exceeded: list[tuple[int, str]] = []
+    beyond: list[tuple[int, str]] = []
     begins: list[int] = []
     first = 1 if layout is None else layout.first
     above = [line.strip() for line in layout.header if line.strip()] if layout is not None else []
@@ -81,17 +82,18 @@ def refuse_words(path: Path, layout: Layout | None) -> None:
         words = [field for field in fields if _EXCEEDED.fullmatch(field)]
         # A row has numbers in its other fields.
         if words and all(field in words or field[0] in _OF_NUMBER for field in fields):
-            exceeded.append((number, words[0]))
+            beyond.append((number, words[0]))
         elif number > first and (_BEGINS.match(line) or line.strip().lstrip("#%/ ") in above[-1:]):
             begins.append(number)
-    if exceeded:
-        raise _exceeded(path, len(exceeded), f"line {exceeded[0][0]}: {shown(exceeded[0][1])}")
+    if beyond:
+        raise exceeded(path, len(beyond), f"line {beyond[0][0]}: {shown(beyond[0][1])}")
     if begins and layout is not None:
         places = [f"line {number}" for number in begins]
-        raise _segments(path, len(begins) + 1, f"the others begin in {_joined(places)}")
+        raise segments(path, len(begins) + 1, f"the others begin in {_joined(places)}")
 
 
-def _exceeded(path: Path, count: int, first: str) -> InputError:
+def exceeded(path: Path, count: int, first: str) -> InputError:
+    """Error of voltages beyond the range; ``first`` is the place of the first one."""
     what = f"exceeds the range of the instrument in {count} samples, the first in {first}"
     return InputError(path, f"{what}; measure with a larger range")
 
@@ -108,7 +110,7 @@ def refuse_scpi(path: Path, read: Samples) -> None:
     bad = np.flatnonzero(np.any([np.isclose(size, known, rtol=_NEAR) for known in _SCPI], axis=0))
     if bad.size:
         first = int(bad[0])
-        raise _exceeded(path, bad.size, f"{read.place(first)}: {read.values[first]:g}")
+        raise exceeded(path, bad.size, f"{read.place(first)}: {read.values[first]:g}")
 
 
 def refuse_restarts(path: Path, read: Samples) -> None:
@@ -141,7 +143,7 @@ def _lengths(read: Samples, begins: IntArray) -> IntArray:
 
 def _of_begins(path: Path, read: Samples, begins: IntArray, what: str) -> InputError:
     places = [read.place(int(k)) for k in begins[: _LISTED + 1]]
-    return _segments(path, begins.size + 1, f"{what} {_joined(places)}")
+    return segments(path, begins.size + 1, f"{what} {_joined(places)}")
 
 
 def refuse_counts(path: Path, labels: Labels, values: Array, factor: float, keys: Keys) -> None:

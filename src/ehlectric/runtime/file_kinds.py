@@ -7,6 +7,10 @@ from dataclasses import dataclass
 # Number of first bytes by which most kinds are recognised.
 PEEKED = 4096
 
+# Number of first bytes that are letters and zeros in UTF-16.
+_LETTERS = 12
+_PLAIN = frozenset((*b"\t\n\r", *range(32, 127)))
+
 _CSV = "save it as CSV"
 _SHEET = "save the sheet as CSV"
 _EXPORT = "export it as CSV"
@@ -24,7 +28,8 @@ class Kind:
 
     def matches(self, content: bytes) -> bool:
         """Whether the content of a file, or its beginning, is of this kind."""
-        return content.startswith(self.begins, self.place) and self.contains in content
+        known = bool(self.begins or self.contains)
+        return known and content.startswith(self.begins, self.place) and self.contains in content
 
 
 _WORKBOOK = "a workbook of a spreadsheet program"
@@ -46,12 +51,12 @@ KINDS = {
     "tdms": Kind("a TDMS file of LabVIEW", _EXPORT, b"TDSm"),
     "mdf": Kind("an MDF file of a data logger", _EXPORT, (b"MDF  ", b"UnFinMF")),
     "trc": Kind("a waveform of LeCroy (trc)", _EXPORT, contains=b"WAVEDESC\0"),
-    "isf": Kind("a waveform of Tektronix (isf)", _EXPORT, (b":WFMP", b":CURV", b"WFMP", b":WFMO")),
+    "isf": Kind("a waveform of Tektronix (isf)", _EXPORT, (b":WFMP", b":CURV", b"WFMPRE:", b":WFMO")),
     "tektronix": Kind("a waveform of Tektronix (wfm)", _EXPORT, b":WFM#", place=2),
     "keysight": Kind("a waveform of Keysight (bin)", _EXPORT, (b"AG01", b"AG03", b"AG10")),
     "rigol": Kind("a waveform of Rigol", _EXPORT, (b"\xa5\xa5", b"\x01\xff\xff\xff", b"RG0")),
-    "raw": Kind("a result of a circuit simulator (raw)", "export it as text", b"Title:", b"Plotname:"),
     "raw_16": Kind("a result of LTspice (raw)", "export it as text", "Title:".encode("utf-16-le")),
+    "raw": Kind("a result of a circuit simulator (raw)", "export it as text", b"Title:", b"Plotname:"),
     "wav": Kind("a file of sound (wav)", _EXPORT, b"RIFF", b"WAVE"),
     "npy": Kind("an array of NumPy (npy)", "save it with numpy.savetxt", b"\x93NUMPY"),
     "parquet": Kind("a table (parquet)", _CSV, b"PAR1"),
@@ -61,7 +66,7 @@ KINDS = {
     "pdf": Kind("a document (PDF)", _CSV, b"%PDF"),
     "png": Kind("a picture (PNG)", "save the numbers as CSV", b"\x89PNG"),
     "jpeg": Kind("a picture (JPEG)", "save the numbers as CSV", b"\xff\xd8\xff"),
-    "utf16": Kind("text in UTF-16 without its mark", "save it as UTF-8", b"\0", place=1),
+    "utf16": Kind("text in UTF-16 without its mark", "save it as UTF-8"),
 }
 
 
@@ -73,6 +78,9 @@ def kind_of(content: bytes) -> str | None:
     >>> kind_of(b"MATLAB 5.0 MAT-file, Platform: GLNXA64"), kind_of(b"0,1")
     ('mat', None)
     """
+    letters, zeros = content[:_LETTERS:2], content[1:_LETTERS:2]
+    if len(zeros) == _LETTERS // 2 and not any(zeros) and all(byte in _PLAIN for byte in letters):
+        return "raw_16" if KINDS["raw_16"].matches(content) else "utf16"
     return next((key for key, kind in KINDS.items() if kind.matches(content)), None)
 
 
