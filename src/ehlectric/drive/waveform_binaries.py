@@ -132,7 +132,7 @@ def _of_array(name: str, array: Any) -> Iterator[Column]:
 
 
 def _tdms(path: Path) -> tuple[list[Column], list[Stated]]:
-    """Channels of a file of LabVIEW, each with its times before it if the file has them."""
+    """Channels of a file of LabVIEW, each after its times, if the file contains times."""
     from nptdms import TdmsFile
 
     columns: list[Column] = []
@@ -164,9 +164,9 @@ def _scope(path: Path, unit: str, times: Array | None = None) -> list[Column]:
     columns: list[Column] = []
     for channel in Wfm.from_file(str(path)).channels:
         if channel.volts is not None:
-            own = channel.times if times is None else times[: channel.volts.size]
+            seconds = channel.times if times is None else times[: channel.volts.size]
             columns += [
-                Column(f"time of {channel.name}", "s", own),
+                Column(f"time of {channel.name}", "s", seconds),
                 Column(channel.name, unit, channel.volts),
             ]
     return columns
