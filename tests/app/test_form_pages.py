@@ -225,3 +225,31 @@ def test_the_short_answer_leads_to_the_answer_on_a_phone(open_page, app_server):
     page.wait_for_function("() => document.querySelector('section.answer').getBoundingClientRect().top < 200")
     bar = page.get_by_test_id("strip").bounding_box()
     assert bar["y"] + bar["height"] <= answer.bounding_box()["y"] + 1
+
+
+@pytest.mark.slow
+def test_a_text_typed_into_a_search_is_taken_with_the_tabulator(page):
+    """A grade, a designation and a text that is no entry are taken; words that find several are dropped."""
+    wait_for_number(page, "bearing.capacitance", capacitance())
+    box = field(page, "bearing.base")
+    search(page, "6210")
+    box.press("Tab")
+    wait_for_address(page, "base='6210'")
+    search(page, "deep groove")
+    box.press("Tab")
+    assert "6210" in box.input_value()
+    oil = field(page, "lubricant.base")
+    oil.click()
+    page.get_by_text("From a data sheet", exact=True).first.click()
+    page.get_by_test_id("field-lubricant-temperature-way_40").select_option(label="ISO viscosity grade")
+    grade, error = field(page, "lubricant.temperature.iso_vg"), page.get_by_test_id
+    for text in ("68", "100"):
+        grade.click()
+        grade.press_sequentially(text)
+        grade.press("Tab")
+        wait_for_address(page, f"iso_vg={text}")
+        assert grade.input_value() == text
+    grade.click()
+    grade.press_sequentially("70")
+    grade.press("Tab")
+    error("error-lubricant-temperature-iso_vg").filter(has_text="70").wait_for()

@@ -135,7 +135,8 @@ BAD = {
     "no shift": ({"profile_shift": (None, None)}, "the sum of both is"),
     "one shift": ({"centre_distance": None, "profile_shift": (0.2, None)}, "both profile shifts"),
     "pointed": ({"tip_diameter": (105e-3, 118e-3)}, "pointed teeth"),
-    "no involute": ({"tip_diameter": (60e-3, 118e-3)}, "base circle"),
+    # d + 2 m (1 + x) = 72 + 9*1.1817 mm
+    "no involute": ({"tip_diameter": (60e-3, 118e-3)}, "base circle.* 82.635 mm with 16 teeth"),
     "undercut": ({**PLAIN, "teeth": (8, 32)}, "base circle of gear 1"),
     "no contact": ({"tip_diameter": (76e-3, 113e-3)}, "no pair of teeth"),
     "backlash": ({"centre_distance": 91.6e-3, "normal_backlash": 1e-6}, "at least"),

@@ -109,3 +109,12 @@ def test_touching_summits_come_before_a_missing_strength(strength):
 def test_conduction_comes_before_a_missing_strength():
     _, verdict = verdict_of({**LOADED, "discharge.dielectric_strength": None})
     assert verdict.code == "mesh-conducts"
+
+
+def test_touching_flanks_state_the_voltage_that_smooth_flanks_would_hold():
+    """The strength times the minimum film, and the voltage between both gears, stand next to each other."""
+    result, verdict = verdict_of(GROUND)
+    mesh = result.summary()["mesh"]
+    smooth = EXAMPLE.discharge.dielectric_strength * mesh["minimum_thickness"]
+    assert verdict.answer.values["smooth"].values["breakdown"] == pytest.approx(smooth, rel=1e-12)
+    assert verdict.answer.values["driven"].values["voltage"] == mesh["voltage"] == 5.0

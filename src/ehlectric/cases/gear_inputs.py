@@ -141,6 +141,16 @@ class GearContact(Table, book="gear.contact"):
     weibull_shape: float = 10.0
 
 
+# Key that is missing next to a given one of tip relief, with what is usual.
+_WITHOUT_RELIEF = ("tip_relief", "tip_relief_length", "")
+_WITHOUT_LENGTH = (
+    "tip_relief_length",
+    "tip_relief",
+    ": a length from the tip along the path of contact. Long relief reaches the point of single contact, "
+    "(transverse contact ratio - 1) times the base pitch; short relief reaches half as far",
+)
+
+
 class Gear(Table, book="gear"):
     """Drawing of a gear pair, with its operating point."""
 
@@ -182,10 +192,8 @@ class Gear(Table, book="gear"):
             raise InputError("rq_over_ra", got="it without flank_ra", takes="flank_ra, which it converts")
         relief, length = self.tip_relief is not None, self.tip_relief_length is not None
         if relief != length:
-            missing, given = (
-                ("tip_relief_length", "tip_relief") if relief else ("tip_relief", "tip_relief_length")
-            )
-            raise InputError.worded(missing, f"missing; {given} needs it")
+            missing, given, usual = _WITHOUT_LENGTH if relief else _WITHOUT_RELIEF
+            raise InputError.worded(missing, f"missing; {given} needs it{usual}")
         modified = relief or self.lead_crowning > 0.0
         if modified and self.operation.load_sharing != "stiffness":
             raise InputError(

@@ -111,14 +111,15 @@ def library_choice(names: Callable[[], Sequence[str]], what: str = "one of the l
     return AfterValidator(known)
 
 
-def library_name(base: Any, names: Sequence[str]) -> str:
+def library_name(base: Any, names: Sequence[str], *, otherwise: str = "") -> str:
     """Check that ``base`` is a name of the library, and return it; the number 6208 is not the name "6208".
-    Raises InputError if the base is not a string, or not a name of the library.
+    Raises InputError if the base is not a string, or not a name of the library; ``otherwise``, what its text
+    proposes instead of a name.
     """
     if isinstance(base, str) and base in names:
         return base
     as_text = "" if isinstance(base, str) else ", as a string"
-    raise InputError("base", got=shown(base), takes=f"a name of the library{as_text}: {', '.join(names)}")
+    raise InputError("base", got=shown(base), takes=f"a name of the library{as_text}: {', '.join(names)}{otherwise}")
 
 
 def base_values(table: Any) -> dict[str, Any]:
@@ -127,7 +128,8 @@ def base_values(table: Any) -> dict[str, Any]:
     """
     if not isinstance(table, Mapping) or table.get("base") is None:
         return {}
-    return library.lubricant(library_name(table["base"], library.lubricant_names()))
+    otherwise = "; or no base: iso_vg and viscosity_index in [lubricant.temperature] describe another grade"
+    return library.lubricant(library_name(table["base"], library.lubricant_names(), otherwise=otherwise))
 
 
 TEMPERATURE = amount_at("lubricant.reference_temperature")

@@ -127,8 +127,16 @@ def _check(path: ContactPath, pair: GearPair) -> None:
             takes="a tip circle that ends the contact above it, or a larger profile shift of gear 2",
         )
     if path.contact_ratio < 1.0:
-        raise InputError.worded(
-            "gear.tip_diameter",
-            f"gives a transverse contact ratio of {path.contact_ratio:.4f}: at times no pair of teeth would "
-            "touch. Use larger tip circles, a smaller centre distance or more teeth",
-        )
+        raise InputError.worded("gear.tip_diameter", _too_short(path, pair))
+
+
+def _too_short(path: ContactPath, pair: GearPair) -> str:
+    """Text on a path of contact that is shorter than the base pitch."""
+    times = "at times" if path.contact_ratio > 0.0 else "at all times"
+    tips = " and ".join(f"{1e3 * abs(tip):.4g} mm" for tip in pair.usual_tips)
+    return (
+        f"gives a transverse contact ratio of {path.contact_ratio:.4f} at the centre distance of "
+        f"{1e3 * pair.centre_distance:.5g} mm and the helix angle of {math.degrees(pair.helix_angle):.4g} deg: "
+        f"{times} no pair of teeth would touch. Tips one module above the shifted pitch circles are {tips}. "
+        "Use larger tip circles, a smaller centre distance or more teeth"
+    )

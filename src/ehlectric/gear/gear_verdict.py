@@ -154,7 +154,13 @@ def _touching(
     if chance is not None:
         reasons += (Statement.of("probability-of-touching", probability=chance.stated),)
     level, code = touching_rule(chance, driven=solution.case.gear.contact.voltage is not None)
-    answer = Statement.of("mesh-touching", height=solution.case.gear.summit_height)
+    voltage, smooth = solution.case.gear.contact.voltage, solution.smooth_breakdown_voltage
+    answer = Statement.of(
+        "mesh-touching",
+        height=solution.case.gear.summit_height,
+        driven=None if voltage is None else Statement.of("mesh-driven", voltage=voltage),
+        smooth=None if smooth is None else Statement.of("mesh-smooth", breakdown=smooth),
+    )
     return Verdict(level, code, answer, _operating_point(solution), reasons=reasons, assumptions=assumed)
 
 

@@ -136,6 +136,11 @@ class GearPair:
         return first * self.transverse_module, second * self.transverse_module
 
     @property
+    def usual_tips(self) -> tuple[float, float]:
+        """Tip diameters d + 2 m_n (1 + x) of a full addendum, negative for a ring [m]."""
+        return usual_tips(self, self.profile_shift)
+
+    @property
     def base_diameter(self) -> tuple[float, float]:
         """Base diameters d_b [m]."""
         first, second = self.reference_diameter
@@ -344,26 +349,37 @@ def _backlash(drawing: Drawing, without: float, total: float) -> float | None:
     return free * unit if given is None else given
 
 
-def _tips(drawing: Drawing, shifts: tuple[float, float]) -> tuple[float, float]:
-    """Tip diameters with the sign of their gears [m]."""
+def usual_tips(drawing: Drawing | GearPair, shifts: tuple[float, float]) -> tuple[float, float]:
+    """Tip diameters d + 2 m_n (1 + x) of a full addendum, negative for a ring [m]."""
     module = drawing.normal_module
     transverse = module / math.cos(drawing.helix_angle)
-    tips = []
-    for teeth, shift, given in zip(drawing.teeth, shifts, drawing.tip_diameter, strict=True):
-        follows = teeth * transverse + 2.0 * module * (1.0 + shift)
-        tips.append(follows if given is None else math.copysign(given, teeth))
-    return tips[0], tips[1]
+    first, second = (
+        teeth * transverse + 2.0 * module * (1.0 + shift)
+        for teeth, shift in zip(drawing.teeth, shifts, strict=True)
+    )
+    return first, second
+
+
+def _tips(drawing: Drawing, shifts: tuple[float, float]) -> tuple[float, float]:
+    """Tip diameters with the sign of their gears [m]."""
+    first, second = (
+        usual if given is None else math.copysign(given, usual)
+        for usual, given in zip(usual_tips(drawing, shifts), drawing.tip_diameter, strict=True)
+    )
+    return first, second
 
 
 def _check_tips(pair: GearPair) -> None:
     """Refuse tips at which the teeth cannot run."""
     for index in (0, 1):
-        tip, base = pair.tip_diameter[index], pair.base_diameter[index]
+        tip, base, usual = pair.tip_diameter[index], pair.base_diameter[index], pair.usual_tips[index]
         if abs(tip) <= abs(base):
             raise InputError(
                 f"gear.tip_diameter.{index + 1}",
                 got=f"{1e3 * abs(tip):g} mm",
-                takes=f"more than the base circle, {1e3 * abs(base):.4f} mm",
+                takes=f"more than the base circle, {1e3 * abs(base):.4f} mm; a full addendum has a tip "
+                f"diameter of {1e3 * abs(usual):.5g} mm with {abs(pair.teeth[index])} teeth and a module of "
+                f"{1e3 * pair.normal_module:g} mm",
             )
     for index in (0, 1):
         tip, key = pair.tip_diameter[index], f"gear.tip_diameter.{index + 1}"

@@ -80,6 +80,12 @@ class GearSolution:
         return strength_of(self.case)
 
     @property
+    def smooth_breakdown_voltage(self) -> float | None:
+        """Breakdown voltage of the minimum film between smooth flanks [V]; None without a strength."""
+        strength, films = self.strength, self.films
+        return None if strength is None else strength * float(films.minimum[films.thinnest])
+
+    @property
     def thinnest(self) -> int:
         """Number of the node with the smallest film of all lines."""
         return self.films.thinnest

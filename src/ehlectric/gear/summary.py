@@ -77,7 +77,7 @@ def _gear(solution: GearSolution) -> dict[str, Any]:
 def _mesh(solution: GearSolution) -> dict[str, Any]:
     """Film, contact, capacitance and breakdown of the mesh."""
     films, capacitance = solution.films, solution.capacitance
-    voltage, strength = solution.breakdown_voltage, solution.strength
+    voltage = solution.breakdown_voltage
     thinnest = float(films.minimum[films.thinnest])
     place, across = weakest(solution)
     loads = solution.loads
@@ -113,7 +113,7 @@ def _mesh(solution: GearSolution) -> dict[str, Any]:
         "back_capacitance": None if solution.pair.normal_backlash is None else solution.back_capacitance,
         "breakdown_voltage": first,
         "breakdown_voltage_high": None if over_phase is None else float(np.max(over_phase[1])) or None,
-        "smooth_breakdown_voltage": None if strength is None else strength * thinnest,
+        "smooth_breakdown_voltage": solution.smooth_breakdown_voltage,
         "discharge_area_share": None if where is None else where.area_share(_MOST),
         "discharge_root_share": None if where is None else where.before(solution.path.pitch_point),
         "voltage": solution.case.gear.contact.voltage,

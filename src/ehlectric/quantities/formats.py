@@ -109,8 +109,8 @@ def amount(value: float, unit: str) -> str:
 
     Examples
     --------
-    >>> amount(7.4e-7, "m"), amount(2.5e6, "V/m"), amount(300.0, "V")
-    ('0.74 µm', '2.5 V/µm', '300 V')
+    >>> amount(7.4e-7, "m"), amount(2.5e6, "V/m"), amount(0.0, "V")
+    ('0.74 µm', '2.5 V/µm', '0 V')
     """
     factor, prefixed = suited(value, unit)
     return f"{readable(factor * value, 4)} {prefixed}"

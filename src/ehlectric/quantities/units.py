@@ -407,8 +407,10 @@ def from_pint(entry: pint.Quantity[float], unit: str, *, difference: bool = Fals
 
 
 def unit_for(largest: float, unit: str, *, least: float = 0.1) -> tuple[float, str]:
-    """Factor from ``unit`` to a prefixed unit in which ``largest`` is at least ``least``, and this unit."""
-    size = next((p for p in _PREFIXES if least * p <= largest), 1e-12)
+    """Factor from ``unit`` to a prefixed unit in which ``largest`` is at least ``least``, and this unit; zero
+    has no prefix.
+    """
+    size = 1.0 if largest == 0.0 else next((p for p in _PREFIXES if least * p <= largest), 1e-12)
     prefixed = _PREFIXES[size] + unit
     # Dielectric strengths are usually given in V/µm.
     return 1.0 / size, "V/µm" if prefixed == "MV/m" else prefixed

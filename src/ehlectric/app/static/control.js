@@ -25,7 +25,7 @@ export default {
             aria-autocomplete="list" :aria-expanded="opened ? 'true' : 'false'" :aria-controls="boxId + '-list'"
             :aria-activedescendant="opened && found[active] ? boxId + '-o' + active : null" v-bind="described"
             :data-testid="'field-' + testid" v-model="query" @focus="open" @click="open" @input="search"
-            @keydown="keyed" @blur="close">
+            @keydown="keyed" @blur="leave">
           <div v-if="opened" :id="boxId + '-list'" ref="list" class="options" role="listbox" :aria-label="label" tabindex="-1">
             <div v-if="missing" class="options-none" role="status">{{ missing }}</div>
             <div v-for="g in groups" :key="g.name" role="group" :aria-label="g.name || label">
@@ -221,6 +221,17 @@ export default {
       this.opened = false;
       this.typed = false;
       this.query = this.labelOf(this.text);
+    },
+    // Takes a typed text that means one entry, or none, which the server refuses; drops words of a search.
+    leave() {
+      const typed = this.typed ? this.query.trim() : "";
+      const same = (o) => [o.value, o.label].some((text) => text.toLowerCase() === typed.toLowerCase());
+      const entry = this.options.find(same) || (this.matches.length === 1 && this.matches[0]);
+      if (!typed) this.close();
+      else if (this.named) this.choose(typed);
+      else if (entry) this.pick(entry);
+      else if (!this.matches.length) this.choose(typed);
+      else this.close();
     },
     keyed(event) {
       if (event.key === "ArrowDown" || event.key === "ArrowUp") {
