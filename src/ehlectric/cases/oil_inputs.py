@@ -119,7 +119,9 @@ def library_name(base: Any, names: Sequence[str], *, otherwise: str = "") -> str
     if isinstance(base, str) and base in names:
         return base
     as_text = "" if isinstance(base, str) else ", as a string"
-    raise InputError("base", got=shown(base), takes=f"a name of the library{as_text}: {', '.join(names)}{otherwise}")
+    raise InputError(
+        "base", got=shown(base), takes=f"a name of the library{as_text}: {', '.join(names)}{otherwise}"
+    )
 
 
 def base_values(table: Any) -> dict[str, Any]:
