@@ -146,8 +146,10 @@ _WITHOUT_RELIEF = ("tip_relief", "tip_relief_length", "")
 _WITHOUT_LENGTH = (
     "tip_relief_length",
     "tip_relief",
-    ": a length from the tip along the path of contact. Long relief reaches the point of single contact, "
-    "(transverse contact ratio - 1) times the base pitch; short relief reaches half as far",
+    (
+        ": a length from the tip along the path of contact. Long relief reaches the point of single contact, "
+        "(transverse contact ratio - 1) times the base pitch; short relief reaches half as far"
+    ),
 )
 
 

@@ -134,9 +134,9 @@ def _too_short(path: ContactPath, pair: GearPair) -> str:
     """Text on a path of contact that is shorter than the base pitch."""
     times = "at times" if path.contact_ratio > 0.0 else "at all times"
     tips = " and ".join(f"{1e3 * abs(tip):.4g} mm" for tip in pair.usual_tips)
+    distance, helix = 1e3 * pair.centre_distance, math.degrees(pair.helix_angle)
     return (
-        f"gives a transverse contact ratio of {path.contact_ratio:.4f} at the centre distance of "
-        f"{1e3 * pair.centre_distance:.5g} mm and the helix angle of {math.degrees(pair.helix_angle):.4g} deg: "
-        f"{times} no pair of teeth would touch. Tips one module above the shifted pitch circles are {tips}. "
-        "Use larger tip circles, a smaller centre distance or more teeth"
+        f"gives a transverse contact ratio of {path.contact_ratio:.4f} at a centre distance of {distance:.5g} mm "
+        f"and a helix angle of {helix:.4g} deg: {times} no pair of teeth would touch. A full addendum has tip "
+        f"diameters of {tips}. Use larger tip circles, a smaller centre distance or more teeth"
     )
