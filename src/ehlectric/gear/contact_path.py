@@ -136,7 +136,8 @@ def _too_short(path: ContactPath, pair: GearPair) -> str:
     tips = " and ".join(f"{1e3 * abs(tip):.4g} mm" for tip in pair.usual_tips)
     distance, helix = 1e3 * pair.centre_distance, math.degrees(pair.helix_angle)
     return (
-        f"gives a transverse contact ratio of {path.contact_ratio:.4f} at a centre distance of "
-        f"{distance:.5g} mm and a helix angle of {helix:.4g} deg: {times} no pair of teeth would touch. A full "
-        f"addendum has tip diameters of {tips}. Use larger tip circles, a smaller centre distance or more teeth"
+        f"gives a transverse contact ratio of {path.contact_ratio:.4f} "
+        f"at a centre distance of {distance:.5g} mm and a helix angle of {helix:.4g} deg: "
+        f"{times} no pair of teeth would touch. A full addendum has tip diameters of {tips}. "
+        "Use larger tip circles, a smaller centre distance or more teeth"
     )
