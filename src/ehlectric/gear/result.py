@@ -10,13 +10,13 @@ import numpy as np
 
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.gear.gear_verdict import breakdown_margin, gear_verdict
-from ehlectric.gear.gear_warnings import gear_warnings
 from ehlectric.gear.mesh_duty import MeshDuty, check_mesh_duty, run_mesh_duty
 from ehlectric.gear.solution import GearSolution
 from ehlectric.gear.solving import solve_gear_pair
 from ehlectric.gear.stored import layout_of
 from ehlectric.gear.summary import gear_summary, point_summaries
 from ehlectric.gear.uncertainty import MeshUncertainty, Spread, has_chance
+from ehlectric.gear.warnings import gear_warnings
 from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
 from ehlectric.quantities.results import POINT_KEYS
 from ehlectric.quantities.verdict import Verdict

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 
 from ehlectric.discharge.discharge_laws import stored_energy
-from ehlectric.gear.discharge_places import discharge_places
+from ehlectric.gear.forces_on_shafts import mesh_forces
 from ehlectric.gear.gear_verdict import breakdown_margin, state_of
 from ehlectric.gear.iso_film import lambda_gf
 from ehlectric.gear.losses import loss_factor
-from ehlectric.gear.mesh_forces import mesh_forces
+from ehlectric.gear.places_of_breakdown import discharge_places
 from ehlectric.gear.points import name_of_place, weakest
 from ehlectric.gear.solution import AREA_FACTOR, GearSolution
 from ehlectric.quantities.lubrication_states import CONDUCTS

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import ehlectric
+from ehlectric.gear.forces_on_shafts import mesh_forces
 from ehlectric.gear.geometry import gear_pair
-from ehlectric.gear.mesh_forces import mesh_forces
 from tests.gear.pairs import FIRST_STAGE, SECOND_STAGE, case_of
 
 
