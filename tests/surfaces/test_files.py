@@ -105,15 +105,16 @@ def test_readers_agree_with_surface_topography(name):
     np.testing.assert_allclose(differences, 0.0, atol=1e-15)
 
 
+UNKNOWN = "# Width of the field 40 um x 24 um, heights in nm\n"
 MATRIX = "# Channel: Height\n# Width: 40 um\n# Height: 24 um\n# Value units: nm\n"
 
 
-def matrix_file(path):
-    """Text matrix of Gwyddion: 24 rows and 40 columns of heights, one node a micrometre."""
+def matrix_file(path, head=MATRIX):
+    """Text matrix: 24 rows and 40 columns of heights, one node a micrometre."""
     rows, columns = np.indices((24, 40))
     heights = 10.0 * np.sin(0.3 * columns) + rows
     lines = ["\t".join(f"{z:.6e}" for z in row) for row in heights]
-    path.write_text(MATRIX + "\n".join(lines))
+    path.write_text(head + "\n".join(lines))
     return path, 1e-9 * heights
 
 
@@ -123,6 +124,9 @@ class Topography:
     def __init__(self, path):
         self._heights, self.pixel_size = np.loadtxt(path).T * 1e-9, (1e-6, 1e-6)
         self.channels, self.nb_grid_pts = [self], self._heights.shape
+
+    def format(self):
+        return "asc"
 
     def topography(self):
         return self
@@ -140,7 +144,7 @@ def test_text_matrix_goes_to_the_other_reader(tmp_path, monkeypatch):
     package = ModuleType("SurfaceTopography")
     package.open_topography = Topography
     monkeypatch.setitem(sys.modules, "SurfaceTopography", package)
-    path, heights = matrix_file(tmp_path / "matrix.txt")
+    path, heights = matrix_file(tmp_path / "matrix.txt", UNKNOWN)
     surface = read_surface(path)
     np.testing.assert_allclose(surface.heights, heights, atol=1e-14)
     assert (surface.spacing_x, surface.spacing_y) == (1e-6, 1e-6)
@@ -149,25 +153,25 @@ def test_text_matrix_goes_to_the_other_reader(tmp_path, monkeypatch):
         read_surface(path, z_unit="nm")
 
 
-def test_text_matrix_by_surface_topography(tmp_path):
+def test_text_matrix_as_surface_topography_reads_it(tmp_path):
     pytest.importorskip("SurfaceTopography", exc_type=ImportError)
     path, heights = matrix_file(tmp_path / "matrix.txt")
-    surface = read_surface(path)
+    surface, other = read_surface(path), _read_other(path)
     np.testing.assert_allclose(surface.heights, heights, atol=1e-14)
-    assert surface.spacing_x == pytest.approx(1e-6, rel=1e-9, abs=0.0)
+    np.testing.assert_allclose(surface.heights, other.heights, atol=1e-14)
+    spacings = surface.spacing_x, surface.spacing_y
+    assert spacings == pytest.approx((1e-6, 1e-6), rel=1e-9, abs=0.0)
+    assert (other.spacing_x, other.spacing_y) == pytest.approx(spacings, rel=1e-9, abs=0.0)
 
 
 def test_text_matrix_without_the_package_says_what_reads_it(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "SurfaceTopography", None)  # an import of it fails
-    path, _ = matrix_file(tmp_path / "matrix.txt")
+    path, _ = matrix_file(tmp_path / "matrix.txt", UNKNOWN)
     with pytest.raises(InputError, match=r" 40 columns.*ehlectric\[ins"):
         read_surface(path)
     path.write_text(path.read_text().replace("1.000000e+00", "WORD"))
-    with pytest.raises(
-        InputError,
-        match=r"line 6\b.*ehlectric\[ins",
-    ):
-        read_surface(path)
+    with pytest.raises(InputError, match=r"line 3\b.*'WORD'"):
+        read_surface(path, spacing=1e-6, z_unit="nm")
 
 
 def text_file(path, *, header="x [um];z [nm]", rows=40, separator=";", change=lambda lines: lines):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ehlectric import InputError
-from ehlectric.surfaces import text_profiles
+from ehlectric.surfaces import text_maps
 from ehlectric.surfaces.surface_files import read_surface
 from tests.helpers.each import each
 from tests.surfaces.test_files import DEKTAK
@@ -69,7 +69,7 @@ DOUBTFUL = [
     ([], [f"{k},{k % 7},{k},5" for k in K], " 4 columns"),
     ([], [*rows_of(";")[:-1], "99,50;1"], "decimal points and decimal commas"),
     ([], [*rows_of(";")[:-1], "1.234,5;1"], "two columns|line 200\\b"),
-    (["x [um];y [um];z [nm]"], [f"{x};0.0;{z:.4f}" for x, z in zip(X, Z, strict=True)], " 3 columns"),
+    (["x [um];z [nm];level"], [f"{x};0.0;{z:.4f}" for x, z in zip(X, Z, strict=True)], " 3 columns"),
     (["X;Y;invalid", "[um];[nm];[1/0]"], [line + ";0" for line in rows_of(";")], " 3 columns"),
     (["x;y;is it", "valid;or;not"], [line + ";1" for line in rows_of(";")], " 3 columns"),
     (
@@ -184,7 +184,7 @@ def test_rounded_positions_are_no_gap(tmp_path):
 
 
 def test_a_text_of_too_many_lines(tmp_path, monkeypatch):
-    monkeypatch.setattr(text_profiles, "MOST_LINES", 50)
+    monkeypatch.setattr(text_maps, "MOST_LINES", 50)
     path = tmp_path / "a.csv"
     path.write_text("\n" * 51 + "1;2\n")
     with pytest.raises(InputError, match=r"a\.csv: .* 52 .* 50$"):

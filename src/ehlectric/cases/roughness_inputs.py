@@ -23,7 +23,7 @@ GENERATORS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "pit": (("depth", "width"), ("rim", "position", "position_y")),
     "asperity": (("height", "width"), ("position", "position_y")),
 }
-_FILE_KEYS = ("x_unit", "z_unit", "line", "along", "direction", "assume_transverse")
+_FILE_KEYS = ("x_unit", "z_unit", "spacing", "spacing_y", "line", "along", "direction", "assume_transverse")
 SHAPES = ("sinusoid", "pit", "asperity")
 _POINT_KEYS = ("correlation_length_y", "orientation", "position_y", "shift_y")
 _STEPS = ("form", "cutoff_long", "cutoff_short", "trim", "rescale_rq", "truncate", "extend")
@@ -36,6 +36,8 @@ class Roughness(StatedRa, book="roughness"):
     file: str | None = None
     x_unit: _LengthUnit | None = None
     z_unit: _LengthUnit | None = None
+    spacing: float | None = None
+    spacing_y: float | None = None
     line: int | None = None
     along: Literal["row", "column"] = "row"
     direction: Literal["x", "y"] = "x"

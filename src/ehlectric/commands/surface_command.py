@@ -22,6 +22,8 @@ def surface(
     file: Path,
     x_unit: str | None = None,
     z_unit: str | None = None,
+    spacing: str | None = None,
+    spacing_y: str | None = None,
     line: int | None = None,
     along: str = "row",
     whole: bool = False,
@@ -42,7 +44,8 @@ def surface(
     "80 um".
     """
     table = {
-        "x_unit": x_unit, "z_unit": z_unit, "line": line, "along": along, "form": form,
+        "x_unit": x_unit, "z_unit": z_unit, "spacing": spacing, "spacing_y": spacing_y,
+        "line": line, "along": along, "form": form,
         "cutoff_long": cutoff_long, "cutoff_short": cutoff_short, "trim": trim,
         "rescale_rq": rescale_rq, "truncate": truncate,
     }  # fmt: skip

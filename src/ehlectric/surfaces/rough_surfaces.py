@@ -213,8 +213,16 @@ def measured(table: Roughness, surface: Surface | None = None) -> RoughSurface:
     """
     assert table.file is not None
     if surface is None:
-        surface = read_surface(table.file, x_unit=table.x_unit, z_unit=table.z_unit)
+        surface = read_of(table)
     return _of_profile(table, surface.line(table.line or 0, along=table.along), surface)
+
+
+def read_of(table: Roughness) -> Surface:
+    """Content of the file of a table. Raises InputError if the file cannot be used."""
+    assert table.file is not None
+    return read_surface(
+        table.file, x_unit=table.x_unit, z_unit=table.z_unit, spacing=table.spacing, spacing_y=table.spacing_y
+    )
 
 
 def _of_profile(table: Roughness, profile: Profile, read: Surface | None) -> RoughSurface:
@@ -348,7 +356,7 @@ def measured_map(table: Roughness) -> RoughMap:
     Raises InputError if the file cannot be used.
     """
     assert table.file is not None
-    read = read_surface(table.file, x_unit=table.x_unit, z_unit=table.z_unit)
+    read = read_of(table)
     if read.spacing_y is None or table.line is not None:
         return _extended(table, read)
     return whole_map(table, read)
@@ -371,7 +379,7 @@ def whole_map(table: Roughness, read: Surface | None = None) -> RoughMap:
             takes="along = 'column' to turn it, or a line of it",
         )
     if read is None:
-        read = read_surface(table.file, x_unit=table.x_unit, z_unit=table.z_unit)
+        read = read_of(table)
     return _of_map(table, read.map(along=table.along), read)
 
 

@@ -1,4 +1,4 @@
-"""Readers of measured surfaces: text profiles, ISO 25178-72 X3P and Alicona AL3D.
+"""Readers of measured surfaces: text, ISO 25178-72 X3P, Alicona AL3D and arrays of NumPy.
 
 The content of a file is not trusted: every size is checked before a block of this size is read, and members
 of ZIP archives are decompressed no further than the size that is expected. Doubtful data are refused with an
@@ -16,8 +16,8 @@ import struct
 import warnings
 import zipfile
 import zlib
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, fields
 from pathlib import Path
 from types import MappingProxyType
 from typing import NamedTuple
@@ -34,7 +34,8 @@ from ehlectric.runtime.sizes import check_memory_for
 from ehlectric.runtime.text_table import UTF_16, NoTableError, is_text
 from ehlectric.surfaces.maps import Map, filled, without_void_borders
 from ehlectric.surfaces.profiles import LEAST_POINTS, Profile
-from ehlectric.surfaces.text_profiles import read_profile
+from ehlectric.surfaces.text_maps import read_text
+from ehlectric.surfaces.text_profiles import Scale, factor_of
 
 # Exceptions of Python's readers of ZIP archives and XML, and of its decompressors, for invalid content.
 BROKEN = (
@@ -421,6 +422,47 @@ def _al3d_tags(content: bytes) -> dict[str, str]:
     return tags
 
 
+# First bytes of an array of NumPy.
+_NPY = b"\x93NUMPY"
+
+
+def read_npy(path: Path, content: bytes, scale: Scale) -> HeightMap:
+    """Read the heights of a profile (n,) or a map (rows, columns) in an .npy file of NumPy.
+
+    The file contains no spacing and no unit: ``scale`` has both. Returns heights and spacings [m]. Raises
+    InputError if the file is broken or contains other data than real numbers, or if the spacing or the unit
+    is missing.
+    """
+    file = io.BytesIO(content)
+    try:
+        version = np.lib.format.read_magic(file)
+        header = {(1, 0): np.lib.format.read_array_header_1_0}.get(
+            version, np.lib.format.read_array_header_2_0
+        )
+        shape, _, kind = header(file)
+    except BROKEN:
+        raise InputError(path, "is not a complete array of NumPy") from None
+    if kind.kind not in "fiu" or len(shape) not in (1, 2) or 0 in shape:
+        got = f"contains an array of shape {shape} and type {kind}"
+        raise InputError(path, got, takes="real numbers of the shape (n,) or (rows, columns)")
+    _check_size(path, shape, kind.itemsize + _POINT)
+    size = math.prod(shape) * kind.itemsize
+    if len(content) - file.tell() != size:
+        raise InputError(
+            path, f"has {len(content) - file.tell()} bytes of numbers", takes=f"{size} for its shape"
+        )
+    if scale.spacing is None:
+        raise InputError.worded("spacing", f"missing; {path} contains no positions")
+    scale.refuse_x_unit(path)
+    with np.errstate(all="ignore"):
+        heights = np.load(io.BytesIO(content), allow_pickle=False).astype(float)
+        heights *= factor_of(path, "z_unit", scale.z_unit, None)
+    heights[~np.isfinite(heights)] = np.nan
+    if heights.ndim == 1 or 1 in shape:
+        return HeightMap(heights.reshape(1, -1), scale.spacing, None)
+    return HeightMap(heights, scale.spacing, scale.spacing_y or scale.spacing)
+
+
 # Largest credible slope between neighbours: no instrument measures a flank steeper than 5 (79 degrees).
 STEEPEST = 5.0
 
@@ -592,24 +634,51 @@ def _check_range(name: str, length: float, heights: Array, source: str, units: s
         )
 
 
-def read_surface(path: str | Path, *, x_unit: str | None = None, z_unit: str | None = None) -> Surface:
+def read_surface(
+    path: str | Path,
+    *,
+    x_unit: str | None = None,
+    z_unit: str | None = None,
+    spacing: float | None = None,
+    spacing_y: float | None = None,
+) -> Surface:
     """Read a measured surface from a file: heights [m], spacings [m] and warnings.
 
-    Raises an InputError if the file cannot be read, or its data are not credible for a surface.
+    Parameters
+    ----------
+    path : str or Path
+        File of an instrument.
+    x_unit, z_unit : str, optional
+        Units of positions and heights, for a file that does not state them.
+    spacing, spacing_y : float, optional
+        Distance between neighbouring points of a row, and between rows [m], for a file without positions.
+        ``spacing_y`` equals ``spacing`` by default.
+
+    Returns
+    -------
+    Surface
+        Heights and spacings in metres.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, its data are not credible for a surface, or it states what is given.
     """
-    path = Path(path)
+    path, scale = Path(path), Scale(x_unit, z_unit, spacing, spacing_y)
     content = _content(path)
     if any(content.startswith(magic) and mark in content for magic, mark in _WORKBOOKS):
         raise InputError(path, "is a workbook of a spreadsheet program; save the sheet as CSV")
     suffix = path.suffix.lower()
     if suffix == ".x3p" or _is_x3p(content):
-        surface = _of_map(path, read_x3p(path, content), x_unit, z_unit)
+        surface = _of_map(path, read_x3p(path, content), scale)
     elif suffix == ".al3d" or content.startswith(b"AliconaImaging"):
-        surface = _of_map(path, read_al3d(path, content), x_unit, z_unit)
+        surface = _of_map(path, read_al3d(path, content), scale)
+    elif content.startswith(_NPY):
+        surface = Surface(*read_npy(path, content, scale)[:3], str(path))
     elif _is_text(content):
-        surface = _of_text(path, content, x_unit, z_unit)
+        surface = _of_text(path, content, scale)
     else:
-        surface = _of_map(path, _read_other(path), x_unit, z_unit)
+        surface = _of_map(path, _read_other(path), scale)
     _check_scale(surface)
     return surface
 
@@ -629,20 +698,31 @@ def _is_text(content: bytes) -> bool:
     return is_text(content) and (content[:2] in UTF_16 or b"\0" not in content)
 
 
-def _of_text(path: Path, content: bytes, x_unit: str | None, z_unit: str | None) -> Surface:
-    """Surface of a text: a profile, or another format that the package SurfaceTopography reads."""
+def _of_text(path: Path, content: bytes, scale: Scale) -> Surface:
+    """Surface of a text, or of another format that the package SurfaceTopography reads."""
     try:
-        text = read_profile(path, content, x_unit, z_unit)
+        text = read_text(path, content, scale)
     except NoTableError as error:
-        return _of_map(path, _read_other(path, error.text), x_unit, z_unit)
-    return Surface(text.heights[np.newaxis], text.spacing, None, str(path), text.warnings)
+        return _of_map(path, _read_other(path, error.text, refused=(_POINTS,)), scale)
+    except InputError as error:
+        # Text of another format, such as SDF, may contain more than a table.
+        if path.suffix.lower() in _TEXTS or error.key in {field.name for field in fields(scale)}:
+            raise
+        try:
+            return _of_map(path, _read_other(path, refused=(_POINTS, _MATRIX)), scale)
+        except InputError:
+            raise error from None
+    return Surface(text.heights, text.spacing_x, text.spacing_y, str(path), text.warnings)
 
 
-def _of_map(path: Path, heights: HeightMap, x_unit: str | None, z_unit: str | None) -> Surface:
+def _of_map(path: Path, heights: HeightMap, scale: Scale) -> Surface:
     """Surface of a height map, whose file has units of its own. Raises InputError if a unit is given."""
-    for name, unit in (("x_unit", x_unit), ("z_unit", z_unit)):
-        if unit is not None:
-            raise InputError(name, got=f"{unit!r}, but {path} is in a format that has its own unit")
+    for field in fields(scale):
+        value = getattr(scale, field.name)
+        if value is not None:
+            what = "spacing" if field.name.startswith("spacing") else "unit"
+            got = f"{value!r}, but {path} is in a format that has its own {what}"
+            raise InputError(field.name, got=got)
     return Surface(heights.heights, heights.spacing_x, heights.spacing_y, str(path), heights.warnings)
 
 
@@ -674,13 +754,25 @@ def _check_scale(surface: Surface) -> None:
         )
 
 
-def _read_other(path: Path, otherwise: str = "is no text profile, X3P or AL3D") -> HeightMap:
+# Endings of files that contain tables and no format of their own.
+_TEXTS = ("", ".csv", ".txt", ".dat", ".asc", ".hfm", ".xyz", ".tsv", ".prn", ".prf")
+
+# Formats of points and of matrices in text, by their names in SurfaceTopography.
+_POINTS, _MATRIX = "xyz", "asc"
+
+
+def _read_other(
+    path: Path, otherwise: str = "is no text profile, X3P or AL3D", *, refused: Sequence[str] = ()
+) -> HeightMap:
     """Heights and spacings of a file in a format that the package SurfaceTopography reads.
 
-    ``otherwise`` says why the readers of this package do not read it.
+    ``otherwise`` says why the readers of this package do not read it. ``refused`` are formats whose doubtful
+    files only the readers of this package read.
     """
     try:
-        from SurfaceTopography import open_topography  # type: ignore[import-not-found,import-untyped,unused-ignore]
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            from SurfaceTopography import open_topography  # type: ignore[import-not-found,import-untyped,unused-ignore]
     except ImportError:
         text = f"{otherwise}; other formats take the extra ehlectric[instruments]"
         raise InputError(path, text) from None
@@ -689,6 +781,8 @@ def _read_other(path: Path, otherwise: str = "is no text profile, X3P or AL3D") 
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")
             reader = open_topography(str(path))
+            if refused and reader.format() in refused:
+                raise InputError(path, otherwise)
             # The sizes in the header are known before the heights are read.
             _check_size(path, (math.prod(reader.channels[0].nb_grid_pts or ()),))
             topography = reader.topography().to_unit("m")

@@ -6,22 +6,20 @@ A third column may have the validity of each point. A file that can be read in t
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
 
 import numpy as np
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, Mask
 from ehlectric.errors import InputError, shown, within
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.unit_spelling import typed
 from ehlectric.quantities.units import known_factor, length_unit, to_si
-from ehlectric.runtime.text_table import Layout, NoTableError, decoded, layout_of
+from ehlectric.runtime.text_table import Layout
 from ehlectric.surfaces.profiles import LEAST_POINTS
-
-# Most lines of a text, of which each is looked at: twice the lines of the longest profiles of instruments.
-MOST_LINES = 2_000_000
 
 _UNITS = ("m", "mm", "um", "µm", "nm", "Å")
 _UNIT_WORDS = {
@@ -33,13 +31,52 @@ _UNIT_WORDS = {
 _BRACKETED = re.compile(r"[\[(]([^\[\]()]*)[\])]")
 _BRACKETED_FIELD = re.compile(r"[^\[\]()]*+[\[(][^\[\]()]*+[\])]")
 _BRACKETED_FIELDS = re.compile(rf"(?:{_BRACKETED_FIELD.pattern})++")
-_VALIDITY = re.compile(r"valid(ity)?", re.IGNORECASE)
 
 # Rows at each end of a file whose printed digits are counted.
 _COUNTED = 40
 
 # Largest position and height that are credible for a surface [m].
 _FARTHEST = 10.0
+
+
+# Names of columns in small letters, by what the column contains.
+_NAMES = {
+    "x": ("x", "lateral", "position", "pos", "distance", "length", "scan", "weg", "abstand", "strecke"),
+    "y": ("y",),
+    "z": ("z", "height", "heights", "raw", "depth", "elevation", "höhe", "hauteur"),
+    "valid": ("valid", "validity"),
+    "other": ("intensity", "gray", "grey", "texture"),
+}
+_ROLES = {name: role for role, names in _NAMES.items() for name in names}
+_WORD = re.compile(r"[^\W\d_]+")
+
+
+@dataclass(frozen=True)
+class Scale:
+    """Units and spacings that a user gives for a file without them."""
+
+    x_unit: str | None = None
+    z_unit: str | None = None
+    spacing: float | None = None  # distance between neighbouring points of a row [m]
+    spacing_y: float | None = None  # distance between neighbouring rows [m]; ``spacing`` if None
+
+    def refuse_spacing(self, path: Path) -> None:
+        """Raise an InputError if a spacing is given for a file with positions."""
+        for name in ("spacing", "spacing_y"):
+            if (value := getattr(self, name)) is not None:
+                raise InputError(name, got=f"{value:g} m, but {path} contains positions")
+
+    def refuse_x_unit(self, path: Path) -> None:
+        """Raise an InputError if the unit of positions is given for a file without them."""
+        if self.x_unit is not None:
+            raise InputError("x_unit", got=f"{self.x_unit!r}, but {path} contains no positions")
+
+    def compare_spacings(self, path: Path, stated: Sequence[float]) -> None:
+        """Raise an InputError if a given spacing differs from the spacing that a file states [m]."""
+        for name, value in zip(("spacing", "spacing_y"), stated, strict=True):
+            given = getattr(self, name)
+            if given is not None and abs(given - value) > 1e-3 * value:
+                raise InputError(name, got=f"{given:g} m, but {path} states {value:g} m")
 
 
 @dataclass(frozen=True)
@@ -51,84 +88,118 @@ class TextProfile:
     warnings: tuple[ResultWarning, ...]  # warnings about the data in the file
 
 
-def read_profile(path: Path, content: bytes, x_unit: str | None, z_unit: str | None) -> TextProfile:
-    """Profile in a text file, with heights and spacing in metres.
+def profile_of(
+    path: Path, layout: Layout, text: str, lines: Sequence[str], scale: Scale, roles: Mapping[str, int]
+) -> TextProfile:
+    """Profile of columns of positions, heights and, perhaps, the validity of points.
 
-    Raises a NoTableError if the file is not two columns of numbers, so that another reader may know its
-    format. Raises an InputError if the file cannot be read or can be read in two ways, or if its units are
-    unknown or contradict the arguments.
+    Raises an InputError if the columns cannot be read, or if the units are unknown or contradict ``scale``.
     """
-    text = decoded(path, content)
-    lines = text.removesuffix("\n").split("\n")
-    if len(lines) > MOST_LINES:
-        raise InputError(path, f"has {len(lines)} lines", takes=f"at most {MOST_LINES}")
-    try:
-        layout = layout_of(path, lines, strict=True)
-    except NoTableError:
-        got = "does not contain two columns of numbers"
-        raise NoTableError(path, got, takes="position and height") from None
-    below, line = layout.below(text), layout.first + 1
-    _check_columns(path, layout, below)
-    x, z, *flags = layout.numbers(path, layout.columns, below, line, voids=layout.columns[1:])
+    places = [roles[name] for name in ("x", "z", "valid") if name in roles]
+    x, z, *flags = layout.numbers(path, places, layout.below(text), layout.first + 1, voids=places[1:])
     if x.size < LEAST_POINTS:
         raise InputError(path, f"has {x.size} points", takes=f"at least {LEAST_POINTS}")
+    units = stated_units(layout)
     factors = [
-        to_si(f"1 {_unit_of(path, name, unit, from_header)}", "m")
-        for name, unit, from_header in zip(
-            ("x_unit", "z_unit"), (x_unit, z_unit), _stated_units(layout), strict=True
-        )
+        factor_of(path, name, getattr(scale, name), units[roles[name[0]]]) for name in ("x_unit", "z_unit")
     ]
     z = z * factors[1]
-    if max(np.max(np.abs(x)) * factors[0], np.max(np.abs(z), initial=0.0, where=~np.isnan(z))) > _FARTHEST:
-        raise InputError(path, f"contains lengths above {_FARTHEST:g} m; are x_unit and z_unit right?")
+    check_lengths(path, x * factors[0], z)
     for validity in flags:
-        wrong = np.flatnonzero((validity != 0.0) & (validity != 1.0))
-        if wrong.size:
-            number, row = next(islice(layout.rows(below, line), int(wrong[0]), None))
-            raise InputError(path, f"line {number} has the validity {shown(row[2])}", takes="0 or 1")
-        z[validity == 0.0] = np.nan
-    rows = lines[layout.first :]
-    spacing, warnings = _spacing(path, x, layout.last_digit(0, (rows[:_COUNTED], rows[-_COUNTED:])))
+        z[voids_of(path, layout, text, roles["valid"], validity)] = np.nan
+    spacing, warnings = spacing_of(path, x, last_digits(layout, roles["x"], lines))
     return TextProfile(z, spacing * factors[0], warnings)
 
 
-def _check_columns(path: Path, layout: Layout, rows: str) -> None:
-    """Raise an error unless a file has two columns, or three of which the last has the validity of points."""
-    if layout.columns == (0,):
-        raise InputError(path, "contains one column of numbers", takes="two, position and height")
-    heads = [layout.dialect.fields(line) for line in _heads(layout)[-2:]]
-    valid = any(len(head) > 2 and _VALIDITY.fullmatch(head[2].strip("\"' ")) for head in heads)
-    if layout.columns == (0, 1, 2)[: 2 + valid]:
-        return
-    try:
-        layout.numbers(path, layout.columns, rows, layout.first + 1, voids=layout.columns)
-    except InputError as error:
-        raise NoTableError(path, error.text) from None
-    takes = "two, position and height, and perhaps a third headed 'valid'"
-    raise NoTableError(path, f"has {layout.width} columns", takes=takes)
+def voids_of(path: Path, layout: Layout, text: str, place: int, validity: Array) -> Mask:
+    """Whether each point is void, from the numbers of its column of validity.
+
+    Raises an InputError if a number is neither 0 nor 1.
+    """
+    wrong = np.flatnonzero((validity != 0.0) & (validity != 1.0))
+    if wrong.size:
+        rows = layout.rows(layout.below(text), layout.first + 1)
+        number, row = next(islice(rows, int(wrong[0]), None))
+        raise InputError(path, f"line {number} has the validity {shown(row[place])}", takes="0 or 1")
+    void: Mask = validity == 0.0
+    return void
+
+
+def check_lengths(path: Path, *lengths: Array) -> None:
+    """Raise an InputError if a position or height [m] is too large for a surface; NaN is no height."""
+    if max(float(np.max(np.abs(each), initial=0.0, where=~np.isnan(each))) for each in lengths) > _FARTHEST:
+        raise InputError(path, f"contains lengths above {_FARTHEST:g} m; are x_unit and z_unit right?")
+
+
+def last_digits(layout: Layout, place: int, lines: Sequence[str]) -> float:
+    """Last printed digit of a column, from the rows at both ends of the lines of a file."""
+    rows = lines[layout.first :]
+    return layout.last_digit(place, (rows[:_COUNTED], rows[-_COUNTED:]))
+
+
+def roles_of(path: Path, layout: Layout) -> dict[str, int] | None:
+    """Places of the columns x, y, z and valid; None for a matrix of heights.
+
+    The names above the columns decide. Without names two columns are x and z, and three are x, y and z. The
+    height of a profile may be named Y.
+
+    Raises an InputError if only some columns are named X, Y, Z or valid.
+    """
+    named = max((_named(layout, head) for head in _heads(layout)[-2:]), key=len, default={})
+    kinds = frozenset(named) - {"other"}
+    whole = len(named) == layout.width
+    if whole and kinds in ({"x", "y"}, {"x", "y", "valid"}):
+        return {"z" if name == "y" else name: place for name, place in named.items()}
+    if whole and {"x", "z"} <= kinds:
+        return {name: place for name, place in named.items() if name in kinds}
+    # Between spaces, a title of two or three words is no line of heads.
+    unnamed = not named or layout.dialect.separator is None
+    if layout.width == 2 and (unnamed or named in ({"x": 0}, {"z": 1})):
+        return {"x": 0, "z": 1}
+    if layout.width == 3 and unnamed:
+        return {"x": 0, "y": 1, "z": 2}
+    if layout.width > 3 and not {"x", "z"} <= kinds:
+        return None
+    takes = "two, position and height, and perhaps a third headed 'valid', or X, Y and Z"
+    raise InputError(path, f"has {layout.width} columns", takes=takes)
+
+
+def _named(layout: Layout, head: str) -> dict[str, int]:
+    """Places of the columns that a line of heads names; empty if a name repeats or the line is no head."""
+    fields = _fields(layout, head)
+    words = [
+        word[0].lower() if (word := _WORD.findall(_BRACKETED.sub(" ", field))) else "" for field in fields
+    ]
+    places = [(_ROLES[word], place) for place, word in enumerate(words) if word in _ROLES]
+    return dict(places) if len({role for role, _ in places}) == len(places) else {}
 
 
 def _heads(layout: Layout) -> list[str]:
     return [line.strip() for line in layout.header if line.strip()]
 
 
-def _stated_units(layout: Layout) -> tuple[str | None, str | None]:
-    """Units of the two columns from the line above them; None for a unit that the line does not state.
-
-    The line must have one field per column. Examples are "Lateral um,Raw Micrometer", "[mm];[mm]" and, with
-    white space as separator, "x [um] z [nm]".
-    """
-    line = next(reversed(_heads(layout)), "")
+def _fields(layout: Layout, line: str) -> list[str]:
+    """Fields of a line of heads, one for each column; empty if the line has another number of fields."""
     fields = layout.dialect.fields(line)
     while fields and not fields[-1]:
         fields.pop()
     if len(fields) != layout.width:
         # The search would take a time with the square of the length of a line without brackets.
         fields = _BRACKETED_FIELD.findall(line) if _BRACKETED_FIELDS.fullmatch(line) else []
-    return (_unit_in(fields[0]), _unit_in(fields[1])) if len(fields) == layout.width else (None, None)
+    return fields if len(fields) == layout.width else []
 
 
-def _unit_in(field: str) -> str | None:
+def stated_units(layout: Layout) -> list[str | None]:
+    """Unit of each column from the line above the columns; None for a unit that the line does not state.
+
+    The line must have one field per column. Examples are "Lateral um,Raw Micrometer", "[mm];[mm]" and, with
+    white space as separator, "x [um] z [nm]".
+    """
+    fields = _fields(layout, next(reversed(_heads(layout)), ""))
+    return [stated_where(field) for field in fields] or [None] * layout.width
+
+
+def stated_where(field: str) -> str | None:
     """Unit of length in the head of a column, None if there is not exactly one.
 
     A unit after a number does not count, as it belongs to a value.
@@ -149,7 +220,11 @@ def _unit_in(field: str) -> str | None:
     return units[0] if len(units) == 1 else None
 
 
-def _unit_of(path: Path, name: str, given: str | None, stated: str | None) -> str:
+def factor_of(path: Path, name: str, given: str | None, stated: str | None) -> float:
+    """Factor from the unit of a column to metres. The key ``name`` or the file states the unit.
+
+    Raises an InputError if both units are missing, or differ.
+    """
     if given is not None:
         with within(name):
             length_unit(given)
@@ -158,10 +233,10 @@ def _unit_of(path: Path, name: str, given: str | None, stated: str | None) -> st
     unit = stated if given is None else given
     if unit is None:
         raise InputError.worded(name, f"missing; {path} does not state the unit of its column unambiguously")
-    return unit
+    return to_si(f"1 {unit}", "m")
 
 
-def _spacing(path: Path, x: Array, step: float) -> tuple[float, tuple[ResultWarning, ...]]:
+def spacing_of(path: Path, x: Array, step: float) -> tuple[float, tuple[ResultWarning, ...]]:
     """Spacing of positions (n,) that are equally spaced up to rounding, and warnings about it.
 
     The spacing follows from the whole length, as distances of neighbours have larger rounding errors.
