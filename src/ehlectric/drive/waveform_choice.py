@@ -103,7 +103,11 @@ def _times(path: Path, labels: Labels, keys: Keys, peek: Callable[[int], Array])
         raise InputError.worded("time_column", f"missing; {what}; expected the number of one, such as 1")
     if unread:
         return []
-    return heads[:1] if _first_is_time(path, keys, peek(heads[0].place)) else []
+    first = peek(heads[0].place)
+    if keys.step is None and len(heads) > 2 and first.size > 1 and np.all(np.diff(first) == 1.0):
+        what = f"{path} has no names of its {len(heads)} columns, and column 1 may number the samples"
+        raise InputError.worded("time_column", f"missing; {what}; expected the number of a column")
+    return heads[:1] if _first_is_time(path, keys, first) else []
 
 
 def _first_is_time(path: Path, keys: Keys, numbers: Array) -> bool:

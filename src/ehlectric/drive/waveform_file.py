@@ -38,6 +38,9 @@ _HEAD, _ROWS = 65_536, 1000
 # Memory for a sample while it is read [bytes]: numbers, times, and their deviations from equal steps.
 _MEMORY = 40.0
 
+# Largest relative difference of a given interval from the interval that a file states.
+_SAME = 0.01
+
 # Largest credible voltage [V].
 _MOST = 1e9
 
@@ -80,7 +83,7 @@ def read_waveform(
     refuse_scpi(path, read)
     refuse_counts(path, labels, read.values, choice.factor, keys)
     waveform = Waveform(start, interval, _volts(path, read.values, choice, scale))
-    warnings = (*_of_reading(path, labels, choice, read.values.size), *gaps)
+    warnings = (*_of_reading(path, labels, choice, read.values.size), *_of_step(path, labels, step), *gaps)
     return waveform, (*warnings, *quality_warnings(str(path), waveform))
 
 
@@ -140,3 +143,10 @@ def _of_reading(path: Path, labels: Labels, choice: Choice, count: int) -> Itera
     points = max((each.number or 0.0 for each in labels.of("length")), default=0.0)
     if count < points:
         yield ResultWarning.of("samples-missing", "cut_off", file=path, stated=points, count=count)
+
+
+def _of_step(path: Path, labels: Labels, step: float | None) -> Iterator[ResultWarning]:
+    """Warning about the user's sampling interval, if the file states other ones only."""
+    stated = list(labels.intervals())
+    if step is not None and stated and all(abs(step / value - 1.0) > _SAME for _, value in stated):
+        yield ResultWarning.of("samples-missing", "interval", file=path, stated=stated[0][0], step=step)

@@ -40,6 +40,11 @@ _BETWEEN = re.compile("[:;,=\t]")
 # Meanings of keys above the numbers, and their spellings in small letters without spaces and signs.
 SPELLINGS = {
     "length": ("recordlength", "memorylength", "waveformlength", "datalength", "points", "blocksize"),
+    "interval": (
+        "sampleinterval", "samplinginterval", "sampleperiod", "samplingperiod", "increment", "xincrement",
+        "xinc", "tinc", "hresolution", "tinterval",
+    ),
+    "rate": ("samplerate", "samplingrate", "samplingfrequency", "samplefrequency"),
     "segments": (
         "segments", "segmentcount", "numberofsegments", "frames", "framecount", "numberofframes",
         "fastframecount", "blocknumber", "numberofblocks",
@@ -57,6 +62,10 @@ _STATED = ("unit", "length", *INTERVALS)
 
 # First letters of keys of units above the numbers that belong to the other axis: "Vertical Units", "xunit".
 _OTHERS = {"s": "vy", "V": "hxt"}
+
+# Rates of samples: "250000000", "250 MSa/s", "1 GHz".
+_RATE = re.compile(r"([\d.]+(?:[eE][-+]?\d+)?)\s*([kMG]?)(?:Sa/s|S/s|sps|Hz)?", re.IGNORECASE)
+_PREFIXES = {"": 1.0, "k": 1e3, "m": 1e6, "g": 1e9}
 
 # Run of a circuit simulator below the heads: "Step Information: R=1 (Run: 1/3)".
 _RUN = re.compile(r"\(Run:\s*\d+/(\d+)\)")
@@ -198,6 +207,20 @@ class Labels:
             if "unit" in spelling and spelling[:1] not in _OTHERS[base]
             for value in each.values
         ]
+
+    def intervals(self) -> Iterator[tuple[str, float]]:
+        """Texts and values [s] of all statements of the sampling interval or the sampling rate."""
+        known = [unit_of(unit) for unit in self.units_above("s")]
+        factors = {factor for base, factor in known if base == "s"} or {1.0}
+        for stated in self.of("interval"):
+            if stated.number and len(factors) == 1:
+                bare = Dialect(None).number(stated.values[0]) is not None
+                yield stated.text, stated.number * (next(iter(factors)) if bare else 1.0)
+        for stated in self.of("rate"):
+            match = _RATE.fullmatch(stated.values[0])
+            number = None if match is None else Dialect(None).number(match[1])
+            if match is not None and number:
+                yield stated.text, 1.0 / (number * _PREFIXES[match[2].lower()])
 
     @property
     def interval(self) -> str | None:

@@ -63,6 +63,9 @@ _TRIED = 400
 # Field of the first row that no file has to the right of its last column.
 _FILLER = "beyond-the-last-column"
 
+# Digits behind a decimal comma that was taken for a separator.
+_CUT = re.compile(r"0\d+(?:[eE][-+]?\d+)?")
+
 _QUOTED = re.compile(r'"[^"]*+"')
 # First bytes of a text in UTF-16.
 UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
@@ -498,6 +501,7 @@ def _dialect(
     best = max(_DIALECTS, key=lambda d: (len(rows[d]), most[d]))
     single = _single_column(best, filled)
     if best != Dialect(",") or single is None:
+        _refuse_cut_numbers(path, best, filled)
         return best, rows[best]
     # A pair such as "0,5" or "1,500.25" is one number, too: the heads decide.
     heads = [row for _, line in filled if not best.is_row(row := best.fields(line))]
@@ -509,6 +513,20 @@ def _dialect(
         raise InputError(path, got, takes=takes)
     best = best if len(heads[-1]) >= most[best] else single
     return best, rows[best]
+
+
+def _refuse_cut_numbers(path: object, best: Dialect, filled: Sequence[tuple[int, str]]) -> None:
+    """Refuse rows in which a comma both separates columns and is the decimal mark, by digits after it.
+
+    No program writes a whole number such as 0125, but "0,0125;3" becomes "0,0125,3" with another separator.
+    """
+    if best != Dialect(",") or any("." in line for _, line in filled if best.is_row(best.fields(line))):
+        return
+    for number, line in _spread(filled):
+        row = best.fields(line)
+        if best.is_row(row) and any(_CUT.fullmatch(field) for field in row[1:]):
+            got = f"line {number} is {shown(line.strip())}, in which commas separate columns and decimals"
+            raise InputError(path, got, takes="a semicolon or a tab between columns")
 
 
 def _single_column(best: Dialect, filled: Sequence[tuple[int, str]]) -> Dialect | None:

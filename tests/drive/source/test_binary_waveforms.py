@@ -11,6 +11,9 @@ from ehlectric.errors import InputError
 from tests.helpers import binary_waveforms as write
 from tests.helpers.each import each
 
+# The library imports matplotlib.
+pytestmark = [pytest.mark.slow, pytest.mark.gate]
+
 STEP, START = 4e-9, -80e-9
 COUNTS = np.array([1600, 1640, 1680, 1620, -1580, -1540, -1600, -1560] * 8)
 VOLTS = 0.025 * COUNTS

@@ -166,6 +166,18 @@ def test_columns_of_values_without_times(tmp_path):
     assert refused(timed, column=2, step=2e-6).startswith("step: ")
 
 
+def test_commas_do_not_separate_columns_and_decimals(tmp_path):
+    rows = [f"{1e3 * t:.3f},{v:.3f}".replace(".", ",") for t, v in zip(evenly(1e-6), VOLTS, strict=True)]
+    assert "commas separate columns and decimals" in refused(written(tmp_path, rows), column=3, step=1e-6)
+
+
+def test_numbers_of_samples_are_no_times(tmp_path):
+    rows = [f"{k};{v:g};{t:g}" for k, (t, v) in enumerate(zip(evenly(1e-6), VOLTS, strict=True))]
+    path = written(tmp_path, rows)
+    assert refused(path, time_unit="ms", column=2).startswith("time_column: missing")
+    assert read_waveform(path, time_column=3, column=2)[0].step == pytest.approx(1e-6)
+
+
 @each(
     "heads, keys",
     [
@@ -205,6 +217,27 @@ def test_an_increment_is_shown_with_its_number(tmp_path, heads):
     assert line.startswith("step: missing")
     assert re.search(r"1\.0*e-06|1e-06", line)
     assert read_waveform(path, step=1e-6)[0].values == pytest.approx(VOLTS)
+
+
+@each(
+    "stated, doubted",
+    [
+        ("Sample Interval,2e-06", True),
+        ("Sample Interval,1e-06", False),
+        ("Sampling Period: 1 us", False),
+        ("Sampling Period: 1 ns", True),
+        ("Sample Rate: 1 MSa/s", False),
+        ("Sampling Rate,250000000.0", True),
+        ("Sample Rate: 1000 kSa/s", False),
+    ],
+)
+def test_a_step_that_the_file_contradicts_is_doubted(tmp_path, stated, doubted):
+    path = written(tmp_path, [stated, "CH1 (V),CH2 (V)", *columns(VOLTS, VOLTS)])
+    read, warnings = read_waveform(path, step=1e-6, column="CH1")
+    assert read.step == 1e-6
+    assert ("samples-missing" in [warning.code for warning in warnings]) == doubted
+    texts = [warning.text for warning in warnings if warning.code == "samples-missing"]
+    assert all(stated in text for text in texts)
 
 
 SEGMENT = columns(evenly(1e-6, 32), VOLTS[:32])
