@@ -9,6 +9,7 @@ from ehlectric.app.form_fields.measured_fields import measured_fields, with_unce
 from ehlectric.app.page_inputs import Inputs, example_inputs
 from ehlectric.cases.measurements import CALIBRATED
 from ehlectric.errors import InputError
+from ehlectric.quantities.rows import value_at
 from ehlectric.quantities.units import in_unit
 from ehlectric.runtime.progress import silent
 from tests.helpers.each import each
@@ -95,6 +96,23 @@ def test_the_updated_case_has_the_values_of_the_calibration_and_all_other_inputs
     )
     probability = answer.chances.rows[0][2]
     assert probability.startswith(f"{100.0 * result.after.probability:.2g} %")
+
+
+@pytest.mark.slow
+def test_both_ends_of_an_updated_drive_are_as_calibrated(tmp_path):
+    table = tables("drive", capacitance="200 pF +- 5 %", shaft_voltage="12 V +- 5 %")
+    answer = calibrated(table, tmp_path, silent)
+    assert "non_drive_end" not in answer.updated, "both ends are equal, as before"
+    case = ehlectric.calibrate(ehlectric.DriveCase.from_written(table)).case
+    again = ehlectric.DriveCase.from_written(dict(answer.updated))
+    keys = ("bearing.temperature", "bearing.radial_load", "bearing.radial_clearance")
+    for end in ("drive_end", "non_drive_end"):
+        both = [[value_at(one.to_dict()[end], key) for key in keys] for one in (again, case)]
+        assert both[0] == pytest.approx(both[1], rel=1e-4)
+        ranges = [one.to_dict()[end]["ranges"] for one in (again, case)]
+        assert ranges[0].keys() == ranges[1].keys()
+        for key, ends in ranges[1].items():
+            assert ranges[0][key] == pytest.approx(ends, rel=1e-4)
 
 
 @pytest.mark.slow

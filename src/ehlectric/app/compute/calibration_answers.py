@@ -9,14 +9,14 @@ from typing import Any
 
 from ehlectric.app.charts.calibration_charts import compared_figure, ranges_figure
 from ehlectric.app.compute.answer_parts import page_warnings_of, run_case_of
-from ehlectric.app.form_fields.field_defaults import end_and_key
+from ehlectric.app.form_fields.field_defaults import DRIVE_END, NON_DRIVE_END, end_and_key
 from ehlectric.app.form_fields.field_rules import changed
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.view_models import CalibrationAnswer, Table
 from ehlectric.calibration import Calibration, calibrate, given_points
 from ehlectric.cases.input_keys import unit_of
 from ehlectric.discharge.breakdown_rule import Chance
-from ehlectric.quantities.inputs import input_at
+from ehlectric.quantities.inputs import ENDS, REPLACED, input_at
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.units import in_unit, rounded
 from ehlectric.readable import capital, chance_text, ratio_text, readable
@@ -98,7 +98,26 @@ def _updated(table: Mapping[str, Any], case: Any, result: Calibration) -> dict[s
         for key, value in after.items()
         if value != before.get(key, _resolved(case, key)) and key not in _KEPT
     }
-    return dict(changed(Inputs(table).changed({"measured": None}), changes).table)
+    inputs = Inputs(table).changed({"measured": None})
+    return dict(changed(inputs, dict(_of_page(inputs, changes))).table)
+
+
+def _of_page(inputs: Inputs, changes: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+    """Changes without values of bearings that a drive gives, or that equal values of the other end."""
+    if DRIVE_END in inputs.table and inputs.value(NON_DRIVE_END) is None:
+        first, second = (
+            {inner: value for key, value in changes.items() for at, inner in [end_and_key(key)] if at == end}
+            for end in ENDS
+        )
+        if first == second:
+            changes = {key: value for key, value in changes.items() if end_and_key(key)[0] != NON_DRIVE_END}
+        else:
+            yield NON_DRIVE_END, inputs.value(DRIVE_END)
+    for key, value in changes.items():
+        end, inner = end_and_key(key)
+        of_drive = end in ENDS and inner in REPLACED and inputs.value(REPLACED[inner]) is not None
+        if not of_drive or inputs.value(key) is not None:
+            yield key, value
 
 
 def _resolved(case: Any, key: str) -> Any:
