@@ -82,6 +82,43 @@ def test_designations_and_a_drawing_lead_to_the_numbers_of_the_command(axle, tmp
     assert "6308" in head
 
 
+def simulate(page):
+    """Press the button that simulates, and wait for the discharges."""
+    page.get_by_test_id("solve").click()
+    page.locator("[data-testid=answer][data-simulated=true]").wait_for()
+
+
+@pytest.mark.slow
+@pytest.mark.gate
+def test_a_simulation_has_the_numbers_of_the_command(axle, tmp_path):
+    page = axle
+    assert not page.get_by_test_id("simulated").is_visible()
+    simulate(page)
+    # The button switches on the group of the simulated time, whose first values are in the downloaded file.
+    summary = summary_by_command("drive", downloaded(page, "download-toml", tmp_path), tmp_path)
+    rows = page.get_by_test_id("simulation").locator("tbody tr").all()
+    texts = {cells[0]: cells[1:] for cells in (row.locator("td").all_inner_texts() for row in rows)}
+    for row in summary["simulation"]["elements"]:
+        expected = [row[key] for key in ("events_per_second", "voltage_median", "energy_mean")]
+        shown = [readable(factor * value) for factor, value in zip((1.0, 1.0, 1e9), expected, strict=True)]
+        assert texts[row["element"]][:3] == shown
+    for row in summary["simulation"]["shafts"]:
+        assert texts[f"shaft {row['shaft']}"][4] == readable(row["peak_voltage"])
+    rates = [row["events_per_second"] for row in summary["simulation"]["elements"]]
+    wait_for_number(page, "simulated.rate", max(rates))
+    circles = page.get_by_test_id("figure-shaft-voltages").locator(".scatterlayer .point")
+    assert wait_until(lambda: circles.count() > 0)
+    assert page.get_by_test_id("figure-rates").locator(".scatterlayer .point").count() == len(rates)
+    # Another input has no simulation yet; without its group, no time is simulated.
+    type_into(page, "drive.torque", "31")
+    page.locator("[data-testid=answer][data-simulated=false]").wait_for()
+    page.get_by_test_id("back-to-solved").click()
+    page.locator("[data-testid=answer][data-simulated=true]").wait_for()
+    opened(page, "discharges-over-time")
+    page.get_by_test_id("switch-discharges-over-time").click()
+    page.wait_for_function("() => !location.search.includes('duration')")
+
+
 @pytest.mark.slow
 def test_a_ticked_measure_has_a_column_and_a_sentence_on_all_elements(axle):
     page = axle

@@ -9,6 +9,7 @@ from PIL import Image
 
 from tests.app.driving import complete, drawn, seen, wait_for_number
 from tests.app.outputs import address_of, downloaded, fits
+from tests.app.test_axle_page import simulate as simulate_axle
 from tests.app.test_contact_page import wait_until_solved
 from tests.app.test_drive import AT_PEAK, short, simulate
 from tests.app.test_first_page import capacitance
@@ -59,6 +60,11 @@ def gear(page):
     page.locator("[data-testid=answer][data-whole=true][aria-busy=false]").wait_for()
 
 
+def axle_simulated(page):
+    gear(page)
+    simulate_axle(page)
+
+
 def contact(page):
     wait_until_solved(page)
 
@@ -89,6 +95,7 @@ PAGES = {
     "drive": (lambda: address_of("/drive", short("0.05 s")), drive),
     "gear": (lambda: "/gear", gear),
     "axle": (lambda: "/axle", gear),
+    "axle-simulated": (lambda: "/axle", axle_simulated),
     "contact": (lambda: "/contact", contact),
     "contact-point": (lambda: "/contact?contact.geometry=point", contact_point),
     "sweep": (lambda: address_of("/sweep", sweep(6)), swept),

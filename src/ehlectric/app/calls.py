@@ -84,6 +84,7 @@ GEAR_SOLVED: Call[GearAnswer] = Call("gear_answers.solve_pair")
 # An axle.
 AXLE_QUICK: Call[AxleAnswer] = Call("axle_answers.quick_answer")
 AXLE_REMEDIED: Call[AxleAnswer] = Call("axle_answers.remedied_answer")
+AXLE_SIMULATED: Call[AxleAnswer] = Call("axle_answers.simulate")
 AXLE_WHOLE: Call[AxleAnswer] = Call("axle_answers.whole_answer")
 
 # A contact.

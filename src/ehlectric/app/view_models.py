@@ -764,3 +764,6 @@ class AxleAnswer(PageAnswer):
     remedies: Table | None
     remedied: bool  # whether the remedies are solved, or the axle has none
     effects: tuple[str, ...]  # sentence about each remedy
+    simulated: bool = False  # whether the discharges over time are simulated
+    # Discharges and voltages of all elements and shafts over time; None unless simulated.
+    simulation: Table | None = None

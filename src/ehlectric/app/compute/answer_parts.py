@@ -18,6 +18,7 @@ from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.drive_case import AnyCase, DriveCase, case_of_dict
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.solved_case import SolvedCase
+from ehlectric.drive import SIMULATING
 from ehlectric.errors import InputError, shown
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.quantity import Quantity
@@ -25,6 +26,7 @@ from ehlectric.quantities.result_warnings import CODES, ResultWarning
 from ehlectric.quantities.rows import Row, row_of
 from ehlectric.readable import capital, ratio_text
 from ehlectric.runs.file_kinds import FileKind, kind_of_tables
+from ehlectric.runtime.progress import Progress
 from ehlectric.sweep import Sweep
 
 # Note of a number of films that are not converged.
@@ -216,6 +218,18 @@ def _changed(key: str, value: Any, change: Change) -> Any:
         inner = (key if names else f"{key}.{number}" for number in range(1, len(value) + 1))
         return [_changed(name, item, change) for name, item in zip(inner, value, strict=True)]
     return change(key, value) if isinstance(value, str) and (names or key == _CASE) else value
+
+
+def percent_of(progress: Progress) -> Progress:
+    """Progress that shows the percentage of a simulated time, and other steps without a number."""
+
+    def report(done: int, of: int, text: str) -> None:
+        if text == SIMULATING:
+            progress(done, of, "percent simulated")
+        else:
+            progress(0, 0, text)
+
+    return report
 
 
 def lines_of(rows: Iterable[Row]) -> tuple[Line, ...]:

@@ -6,8 +6,15 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from ehlectric.app.charts.axle_charts import ratios_figure
-from ehlectric.app.compute.answer_parts import axle_of, gauge_text, lines_of, page_warnings_of
+from ehlectric.app.charts.axle_charts import ratios_figure, simulated_figures
+from ehlectric.app.compute.answer_parts import (
+    at_operating_point,
+    axle_of,
+    gauge_text,
+    lines_of,
+    page_warnings_of,
+    percent_of,
+)
 from ehlectric.app.view_models import (
     AXLE_WITHOUT_PROBABILITY,
     PENDING,
@@ -20,13 +27,25 @@ from ehlectric.app.view_models import (
     Table,
 )
 from ehlectric.axle import HOUSING, AxleResult, solve_axle
-from ehlectric.errors import printable
+from ehlectric.cases.axle_case import AxleCase
+from ehlectric.drive import SIMULATING
+from ehlectric.errors import InputError, printable
 from ehlectric.figures.network_elements import elements_of_network
+from ehlectric.quantities.formats import amount_text
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.rows import Summary
 from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import ratio_text, readable
-from ehlectric.tables.axle_tables import axle_rows, chance_cells, element_cells, remedy_cells, shaft_cells
+from ehlectric.runs.by_kind import run_axle
+from ehlectric.runtime.progress import Progress
+from ehlectric.tables.axle_tables import (
+    axle_rows,
+    chance_cells,
+    element_cells,
+    remedy_cells,
+    shaft_cells,
+    simulation_cells,
+)
 
 _TEXTS = data_file("ehlectric.app", "page_texts.toml")["axle"]
 
@@ -41,36 +60,55 @@ def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> AxleA
     """Answer about an axle without its remedies and without probabilities. Raises InputError if the tables
     are no valid axle, a bearing cannot carry its load, or gears cannot run together.
     """
-    return answer_of(solve_axle(axle_of(table, session), remedies=False, probable=False))
+    return answer_of(solve_axle(_alone(table, session), remedies=False, probable=False))
 
 
 def remedied_answer(table: Mapping[str, Any], session: Path | None = None) -> AxleAnswer:
     """Answer about an axle and its remedies, without probabilities; see ``quick_answer``."""
-    return answer_of(solve_axle(axle_of(table, session), probable=False))
+    return answer_of(solve_axle(_alone(table, session), probable=False))
 
 
 def whole_answer(table: Mapping[str, Any], session: Path | None = None) -> AxleAnswer:
     """Answer about an axle and its remedies, with probabilities; see ``quick_answer``."""
-    return answer_of(solve_axle(axle_of(table, session)))
+    return answer_of(solve_axle(_alone(table, session)))
+
+
+def _alone(table: Mapping[str, Any], session: Path | None) -> AxleCase:
+    """Axle right after an edge, without a duty cycle and a simulated time."""
+    case = axle_of(at_operating_point(table), session)
+    return case.model_copy(update={"drive": case.drive.model_copy(update={"duration": None})})
+
+
+def simulate(table: Mapping[str, Any], session: Path, folder: Path, progress: Progress) -> AxleAnswer:
+    """Answer about an axle and its discharges over time, by the run that the command uses. Raises InputError
+    if the tables are no valid axle, or it cannot be simulated.
+    """
+    case = axle_of(table, session)
+    if case.drive.duration is None:
+        raise InputError.missing("drive.duration", "the simulated time")
+    progress(0, 0, SIMULATING)
+    return answer_of(run_axle(case, folder, percent_of(progress)).result)
 
 
 def answer_of(result: AxleResult) -> AxleAnswer:
     """Answer of a solved axle."""
     summary, verdict = result.summary(), result.verdict
+    simulated = result.discharges is not None
     remedied = len(result.remedies) == len(result.case.remedies)
     return AxleAnswer(
         title=result.case.title,
         verdict=verdict,
         meaning=_meaning_of(verdict),
-        how=_TEXTS["how"],
+        how=_simulated_text(summary) if simulated else _TEXTS["how"],
         shown=tuple(_numbers(summary)),
         deciding=_deciding(summary, verdict, probable=result.probable),
         lines=lines_of(axle_rows(summary)),
         warnings=page_warnings_of(result.warnings),
-        figures={"ratios": ratios_figure(result)},
+        figures={"ratios": ratios_figure(result), **simulated_figures(result, summary)},
         seconds=summary["seconds"],
         whole=remedied and result.probable,
-        solvable=False,
+        simulated=simulated,
+        simulation=_table(_TEXTS["simulation"], simulation_cells(summary)) if simulated else None,
         network=tuple(_network(result)),
         elements=_table(_TEXTS["elements"], element_cells(summary)),
         chances=_table(_TEXTS["chances"], chance_cells(summary)) if "uncertainty" in summary else None,
@@ -79,6 +117,12 @@ def answer_of(result: AxleResult) -> AxleAnswer:
         remedied=remedied,
         effects=tuple(_effects(result, summary)),
     )
+
+
+def _simulated_text(summary: Summary) -> str:
+    """How a simulated answer was computed."""
+    duration = amount_text(summary["simulation"]["duration"], "s")
+    return str(_TEXTS["simulated"]).format(duration=duration, seconds=readable(summary["seconds"]))
 
 
 def _network(result: AxleResult) -> Iterator[NetworkNode]:
@@ -133,7 +177,26 @@ def _numbers(summary: Summary) -> Iterator[Number]:
         yield Number(
             "first.breakdown_voltage", labels["breakdown"], readable(first["breakdown_voltage"]), "V"
         )
+    if "simulation" in summary:
+        yield from _simulated_numbers(summary["simulation"])
     yield Number("edge.voltage", labels["edge"], readable(summary["edge"]["voltage"]), "V")
+
+
+def _simulated_numbers(simulation: Summary) -> Iterator[Number]:
+    """Rate and energy of the element with the most discharges, and the highest voltage of a shaft."""
+    labels = _TEXTS["numbers"]
+    most = max(simulation["elements"], key=lambda row: float(row["events_per_second"]), default=None)
+    if most is not None and most["events"]:
+        name = printable(most["element"])
+        yield Number("simulated.rate", labels["rate"], readable(most["events_per_second"], 3), "1/s", name)
+        energy, unit = f"{amount_text(most['energy_mean'], 'J')} ".split(" ")[:2]
+        yield Number("simulated.energy", labels["energy"], energy, unit, name)
+    elif most is not None:
+        yield Number("simulated.rate", labels["rate"], "none", known=False)
+    shaft = max(simulation["shafts"], key=lambda row: float(row["peak_voltage"]), default=None)
+    if shaft is not None:
+        rms = f"{printable(shaft['shaft'])}, rms {readable(shaft['rms_voltage'], 3)} V"
+        yield Number("simulated.peak", labels["peak"], readable(shaft["peak_voltage"], 3), "V", rms)
 
 
 def _deciding(summary: Summary, verdict: Verdict, *, probable: bool) -> Deciding:

@@ -14,6 +14,7 @@ from ehlectric.app.compute.answer_parts import (
     drive_of,
     lines_of,
     page_warnings_of,
+    percent_of,
     unknown,
 )
 from ehlectric.app.view_models import (
@@ -222,15 +223,8 @@ def simulate(table: Mapping[str, Any], session: Path, folder: Path, progress: Pr
 
     case = drive_of(table, session)
     progress(0, 0, _SOLVING if _is_solved(case) else SIMULATING)
-
-    def report_percent(done: int, of: int, text: str) -> None:
-        if text == SIMULATING:
-            progress(done, of, "percent simulated")
-        else:
-            progress(0, 0, text)
-
     # A core is left for the pages.
-    outcome = run_drive(case, folder, report_percent, workers=max(1, cores() - 1))
+    outcome = run_drive(case, folder, percent_of(progress), workers=max(1, cores() - 1))
     summary = outcome.summary
     warnings = merged(page_warnings_of(outcome.warnings))
     shown = drive_numbers(summary, DRIVE, warnings)

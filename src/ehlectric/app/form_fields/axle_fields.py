@@ -9,7 +9,17 @@ from typing import Any
 
 from ehlectric.app.form_fields.bearing_fields import BEARING_GROUPS
 from ehlectric.app.form_fields.drive_fields import DRIVE_GROUPS
-from ehlectric.app.form_fields.field import Field, Group, When, always, equal, group_of
+from ehlectric.app.form_fields.field import (
+    Field,
+    Group,
+    When,
+    about_group,
+    always,
+    equal,
+    field_of,
+    form_data,
+    group_of,
+)
 from ehlectric.app.form_fields.field_defaults import field_at
 from ehlectric.app.form_fields.gear_fields import GEAR_GROUPS
 from ehlectric.app.page_inputs import Inputs
@@ -196,6 +206,24 @@ _SOURCE = (
     *("source.frequency_way", "source.pole_pairs", "source.fundamental_frequency", "source.modulation_index"),
     "source.base_frequency",
 )
+# Title of the group of the simulated time and its arcs, and its keys that are always shown.
+SIMULATED = "Discharges over time"
+_ARC_SHOWN = ("breakdown.arc_resistance", "breakdown.extinction_current", "breakdown.recovery_time")
+
+
+def _simulated() -> Group:
+    """Group of the simulated time and the arcs of discharges, which is switched on as a whole."""
+    (arc,) = (group for group in DRIVE_GROUPS if group.title == "Arc of a discharge")
+    of_time = (field_of("drive.duration"), replace(field_of("drive.seed"), optional=True))
+    of_arc = (
+        replace(field, optional=field.optional or field.key not in _ARC_SHOWN)
+        if field.kind != "alternatives"
+        else field
+        for field in arc.fields
+    )
+    return Group(SIMULATED, (*of_time, *of_arc), **about_group(SIMULATED))
+
+
 _COMMON = {group.title: group for group in BEARING_GROUPS}
 _OF_MACHINE = (
     _of_drive("Source", _SOURCE, _SOURCE[:2]),
@@ -203,6 +231,7 @@ _OF_MACHINE = (
     replace(_of_drive("Ring, choke and ground", _RING, _RING), title="Grounding ring on the rotor"),
     _COMMON["Oil"],
     Group("Breakdown", _COMMON["Breakdown"].fields[:1], note=_COMMON["Breakdown"].note),
+    _simulated(),
     _COMMON["Title"],
 )
 
@@ -261,8 +290,31 @@ def fitted_axle(before: Inputs, after: Inputs) -> Inputs:
         changed = [(a, b) for a, b in zip(old, new, strict=True) if a != b]
         if len(changed) == 1 and changed[0][1] not in old and changed[0][1]:
             after = _renamed(after, *changed[0])
+    after = _fitted_to_time(before, after)
     after = _single(before, after, "shaft", "rotor", lambda _: "")
     return _single(before, after, "bearing", "locating", lambda table: str(table.get("shaft", "")))
+
+
+def _fitted_to_time(before: Inputs, after: Inputs) -> Inputs:
+    """Inputs with a simulated time if they have arcs, and with the resistances of meshes that it needs.
+
+    Examples
+    --------
+    >>> before = Inputs({"shaft": [{"name": "a"}]})
+    >>> after = fitted_axle(before, before.changed({"breakdown.arc_resistance": "10 ohm"}))
+    >>> after.value("drive.duration"), fitted_axle(after, before).value("drive.duration")
+    ('50 ms', None)
+    """
+    had, has = (inputs.value("breakdown") is not None for inputs in (before, after))
+    if had == has:
+        return after
+    if not has:
+        return after.changed({"drive.duration": None, "drive.seed": None})
+    first = form_data("first_values")
+    values = dict(first["simulated_time"])
+    for number in range(1, len(_tables(after, "mesh")) + 1):
+        values |= {f"mesh.{number}.{key}": value for key, value in first["simulated_meshes"].items()}
+    return after.changed({key: value for key, value in values.items() if after.value(key) is None})
 
 
 def _renamed(inputs: Inputs, old: str, new: str) -> Inputs:

@@ -363,10 +363,15 @@ def group_of(
             if entry.get("form", form_name) == form_name:
                 fields.append(list_of_alternatives(entry, lists.get(key, always)))
         fields.append(field_of(key, **shown.get(key, {})))
+    return Group(title, tuple(fields), **(about_group(title) | more))
+
+
+def about_group(title: str) -> dict[str, Any]:
+    """Attributes of a group besides its fields, such as its table, first values and note."""
     about = dict(form_data("groups").get(title, {}))
     if about.pop("assumed", False):
         about["note"] = f"{_ASSUMED} {about.get('note', '')}".strip()
-    return Group(title, tuple(fields), **(about | more))
+    return about
 
 
 # Most digits of a number in a box; one with more, such as the number of a point of a sweep, is rounded there.

@@ -127,7 +127,9 @@ class AnswerPage(Generic[A]):
                 self._build_answer()
 
     def _build_answer(self) -> None:
-        self.solving: Solving[A] = Solving(self.solved, self.kind, self.session, self._ask, self.go_to)
+        self.solving: Solving[A] = Solving(
+            self.solved, self.kind, self.session, self._ask, self.go_to, self.prepare
+        )
         self._notice = ui.label().classes("notice wrong").props('data-testid="notice"')
         self._notice.set_visibility(False)
         leads = button("Go to the field", "to-field", lambda: self.form.go_to_wrong(), "no-caps dense")
@@ -137,6 +139,9 @@ class AnswerPage(Generic[A]):
         self._calibration = CalibrationView(self.session, self.go_to)
         self.build_view()
         self._downloads = Downloads(self.session, self.kind, self.folder)
+
+    async def prepare(self) -> None:
+        """Add inputs that a solution needs, before it begins."""
 
     def build_form(self) -> None:
         """Build the form."""

@@ -9,9 +9,10 @@ from typing import Any, ClassVar
 
 from nicegui import ui
 
-from ehlectric.app.calls import AXLE_QUICK, AXLE_REMEDIED, AXLE_WHOLE, FILES_UPLOADED
+from ehlectric.app.calls import AXLE_QUICK, AXLE_REMEDIED, AXLE_SIMULATED, AXLE_WHOLE, FILES_UPLOADED
 from ehlectric.app.form_fields.axle_fields import (
     LISTS,
+    SIMULATED,
     axle_groups,
     link_title,
     mesh_title,
@@ -29,13 +30,14 @@ from ehlectric.app.form_fields.axle_fields import (
     without_table,
 )
 from ehlectric.app.form_fields.drive_fields import remedies_of, with_remedy, without_remedy
+from ehlectric.app.form_fields.field import form_data
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.answer_page import AnswerPage, ProbableView
 from ehlectric.app.pages.file_field import UploadField
 from ehlectric.app.pages.form import Form
 from ehlectric.app.pages.frame import AXLE, PATHS
-from ehlectric.app.pages.page_parts import GroupBox, button, mark, page_texts, removable, say
-from ehlectric.app.pages.result_parts import behind, table_html
+from ehlectric.app.pages.page_parts import GroupBox, button, heading, mark, page_texts, removable, say
+from ehlectric.app.pages.result_parts import FigureBox, behind, table_html
 from ehlectric.app.session import Session
 from ehlectric.app.view_models import (
     AXLE_WITHOUT_PROBABILITY,
@@ -84,12 +86,21 @@ class AxleView(ProbableView[AxleAnswer]):
     """Place of an answer about an axle."""
 
     rows_name = "Numbers of the axle"
-    keys = ("first.margin", "first.voltage", "first.breakdown_voltage", "edge.voltage")
+    keys = (
+        *("first.margin", "first.voltage", "first.breakdown_voltage"),
+        *("simulated.rate", "simulated.energy", "simulated.peak", "edge.voltage"),
+    )
     leading = ("ratios",)
     without = AXLE_WITHOUT_PROBABILITY
 
     def build_below_panel(self) -> None:
         """Build the picture of the network, and the place of the remedies."""
+        with ui.element("section").classes("answer-body").props('data-testid="simulated"') as self._simulated:
+            heading("Discharges over time", 2)
+            self._simulation = ui.html("", sanitize=False).props('data-testid="simulation"')
+            with ui.element("div").classes("figures"):
+                self._timed = {name: FigureBox(name, wide=True) for name in ("rates", "shaft-voltages")}
+        self._simulated.set_visibility(False)
         self._network = ui.html("", sanitize=False).props('data-testid="network"')
         self._remedies = ui.html("", sanitize=False).props('data-testid="remedies-table"')
 
@@ -107,6 +118,9 @@ class AxleView(ProbableView[AxleAnswer]):
         self.panel.lead("ratios", answer.figures.get("ratios"))
         caption = escape(page_texts("axle")["network"])
         self._network.content = f"<h2>Network</h2><p class=soft>{caption}</p>{network_html(answer.network)}"
+        self.body.props["data-simulated"] = str(answer.simulated).lower()
+        self.body.update()
+        self._show_simulated(answer)
         # The earlier table remains until the remedies are computed.
         mark(self._remedies, "stale", on=not answer.remedied)
         if answer.remedied:
@@ -117,6 +131,13 @@ class AxleView(ProbableView[AxleAnswer]):
         if answer.whole:
             self._chances.content = "" if chances is None else table_html(chances)
         self._shafts.content = behind("Speeds, torques and voltages of the shafts", table_html(answer.shafts))
+
+    def _show_simulated(self, answer: AxleAnswer) -> None:
+        """Show the discharges over time, if they are simulated."""
+        self._simulated.set_visibility(answer.simulation is not None)
+        self._simulation.content = "" if answer.simulation is None else table_html(answer.simulation)
+        for name, place in self._timed.items():
+            place.show(answer.figures.get(name))
 
     def _show_remedies(self, answer: AxleAnswer) -> None:
         effects = "".join(f"<li>{escape(text)}</li>" for text in answer.effects)
@@ -233,7 +254,15 @@ class AxlePage(AnswerPage[AxleAnswer]):
     first = 1
     short: ClassVar[Mapping[str, str]] = {"first.margin": "margin", "first.voltage": "U"}
     wait = 0.6
-    quick, later = AXLE_QUICK, (AXLE_REMEDIED, AXLE_WHOLE)
+    quick, later, solved = AXLE_QUICK, (AXLE_REMEDIED, AXLE_WHOLE), AXLE_SIMULATED
+
+    async def prepare(self) -> None:
+        """Switch the simulated time on, before a simulation."""
+        inputs = self.session.inputs
+        if inputs.value("breakdown") is None:
+            await self.form.turn_on(SIMULATED)
+        elif inputs.value("drive.duration") is None:
+            await self.form.take(form_data("first_values")["simulated_time"])
 
     def build_view(self) -> None:
         """Build the place of the answer."""

@@ -133,7 +133,7 @@ class Form:
 
     def _group(self, group: Group) -> None:
         async def switched(event: Any) -> None:
-            await self.take({group.table: self._memory.table(group, self._inputs) if event.args else None})
+            await self._switch(group, on=bool(event.args))
 
         first, opened = group in self._first, group.opened
         box = GroupBox(group.title, note=group.note, opened=opened, first=first)
@@ -146,6 +146,15 @@ class Form:
                 if not field.optional:
                     self._controls.append((field, self._control(field)))
             self._more(group)
+
+    async def turn_on(self, title: str) -> None:
+        """Switch a group on, with the last values of its table or the first ones."""
+        group = next(group for group in self._groups if group.title == title)
+        self._boxes[title].turn(opened=True)
+        await self._switch(group, on=True)
+
+    async def _switch(self, group: Group, *, on: bool) -> None:
+        await self.take({group.table: self._memory.table(group, self._inputs) if on else None})
 
     def _more(self, group: Group) -> None:
         """Optional fields of a group, which are folded away until one of them is given."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from dataclasses import dataclass, fields
 from pathlib import Path
 from shutil import rmtree
@@ -61,7 +61,8 @@ class Solving(Generic[A]):
     """Button that starts a solution, and the answers solved so far by their inputs; without a call, only how
     the immediate answer was computed.
 
-    ``changed`` is called when another answer is to be shown, ``back`` with the inputs to go back to.
+    ``changed`` is called when another answer is to be shown, ``back`` with the inputs to go back to, and
+    ``prepare`` before a solution, so that the inputs have what it needs.
     """
 
     def __init__(
@@ -71,11 +72,13 @@ class Solving(Generic[A]):
         session: Session,
         changed: Callable[[], object],
         back: Callable[[Inputs], None],
+        prepare: Callable[[], Awaitable[None]],
     ) -> None:
         self._call = call
         given = page_texts("solving")[kind] if call is not None else dict.fromkeys(_TEXTS, "")
         self._texts = texts = SolvingTexts(**given)
         self._session, self._changed, self._back = session, changed, back
+        self._prepare = prepare
         self._solved: dict[str, _Solved[A]] = {}
         self._quick = False
         self._running: tuple[Inputs, Path] | None = None
@@ -125,9 +128,10 @@ class Solving(Generic[A]):
             self.how.text += f" {self._texts.running}"
         self.how.set_visibility(bool(self.how.text))
 
-    def start(self) -> None:
+    async def start(self) -> None:
         """Solve the present inputs."""
         assert self._call is not None
+        await self._prepare()
         inputs = self._session.inputs
         # A folder for every run, so that the files of an answer stay as long as the answer.
         self._runs += 1
