@@ -28,10 +28,12 @@ from ehlectric.cases.oil_inputs import (
     check_parameters,
     check_viscosity,
     estimated_alpha,
+    law_parameters,
     of_base_oil,
     refuse_missing,
 )
 from ehlectric.cases.table import nearest, read_toml
+from ehlectric.cases.viscosity_tables import table_check
 from ehlectric.errors import InputError, shown, within
 from ehlectric.lubricant.data_sheet import Estimate
 from ehlectric.lubricant.density import DENSITY_LAWS
@@ -75,7 +77,8 @@ def oil_at(oil: Properties, temperature: Numbers | None, key: str) -> Oil:
         # A law without a value at the temperature is refused here, with the key of the temperature.
         first = [laws[name](np.zeros(()))[1] for name in ("viscosity_law", "density_law")]
         ranges = (range_check(oil, key, temperature, viscosity) for key in names)
-        checks: tuple[Estimate | RangeCheck | None, ...] = (estimated_alpha(oil, temperature), *ranges)
+        table = table_check(oil.viscosity_table, _known(oil), temperature, viscosity)
+        checks: tuple[Estimate | RangeCheck | None, ...] = (estimated_alpha(oil, temperature), *ranges, table)
         if many:
             values = (viscosity, permittivity, 0.0 if conductivity is None else conductivity, *first)
             viscosity = as_float(np.where(np.isfinite(sum(values)), viscosity, math.nan))
@@ -97,6 +100,13 @@ def oil_at(oil: Properties, temperature: Numbers | None, key: str) -> Oil:
             conductivity=conductivity,
             conductivity_over=conductivity_over(oil, laws.get("conductivity_law")),
         )
+
+
+def _known(oil: Properties) -> dict[str, Any]:
+    """Laws of viscosity of an oil, and all parameters, by the keys of ``[lubricant]``."""
+    names = ("viscosity_law", "atmospheric_law")
+    keys = (*law_parameters(*names), "viscosity", "reference_temperature")
+    return {name: getattr(oil, name) for name in names} | {name: oil.parameter(name) for name in keys}
 
 
 def law_names(oil: Properties) -> dict[str, str]:

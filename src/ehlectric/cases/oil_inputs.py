@@ -28,6 +28,7 @@ from ehlectric.cases import library
 from ehlectric.cases.amounts import Amount, Amounts, amount_at, with_bounds
 from ehlectric.cases.library.library_oils import Grade
 from ehlectric.cases.table import Table, details_of, nearest
+from ehlectric.cases.viscosity_tables import KEY, ViscosityTable, fitted_values, with_rows
 from ehlectric.errors import InputError, shown
 from ehlectric.lubricant.data_sheet import Estimate, alpha_estimate, grade_middle, viscosity_at_100
 from ehlectric.lubricant.density import DENSITY_LAWS
@@ -352,6 +353,10 @@ _REPLACED: tuple[tuple[tuple[str, ...], tuple[str, ...]], ...] = (
 )
 
 
+# Keys that give the viscosity at ambient pressure.
+_AMBIENT = frozenset({"viscosity", "temperature", "atmospheric_law"})
+
+
 def with_base(table: Any) -> Any:
     """Add to a table the values of the lubricant that ``base`` names in the library.
 
@@ -365,8 +370,15 @@ def with_base(table: Any) -> Any:
 
     Raises InputError if the library has no lubricant of this name.
     """
+    if not isinstance(table, Mapping):
+        return table
+    table = with_rows(table)
     base = base_values(table)
-    if not base or not isinstance(table, Mapping):
+    fitted = fitted_values(table, base)
+    if fitted:
+        base = {key: value for key, value in base.items() if key not in _AMBIENT | _other_viscosity(fitted)}
+        base |= fitted
+    if not base:
         return table
     left_out = _replaced(table) | _other_viscosity(table)
     kept = {key: value for key, value in base.items() if key not in left_out}
@@ -406,6 +418,9 @@ def displace_oil(table: dict[str, Any], changes: Mapping[str, Any]) -> None:
         displaced |= _other_viscosity(changes)
     if not ways and _has_viscosity(table.get("atmospheric_law")):
         displaced -= {"atmospheric_law"}
+    if changes.get(KEY) is not None:
+        displaced |= {*law_parameters("viscosity_law", "atmospheric_law"), *_AMBIENT, "temperature_range"}
+        displaced |= {"viscosity_law"} if table.get(KEY) is not None else set()
     for key in displaced - changes.keys():
         table.pop(key, None)
 
@@ -453,6 +468,7 @@ class Properties(Table, book="lubricant", named_by="base"):
     base: str | None = None
     viscosity: float | None = None
     atmospheric_law: Annotated[str, law_name(ATMOSPHERIC_LAWS)] | None = None
+    viscosity_table: ViscosityTable | None = None
     viscosity_law: Annotated[str, law_name(VISCOSITY_LAWS)]
     density_law: Annotated[str, law_name(DENSITY_LAWS)]
     permittivity_law: Annotated[str, law_name(PERMITTIVITY_LAWS)] = "clausius-mossotti"

@@ -170,12 +170,17 @@ def check_geometry(tables: Iterable[Roughness], geometry: str) -> None:
 
 def find_files(table: dict[str, Any], folder: Path) -> None:
     """Make the names of files absolute, which are relative to the ``folder`` of the case file: roughness, a
-    duty cycle and a measurement.
+    duty cycle, a measurement and viscosities.
 
     They then stay valid if the case is written to another folder.
     """
     rough = table.get("roughness")
-    for holder in (*(rough if isinstance(rough, list) else []), table.get("duty"), table.get("measured")):
+    oil = table.get("lubricant")
+    if isinstance(oil, dict) and isinstance(oil.get("viscosity_table"), str):
+        oil["viscosity_table"] = {"file": oil["viscosity_table"]}
+    viscosities = oil.get("viscosity_table") if isinstance(oil, dict) else None
+    tables = (table.get("duty"), table.get("measured"), viscosities)
+    for holder in (*(rough if isinstance(rough, list) else []), *tables):
         if not isinstance(holder, dict) or not isinstance(holder.get("file"), str):
             continue
         if not Path(holder["file"]).is_absolute():

@@ -1,0 +1,133 @@
+"""Table ``viscosity_table`` of a lubricant: measured viscosities over pressure and temperature."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from functools import partial
+from pathlib import Path
+from typing import Any, Self
+
+from pydantic import model_validator
+
+from ehlectric.cases.amounts import amount_at
+from ehlectric.cases.measurements import MOST_POINTS, ColumnBook, read_measurement
+from ehlectric.cases.table import Table
+from ehlectric.errors import InputError, within
+from ehlectric.lubricant.oil import RangeCheck
+from ehlectric.lubricant.viscosity_fit import ViscosityFit, fit_viscosity, fit_warnings
+from ehlectric.quantities.result_warnings import ResultWarning
+
+KEY = "viscosity_table"
+
+# Columns of the file of a viscosity table.
+VISCOSITIES = ColumnBook.of(
+    KEY, "'pressure [MPa]', 'temperature [degC]' and 'viscosity [mPa s]'", MOST_POINTS
+)
+
+_COLUMNS = ("pressure", "temperature", "viscosity")
+
+
+class ViscosityTable(Table, book="lubricant.viscosity_table"):
+    """Measured viscosity over pressure and temperature, to which a viscosity law is fitted."""
+
+    file: str | None = None
+    pressure: tuple[float, ...] | None = None
+    temperature: tuple[float, ...] | None = None
+    viscosity: tuple[float, ...]
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        for key in ("pressure", "temperature"):
+            values = getattr(self, key)
+            if values is not None and len(values) != len(self.viscosity):
+                got = f"{len(values)} values and {len(self.viscosity)} of viscosity"
+                raise InputError(key, got=got, takes="as many")
+        return self
+
+    def fit(self, law: str | None, reference: float | None) -> ViscosityFit:
+        """Law of the table; ``law``, name of a law of viscosity over pressure, None for any; ``reference``,
+        reference temperature of the oil [K].
+        """
+        return fit_viscosity(self.pressure, self.temperature, self.viscosity, law, reference)
+
+
+def with_rows(table: Mapping[Any, Any]) -> Mapping[Any, Any]:
+    """Table of a lubricant whose viscosity table contains the rows of its file.
+
+    Raises InputError if the file cannot be read, or contains no viscosity.
+    """
+    given = table.get(KEY)
+    if isinstance(given, str | Path):
+        given = {"file": str(given)}
+    if not isinstance(given, Mapping) or not isinstance(given.get("file"), str) or "viscosity" in given:
+        return table
+    try:
+        read = read_measurement(given["file"], VISCOSITIES)
+    except InputError as error:
+        raise InputError.worded(KEY, str(error)) from None
+    if not read.has("viscosity"):
+        raise InputError(
+            KEY, f"{read.source}: has no viscosity", takes=f"headings such as {VISCOSITIES.examples}"
+        )
+    rows = {name: read.values[name].tolist() for name in _COLUMNS if read.has(name)}
+    return {**table, KEY: {**given, **rows}}
+
+
+def fitted_values(table: Mapping[Any, Any], base: Mapping[str, Any]) -> dict[str, Any]:
+    """Keys of the law of a viscosity table, which take the place of those of the base; none without a table.
+
+    Raises InputError if no law describes the table, or the lubricant has a data sheet, too.
+    """
+    given = table.get(KEY)
+    if given is None:
+        return {}
+    if table.get("temperature") is not None:
+        raise InputError(KEY, got=f"{KEY} and temperature together", takes="either of them")
+    with within(KEY):
+        rows = given if isinstance(given, ViscosityTable) else ViscosityTable.from_dict(given)
+    law, reference = (
+        table.get("viscosity_law"),
+        table.get("reference_temperature", base.get("reference_temperature")),
+    )
+    if reference is not None:
+        reference = amount_at("lubricant.reference_temperature").parse(reference, written=True)
+    fit = rows.fit(law if isinstance(law, str) and fits_pressure(rows) else None, reference)
+    keys: dict[str, Any] = dict(fit.keys)
+    if fit.temperatures is not None:
+        # A measured temperature scatters by about half a kelvin.
+        low, high = fit.temperatures
+        keys["temperature_range"] = [low - 0.5, high + 0.5]
+    return keys
+
+
+def fits_pressure(rows: ViscosityTable) -> bool:
+    """Whether a table contains pressures, so that a law over pressure is fitted."""
+    return rows.pressure is not None and max(rows.pressure) - min(rows.pressure) > 0.0
+
+
+def table_check(
+    rows: ViscosityTable | None, parameters: Mapping[str, Any], temperature: Any, viscosity: Any
+) -> RangeCheck | None:
+    """Check of the viscosity table of an oil with some parameters by name, SI units; None without a table."""
+    if rows is None:
+        return None
+    law = parameters["viscosity_law"] if fits_pressure(rows) else None
+    fit = rows.fit(law, parameters.get("reference_temperature"))
+    replaced = [key for key, value in fit.keys.items() if not _equal(parameters.get(key), value)]
+    if replaced:
+        return RangeCheck(
+            partial(_replaced, keys=", ".join(replaced)), viscosity, {}, temperature, "viscosity"
+        )
+    numbers = {name: float(getattr(fit, name)) for name in ("rows", "rms", "worst", "highest", "share")}
+    return RangeCheck(partial(fit_warnings, law=fit.law), viscosity, numbers, temperature, "viscosity")
+
+
+def _equal(given: Any, value: float | str) -> bool:
+    if isinstance(value, str) or not isinstance(given, int | float):
+        return bool(given == value)
+    return math.isclose(given, value, rel_tol=1e-9)
+
+
+def _replaced(*_: Any, keys: str) -> Any:
+    yield ResultWarning.of("viscosity-table", "replaced", keys=keys)
