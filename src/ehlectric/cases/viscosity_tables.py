@@ -46,8 +46,8 @@ class ViscosityTable(Table, book="lubricant.viscosity_table"):
         return self
 
     def fit(self, law: str | None, reference: float | None) -> ViscosityFit:
-        """Law of the table; ``law``, name of a law of viscosity over pressure, None for any; ``reference``,
-        reference temperature of the oil [K].
+        """Law of the table; ``law``, name of the viscosity law, None for any; ``reference``, reference
+        temperature [K].
         """
         return fit_viscosity(self.pressure, self.temperature, self.viscosity, law, reference)
 
@@ -75,9 +75,9 @@ def with_rows(table: Mapping[Any, Any]) -> Mapping[Any, Any]:
 
 
 def fitted_values(table: Mapping[Any, Any], base: Mapping[str, Any]) -> dict[str, Any]:
-    """Keys of the law of a viscosity table, which take the place of those of the base; none without a table.
+    """Keys of the fitted law, which replace keys of the base; none without a viscosity table.
 
-    Raises InputError if no law describes the table, or the lubricant has a data sheet, too.
+    Raises InputError if no law describes the table, or the lubricant also has a data sheet.
     """
     given = table.get(KEY)
     if given is None:

@@ -24,7 +24,10 @@ TEMPLATES: Mapping[str, str] = MappingProxyType(TEXTS["templates"])
 _GEOMETRIES = ("line", "point")
 
 # Measurements that belong to an example, by the name of its file.
-_MEASUREMENTS = {"bearing_6208.toml": "measurements/bearing_6208_capacitance.csv"}
+_MEASUREMENTS = {
+    "bearing_6208.toml": "measurements/bearing_6208_capacitance.csv",
+    "measured_contact.toml": "measurements/film_log.txt",
+}
 
 # Folder of the examples that holds the surfaces of rough contacts.
 _SURFACES = "surfaces"
@@ -188,6 +191,9 @@ def _needed(file: str) -> Iterator[str]:
     if isinstance(table.get("case"), str):
         yield from _needed(table["case"])
     yield from (table[name]["file"] for name in ("duty", "measured") if "file" in table.get(name, ()))
+    viscosities = table.get("lubricant", {}).get("viscosity_table")
+    if isinstance(viscosities, str):
+        yield viscosities
     for end in ENDS:
         if "file" in table.get(end, ()):
             yield from _needed(table[end]["file"])

@@ -40,7 +40,7 @@ _EXTRAPOLATED = 0.1
 _SCATTER = 1e-4
 
 # Temperatures of one row and of another one that are equal [K].
-_ONE_TEMPERATURE = 0.5
+_LEVEL = 0.5
 
 # Pressures up to this one are ambient [Pa].
 _AMBIENT = 2e6
@@ -151,7 +151,7 @@ def fit_viscosity(
     eta = np.log(np.array(viscosity))
     p = np.zeros(eta.size) if pressure is None else np.array(pressure)
     t = None if temperature is None else np.array(temperature)
-    over_temperature = t is not None and bool(np.ptp(t) > _ONE_TEMPERATURE)
+    over_temperature = t is not None and bool(np.ptp(t) > _LEVEL)
     over_pressure = bool(np.any(p > _AMBIENT))
     if not over_temperature and not over_pressure:
         text = "has rows at one pressure and one temperature"
@@ -216,7 +216,7 @@ def _models(
         if over_pressure and law is not None and first.names["viscosity_law"] != law:
             continue
         for second in of_temperature:
-            starts = [{**one, **other} for one in first.starts for other in second.starts]
+            starts = [{**upper, **lower} for upper in first.starts for lower in second.starts]
             yield _Model({**second.names, **first.names}, (*second.free, *first.free), starts)
     if over_temperature and over_pressure and law in (None, "yasutomi"):
         yield _yasutomi()
@@ -225,8 +225,8 @@ def _models(
 def _ambient(p: Array, t: Array, eta: Array) -> tuple[Array, Array, Array]:
     """Temperatures [K], and ln(viscosity) and its slope at zero pressure [1/Pa] there, estimated."""
     places, ambient, slopes = [], [], []
-    for level in np.unique(np.round(t / _ONE_TEMPERATURE)):
-        rows = np.flatnonzero(np.round(t / _ONE_TEMPERATURE) == level)
+    for level in np.unique(np.round(t / _LEVEL)):
+        rows = np.flatnonzero(np.round(t / _LEVEL) == level)
         low = rows[np.argsort(p[rows])][:3]
         slope = 2e-8
         if np.ptp(p[low]) > 0.0:
@@ -317,13 +317,13 @@ def _fitted(model: _Model, p: Array, t: Array, eta: Array) -> tuple[dict[str, fl
             return np.asarray(np.clip(np.nan_to_num(gap, nan=_FAR), -_FAR, _FAR))
 
         x0 = np.array([0.0 if name in _POSITIVE else start[name] / scale[name] for name in model.free])
-        found = scipy.optimize.least_squares(
+        solution = scipy.optimize.least_squares(
             deviations, x0, x_scale="jac", xtol=1e-14, ftol=1e-14, gtol=1e-14, max_nfev=400
         )
-        keys = keys_of(found.x)
+        keys = keys_of(solution.x)
         allowed = all(parameter(name).allow(float(keys[name])) for name in model.free)
-        if allowed and (best is None or found.cost < best[0]):
-            best = float(found.cost), keys, deviations(found.x)
+        if allowed and (best is None or solution.cost < best[0]):
+            best = float(solution.cost), keys, deviations(solution.x)
     return None if best is None else best[1:]
 
 
@@ -345,8 +345,9 @@ def fit_warnings(
     law: str = "",
 ) -> Iterator[ResultWarning]:
     """Note about the law of a viscosity table; warnings if it deviates, or the contact leaves the table."""
-    of_fit = {"rows": int(rows), "law": law, "rms": 100.0 * rms, "worst": 100.0 * worst}
-    yield ResultWarning.of("viscosity-table", "fit", **of_fit)
+    yield ResultWarning.of(
+        "viscosity-table", "fit", rows=int(rows), law=law, rms=100.0 * rms, worst=100.0 * worst
+    )
     if share > _EXTRAPOLATED:
         yield ResultWarning.of("viscosity-table-short", share=100.0 * share, highest=highest / 1e9)
     if worst > _DEVIATES:
