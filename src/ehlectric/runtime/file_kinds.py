@@ -37,11 +37,11 @@ _ZIP, _OLE = b"PK\x03\x04", b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
 
 # The first match counts.
 KINDS = {
-    "xlsx": Kind(_WORKBOOK, _SHEET, _ZIP, b"xl/"),
+    "xlsx": Kind(_WORKBOOK, _SHEET, _ZIP, b"xl/workbook."),
     "ods": Kind(_WORKBOOK, _SHEET, _ZIP, b"opendocument.spreadsheet"),
-    "docx": Kind("a document of a word processor", _CSV, _ZIP, b"word/"),
+    "docx": Kind("a document of a word processor", _CSV, _ZIP, b"word/document."),
     "npz": Kind("an archive of NumPy", _CSV, _ZIP, b".npy"),
-    "x3p": Kind("a surface (x3p)", "give it as the file of a surface", _ZIP, b".xml"),
+    "x3p": Kind("a surface (x3p)", "give it as the file of a surface", _ZIP, b"main.xml"),
     "zip": Kind("an archive (zip)", "unpack it", _ZIP),
     "xls": Kind(_WORKBOOK, _SHEET, _OLE, "Workbook".encode("utf-16-le")),
     "ole": Kind("a document of Microsoft Office", _SHEET, _OLE),
@@ -82,6 +82,18 @@ def kind_of(content: bytes) -> str | None:
     if len(zeros) == _LETTERS // 2 and not any(zeros) and all(byte in _PLAIN for byte in letters):
         return "raw_16" if KINDS["raw_16"].matches(content) else "utf16"
     return next((key for key, kind in KINDS.items() if kind.matches(content)), None)
+
+
+def is_workbook(content: bytes) -> bool:
+    """Whether the content of a file is a workbook of a spreadsheet program.
+
+    Examples
+    --------
+    >>> is_workbook(b"0;1")
+    False
+    """
+    key = kind_of(content)
+    return key is not None and KINDS[key].what == _WORKBOOK
 
 
 def not_text(content: bytes) -> str:

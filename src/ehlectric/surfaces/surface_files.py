@@ -28,6 +28,7 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError, shown
 from ehlectric.quantities.result_warnings import ResultWarning
+from ehlectric.runtime.file_kinds import is_workbook, not_text
 from ehlectric.runtime.memory import in_bytes
 from ehlectric.runtime.reading import read_bytes, regular
 from ehlectric.runtime.sizes import check_memory_for
@@ -490,14 +491,6 @@ _HIGHEST = 10.0
 # First bytes of a ZIP archive.
 _ZIP = b"PK\x03\x04"
 
-# First bytes of a workbook and a name in it: Excel since 2007, OpenDocument, and older Excel files
-# with the name in UTF-16.
-_WORKBOOKS = (
-    (_ZIP, b"xl/workbook."),
-    (_ZIP, b"opendocument.spreadsheet"),
-    (b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", "Workbook".encode("utf-16-le")),
-)
-
 
 @dataclass(frozen=True)
 class Surface:
@@ -666,8 +659,8 @@ def read_surface(
     """
     path, scale = Path(path), Scale(x_unit, z_unit, spacing, spacing_y)
     content = _content(path)
-    if any(content.startswith(magic) and mark in content for magic, mark in _WORKBOOKS):
-        raise InputError(path, "is a workbook of a spreadsheet program; save the sheet as CSV")
+    if is_workbook(content):
+        raise InputError(path, not_text(content))
     suffix = path.suffix.lower()
     if suffix == ".x3p" or _is_x3p(content):
         surface = _of_map(path, read_x3p(path, content), scale)

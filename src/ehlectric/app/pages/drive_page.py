@@ -170,7 +170,7 @@ class WaveformField:
                 self._take,
                 self._refuse,
                 name="waveform",
-                label="Or a measured waveform: CSV of an oscilloscope",
+                label="Or a measured waveform: file of an oscilloscope",
             )
             self._used = ui.label().classes("hint").props('data-testid="waveform-used"')
             self._error = ui.label().classes("error").props('role="alert" id="waveform-error"')
