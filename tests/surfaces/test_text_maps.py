@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from ehlectric import InputError
 from ehlectric.surfaces.surface_files import read_surface
 from tests.helpers.each import each
+from tests.helpers.share import share_of
 
 # 20 rows of 24 points, 0.5 um apart along x and 0.25 um along y; heights of two waves.
 ROWS, COLUMNS = np.indices((20, 24))
@@ -136,6 +137,21 @@ def test_positions_are_no_heights(tmp_path, where):
         read_surface(saved(tmp_path / "a.csv", lines), spacing=STEP_X, z_unit="nm")
 
 
+@each("digits", [1, 2, 4])
+def test_decimal_commas_between_commas_are_refused(tmp_path, digits):
+    lines = [",".join(f"{z * 1e9:.{digits}f}".replace(".", ",") for z in row) for row in HEIGHTS]
+    with pytest.raises(InputError, match="decimal commas"):
+        read_surface(saved(tmp_path / "a.csv", lines), spacing=STEP_X, z_unit="nm")
+
+
+@each("offset", [-100, 100, 1000])
+def test_whole_numbers_between_commas_are_heights(tmp_path, offset):
+    counts = np.round(HEIGHTS * 1e9).astype(int) + offset
+    path = saved(tmp_path / "a.csv", [",".join(map(str, row)) for row in counts])
+    surface = read_surface(path, spacing=STEP_X, z_unit="nm")
+    np.testing.assert_allclose(surface.heights, counts * 1e-9)
+
+
 def test_heights_in_a_single_column(tmp_path):
     path = saved(tmp_path / "a.txt", ["z [nm]", *(f"{100 * np.sin(k / 9):.5f}" for k in range(200))])
     surface = read_surface(path, spacing=0.5e-6)
@@ -230,7 +246,9 @@ def spelled(kind, separator, point, title, head, order, x_unit, z_unit, digits, 
     return "\n".join(lines) + last, kind != "matrix" and head in ("", "units") and columns != sorted(columns)
 
 
-@settings(max_examples=300)
+@pytest.mark.slow
+@pytest.mark.gate
+@settings(max_examples=share_of(900, 9), deadline=None)
 @given(spelling=SPELLINGS)
 def test_spellings_of_a_surface_give_it_or_are_refused(tmp_path_factory, spelling):
     """Whatever the spelling is: the heights that were written, or a refusal; never other heights."""
@@ -268,3 +286,44 @@ def test_usual_spellings_are_read(tmp_path, kind):
             surface = read_surface(tmp_path / "a.txt", **keys)
             expected = HEIGHTS[:1] if kind == "profile" else HEIGHTS
             np.testing.assert_allclose(surface.heights, expected, atol=2e-12, rtol=0.0)
+
+
+@each("number", ["-32768", "-9999", "1e10", "-999", "9999.0", "3.4028235e+38"])
+def test_numbers_that_mark_points_without_data(tmp_path, number):
+    """As in every format: three of 200 points of a profile, and one of a map."""
+    heights = [f"{100 * np.sin(k / 9):.4f}" for k in range(200)]
+    for place in (20, 21, 90):
+        heights[place] = number
+    rows = [f"{0.5 * k};{z}" for k, z in enumerate(heights)]
+    profile = read_surface(saved(tmp_path / "a.csv", ["x [um];z [nm]", *rows]))
+    assert np.flatnonzero(np.isnan(profile.heights[0])).tolist() == [20, 21, 90]
+    assert [warning.code for warning in profile.warnings] == ["void-numbers"]
+    column = read_surface(saved(tmp_path / "b.csv", heights), z_unit="nm", spacing=0.5e-6)
+    np.testing.assert_array_equal(column.heights, profile.heights)
+    lines = matrix(",")
+    lines[3] = f"{number}{lines[3][lines[3].index(',') :]}"
+    surface = read_surface(saved(tmp_path / "c.csv", lines), spacing=STEP_X, z_unit="nm")
+    assert np.argwhere(np.isnan(surface.heights)).tolist() == [[3, 0]]
+    stored = HEIGHTS * 1e9
+    stored[3, 0] = float(number)
+    np.save(tmp_path / "d.npy", stored)
+    surface = read_surface(tmp_path / "d.npy", spacing=STEP_X, z_unit="nm")
+    assert np.argwhere(np.isnan(surface.heights)).tolist() == [[3, 0]]
+
+
+def test_repeated_heights_far_from_all_others_are_refused(tmp_path):
+    """Zero at points without data, next to heights about 5 mm; a surface of two levels is read."""
+    heights = [f"{5e6 + 100 * np.sin(k / 9):.4f}" for k in range(200)]
+    heights[20] = heights[90] = "0"
+    path = saved(tmp_path / "a.csv", heights)
+    with pytest.raises(InputError, match=r"2 heights are 0 m.*NaN"):
+        read_surface(path, z_unit="nm", spacing=1e-3)
+    two = saved(tmp_path / "b.csv", [f"{k // 10 % 2}" for k in range(200)])
+    assert read_surface(two, z_unit="nm", spacing=1e-6).voids == 0.0
+
+
+def test_heights_below_atoms_are_refused(tmp_path):
+    """100 nm in a file whose unit is taken as pm: a million times more is proposed."""
+    path = saved(tmp_path / "a.csv", [f"{0.1414 * np.sin(k / 9):.6f}" for k in range(400)])
+    with pytest.raises(InputError, match=r"9.95e-14 m.*1e-11 m.*1e\+06 times.* 99.5 nm"):
+        read_surface(path, z_unit="pm", spacing=1e-6).line()

@@ -110,6 +110,9 @@ def continued(profile: Profile, extend: str) -> Height:
 # in the domain, the statistics of the heights there are random.
 MOST_OF_DOMAIN = 0.1
 
+# Largest credible root-mean-square height of a measured surface after all steps [m].
+_ROUGHEST = 1e-3
+
 # Fraction of the points that ``truncate`` may cut off without a warning.
 _MOST_CUT = 0.05
 
@@ -137,6 +140,9 @@ def step_warnings(
         yield ResultWarning.of(
             "voids-filled", percent=100 * voids, part=whose, surface=table.surface, method=how
         )
+    rq = rms(steps[-1][1].heights)
+    if table.file is not None and rq > _ROUGHEST:
+        yield ResultWarning.of("heights-large", surface=table.surface, rq=rq * 1e3)
     if table.truncate is not None:
         share = float(np.mean(np.abs(steps[-2][1].heights) > table.truncate))
         if share > _MOST_CUT:

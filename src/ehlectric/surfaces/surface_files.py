@@ -34,9 +34,10 @@ from ehlectric.runtime.reading import read_bytes, regular
 from ehlectric.runtime.sizes import check_memory_for
 from ehlectric.runtime.text_table import UTF_16, NoTableError, is_text
 from ehlectric.surfaces.maps import Map, filled, without_void_borders
-from ehlectric.surfaces.profiles import LEAST_POINTS, Profile
+from ehlectric.surfaces.profiles import LEAST_POINTS, Profile, rms
 from ehlectric.surfaces.text_maps import read_text
 from ehlectric.surfaces.text_profiles import Scale, factor_of
+from ehlectric.surfaces.void_numbers import refuse_void_numbers, without_void_numbers
 
 # Exceptions of Python's readers of ZIP archives and XML, and of its decompressors, for invalid content.
 BROKEN = (
@@ -203,6 +204,7 @@ def read_x3p(path: Path, content: bytes) -> HeightMap:
         with np.errstate(all="ignore"):
             heights = np.frombuffer(data, kind).astype(float)
         del data
+    heights, marked = without_void_numbers(path, heights)
     with np.errstate(all="ignore"):
         # In place: each copy of a large map takes as much memory again.
         heights *= increment
@@ -217,7 +219,7 @@ def read_x3p(path: Path, content: bytes) -> HeightMap:
         _check_floats(path, heights, abs(dx) * max(rows, columns), root)
     # A single row has no neighbour, even if the file states a distance between rows.
     dy = None if rows == 1 else _number(path, root, "CY/Increment", None)
-    return HeightMap(heights.reshape(rows, columns), dx, dy, unused)
+    return HeightMap(heights.reshape(rows, columns), dx, dy, (*unused, *marked))
 
 
 def _main_of(archive: zipfile.ZipFile) -> str:
@@ -456,16 +458,21 @@ def read_npy(path: Path, content: bytes, scale: Scale) -> HeightMap:
         raise InputError.worded("spacing", f"missing; {path} contains no positions")
     scale.refuse_x_unit(path)
     with np.errstate(all="ignore"):
-        heights = np.load(io.BytesIO(content), allow_pickle=False).astype(float)
+        heights, marked = without_void_numbers(
+            path, np.load(io.BytesIO(content), allow_pickle=False).astype(float)
+        )
         heights *= factor_of(path, "z_unit", scale.z_unit, None)
     heights[~np.isfinite(heights)] = np.nan
     if heights.ndim == 1 or 1 in shape:
-        return HeightMap(heights.reshape(1, -1), scale.spacing, None)
-    return HeightMap(heights, scale.spacing, scale.spacing_y or scale.spacing)
+        return HeightMap(heights.reshape(1, -1), scale.spacing, None, marked)
+    return HeightMap(heights, scale.spacing, scale.spacing_y or scale.spacing, marked)
 
 
 # Largest credible slope between neighbours: no instrument measures a flank steeper than 5 (79 degrees).
 STEEPEST = 5.0
+
+# Smallest credible root-mean-square height of a surface, a tenth of an atom, and a usual value [m].
+SMOOTHEST, _USUAL = 1e-11, 1e-7
 
 # Largest fraction of a line or map that may be void; the voids are then filled.
 MOST_VOID = 0.2
@@ -581,7 +588,7 @@ class Surface:
 
 def _checked(profile: Profile, source: str) -> Profile:
     """Return the profile; raise an error if its heights are not credible for a surface."""
-    _refuse_constant("line", profile.heights, source)
+    _refuse_flat("line", profile.heights, source)
     slope = float(np.max(np.abs(np.diff(profile.heights)))) / profile.spacing
     if slope > STEEPEST:
         raise InputError(
@@ -596,7 +603,7 @@ def _checked(profile: Profile, source: str) -> Profile:
 def _checked_map(surface: Map, source: str) -> Map:
     """Return the map; raise an error if its heights are not credible for a surface."""
     z = surface.heights
-    _refuse_constant("map", z, source)
+    _refuse_flat("map", z, source)
     slopes = [np.abs(np.diff(z, axis=0)) / surface.spacing_x, np.abs(np.diff(z, axis=1)) / surface.spacing_y]
     steep = max(float(np.mean(slope > STEEPEST)) for slope in slopes)
     if steep > _MOST_STEEP:
@@ -609,11 +616,20 @@ def _checked_map(surface: Map, source: str) -> Map:
     return surface
 
 
-def _refuse_constant(name: str, heights: Array, source: str) -> None:
-    """Raise an InputError if all heights of a line or map are equal, which is no measured surface."""
+def _refuse_flat(name: str, heights: Array, source: str) -> None:
+    """Raise an InputError if the heights of a line or map [m] are equal, or differ by less than atoms."""
     if np.ptp(heights) == 0.0:
         got = f"is constant, all {heights.size} heights of the {name} are {heights.flat[0]:g} m"
         raise InputError(source, got, takes="heights that differ; is this line or channel the right one?")
+    deviation = rms(heights)
+    if deviation < SMOOTHEST:
+        factor = 1000.0 ** round(math.log(_USUAL / deviation, 1000.0))
+        raise InputError(
+            source,
+            f"the heights of the {name} have a root mean square of {deviation:.3g} m",
+            takes=f"at least {SMOOTHEST:g} m; is their unit {factor:g} times larger, for "
+            f"{deviation * factor * 1e9:.3g} nm?",
+        )
 
 
 def _check_range(name: str, length: float, heights: Array, source: str, units: str) -> None:
@@ -667,7 +683,7 @@ def read_surface(
     elif suffix == ".al3d" or content.startswith(b"AliconaImaging"):
         surface = _of_map(path, read_al3d(path, content), scale)
     elif content.startswith(_NPY):
-        surface = Surface(*read_npy(path, content, scale)[:3], str(path))
+        surface = _surface(path, read_npy(path, content, scale))
     elif _is_text(content):
         surface = _of_text(path, content, scale)
     else:
@@ -716,6 +732,10 @@ def _of_map(path: Path, heights: HeightMap, scale: Scale) -> Surface:
             what = "spacing" if field.name.startswith("spacing") else "unit"
             got = f"{value!r}, but {path} is in a format that has its own {what}"
             raise InputError(field.name, got=got)
+    return _surface(path, heights)
+
+
+def _surface(path: Path, heights: HeightMap) -> Surface:
     return Surface(heights.heights, heights.spacing_x, heights.spacing_y, str(path), heights.warnings)
 
 
@@ -745,6 +765,7 @@ def _check_scale(surface: Surface) -> None:
             f"holds heights of {highest:.3g} m",
             takes=f"up to {_HIGHEST:g} m; is the unit right?",
         )
+    refuse_void_numbers(surface.source, surface.heights)
 
 
 # Endings of files that contain tables and no format of their own.

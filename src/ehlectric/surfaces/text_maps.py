@@ -9,6 +9,7 @@ import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -32,12 +33,16 @@ from ehlectric.surfaces.text_profiles import (
     stated_where,
     voids_of,
 )
+from ehlectric.surfaces.void_numbers import without_void_numbers
 
 # Most lines of a text, of which each is looked at: twice the lines of the longest profiles of instruments.
 MOST_LINES = 2_000_000
 
 # Fewest columns of a matrix. Three columns are positions and heights.
 _LEAST_COLUMNS = 4
+
+# Most rows in which decimal commas are searched.
+_TRIED = 200
 
 # Least fraction of the points of a grid that a file contains, and largest number of points of the grid.
 _LEAST_FILLED, _MOST_POINTS = 0.5, 20_000_000
@@ -121,11 +126,12 @@ def _column(path: Path, layout: Layout, text: str, scale: Scale) -> TextSurface:
     (z,) = layout.numbers(path, layout.columns, layout.below(text), layout.first + 1, voids=layout.columns)
     if z.size < LEAST_POINTS:
         raise InputError(path, f"has {z.size} points", takes=f"at least {LEAST_POINTS}")
+    z, marked = without_void_numbers(path, z)
     (stated,) = stated_units(layout)
     heights = z * factor_of(path, "z_unit", scale.z_unit, stated)
     scale.refuse_x_unit(path)
     check_lengths(path, heights)
-    return TextSurface(heights[np.newaxis], scale.spacing, None)
+    return TextSurface(heights[np.newaxis], scale.spacing, None, marked)
 
 
 def _points(
@@ -136,6 +142,7 @@ def _points(
     x, y, z, *flags = layout.numbers(path, places, layout.below(text), layout.first + 1, voids=places[2:])
     if x.size < LEAST_POINTS:
         raise InputError(path, f"has {x.size} points", takes=f"at least {LEAST_POINTS}")
+    z, marked = without_void_numbers(path, z)
     units = stated_units(layout)
     factors = {
         name: factor_of(path, key, getattr(scale, key), units[roles[name]])
@@ -149,7 +156,7 @@ def _points(
         if np.ptp(constant) == 0.0 and np.ptp(along) > 0.0:
             step = last_digits(layout, roles[name], lines)
             spacing, warnings = spacing_of(path, along, step)
-            return TextSurface(heights[np.newaxis], spacing * factors[name], None, warnings)
+            return TextSurface(heights[np.newaxis], spacing * factors[name], None, (*warnings, *marked))
     column, columns, dx = _axis(path, "x", x, last_digits(layout, roles["x"], lines))
     row, rows, dy = _axis(path, "y", y, last_digits(layout, roles["y"], lines))
     if rows * columns > _MOST_POINTS or x.size < _LEAST_FILLED * rows * columns:
@@ -167,7 +174,7 @@ def _points(
         raise InputError(path, got, takes="one height at each point")
     grid = np.full(rows * columns, np.nan)
     grid[place] = heights
-    return TextSurface(grid.reshape(rows, columns), dx * factors["x"], dy * factors["y"])
+    return TextSurface(grid.reshape(rows, columns), dx * factors["x"], dy * factors["y"], marked)
 
 
 def _axis(path: Path, name: str, values: Array, step: float) -> tuple[IntArray, int, float]:
@@ -202,11 +209,13 @@ def _matrix(path: Path, layout: Layout, text: str, scale: Scale) -> TextSurface:
         got = f"has {layout.width} columns of heights, and its header does not state their spacing"
         raise NoTableError(path, got, takes="spacing and z_unit with such a matrix")
     scale.refuse_x_unit(path)
+    _refuse_pairs(path, layout, text)
     z = np.stack(
         layout.numbers(path, layout.columns, layout.below(text), layout.first + 1, voids=layout.columns),
         axis=1,
     )
     _refuse_positions(path, z)
+    z, marked = without_void_numbers(path, z)
     if unit is None:
         unit = _unit_alone(layout)
     heights = z * factor_of(path, "z_unit", scale.z_unit, unit)
@@ -218,7 +227,7 @@ def _matrix(path: Path, layout: Layout, text: str, scale: Scale) -> TextSurface:
     else:
         assert scale.spacing is not None
         spacings = scale.spacing, scale.spacing_y or scale.spacing
-    return TextSurface(heights, spacings[0], None if rows == 1 else spacings[1])
+    return TextSurface(heights, spacings[0], None if rows == 1 else spacings[1], marked)
 
 
 def _header_of_matrix(path: Path, layout: Layout) -> tuple[tuple[float, float] | None, str | None]:
@@ -247,6 +256,30 @@ def _unit_alone(layout: Layout) -> str | None:
     """Unit of heights in a header that contains no other field than it, such as "z [um]"; else None."""
     heads = [line.strip() for line in layout.header if line.strip()]
     return stated_where(heads[-1]) if heads else None
+
+
+def _refuse_pairs(path: Path, layout: Layout, text: str) -> None:
+    """Raise an InputError if pairs of whole numbers between commas may be numbers with decimal commas.
+
+    The second number of each pair then consists of digits only, with equally many in each pair or with zeros
+    before others, and the first number does not.
+    """
+    if layout.dialect.separator != "," or layout.width % 2:
+        return
+    rows = [row for _, row in islice(layout.rows(layout.below(text), layout.first + 1), _TRIED)]
+    firsts, seconds = ([field for row in rows for field in row[start::2]] for start in (0, 1))
+    if any("." in field for field in firsts + seconds) or not all(field.isdigit() for field in seconds):
+        return
+    plain = all(field.isdigit() for field in firsts)
+    lengths = {len(field) for field in seconds}
+    zeros = any(len(field) > 1 and field.startswith("0") for field in seconds)
+    if zeros or (len(lengths) == 1 and not (plain and {len(field) for field in firsts} == lengths)):
+        number, row = next(layout.rows(layout.below(text), layout.first + 1))
+        raise InputError(
+            path,
+            f"line {number} begins with {shown(','.join(row[:4]))}, four numbers or two with decimal commas",
+            takes="a semicolon or a tab between columns",
+        )
 
 
 def _refuse_positions(path: Path, z: Array) -> None:

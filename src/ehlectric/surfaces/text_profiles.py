@@ -20,6 +20,7 @@ from ehlectric.quantities.unit_spelling import typed
 from ehlectric.quantities.units import known_factor, length_unit, to_si
 from ehlectric.runtime.text_table import Layout
 from ehlectric.surfaces.profiles import LEAST_POINTS
+from ehlectric.surfaces.void_numbers import without_void_numbers
 
 _UNITS = ("m", "mm", "um", "µm", "nm", "Å")
 _UNIT_WORDS = {
@@ -99,6 +100,7 @@ def profile_of(
     x, z, *flags = layout.numbers(path, places, layout.below(text), layout.first + 1, voids=places[1:])
     if x.size < LEAST_POINTS:
         raise InputError(path, f"has {x.size} points", takes=f"at least {LEAST_POINTS}")
+    z, marked = without_void_numbers(path, z)
     units = stated_units(layout)
     factors = [
         factor_of(path, name, getattr(scale, name), units[roles[name[0]]]) for name in ("x_unit", "z_unit")
@@ -108,7 +110,7 @@ def profile_of(
     for validity in flags:
         z[voids_of(path, layout, text, roles["valid"], validity)] = np.nan
     spacing, warnings = spacing_of(path, x, last_digits(layout, roles["x"], lines))
-    return TextProfile(z, spacing * factors[0], warnings)
+    return TextProfile(z, spacing * factors[0], (*warnings, *marked))
 
 
 def voids_of(path: Path, layout: Layout, text: str, place: int, validity: Array) -> Mask:
