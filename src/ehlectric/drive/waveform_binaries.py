@@ -10,25 +10,25 @@ import re
 import struct
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from logging import LogRecord
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import scipy
 
 from ehlectric.arrays import Array
+from ehlectric.drive.matlab_file import MatlabArray, matlab_arrays
 from ehlectric.drive.waveform_choice import Choice, Keys, choice_of, envelope
 from ehlectric.drive.waveform_heads import Head, Labels, Stated, parts_of
 from ehlectric.drive.waveform_refusals import exceeded, segments
 from ehlectric.drive.waveform_samples import MOST_BYTES, Samples
 from ehlectric.errors import InputError, shown
-from ehlectric.readable import readable
 from ehlectric.runtime.file_kinds import PEEKED
-from ehlectric.runtime.reading import regular
-from ehlectric.runtime.sizes import check_memory_for, check_size
+from ehlectric.runtime.reading import read_bytes, regular
+from ehlectric.runtime.sizes import check_size
 
-# Memory for a byte of a file while it is read [bytes], as its samples have 8 to 16 bits, and for a number.
-_MEMORY, _NUMBER = 40.0, 24.0
+# Memory for a byte of a file while it is read [bytes], as its samples have 16 bits or more.
+_MEMORY = 16.0
 
 # Largest number of columns, and of first samples in which times are recognised.
 _MOST_COLUMNS, _PEEKED = 1000, 1000
@@ -67,8 +67,10 @@ def read_binary(path: Path, kind: str, keys: Keys) -> tuple[Labels, Choice, Samp
     library, reader = READERS[kind]
     try:
         columns, stated = reader(path)
-    except (InputError, MemoryError):
+    except InputError:
         raise
+    except MemoryError:
+        raise InputError(path, "states more numbers than fit into the memory") from None
     except ImportError:
         takes = "the extra ehlectric[scopes], or the waveform as CSV"
         raise InputError(path, f"needs the package {library}", takes=takes) from None
@@ -103,40 +105,49 @@ def _samples(path: Path, choice: Choice, columns: list[Column], keys: Keys) -> S
 
 def _mat(path: Path) -> tuple[list[Column], list[Stated]]:
     """Arrays of a file of MATLAB; single numbers and texts are keys."""
-    # A compressed variable may be large.
-    known = scipy.io.whosmat(str(path))
-    count = sum(int(np.prod(shape, dtype=float)) for _, shape, _ in known)
-    check_memory_for(path, _NUMBER * count, f"has {readable(count, 2)} numbers")
-    content = scipy.io.loadmat(str(path), mat_dtype=True, appendmat=False)
     columns: list[Column] = []
     stated: list[Stated] = []
-    for name, array in content.items():
-        if name.startswith("__") or not isinstance(array, np.ndarray) or array.ndim > 2:
-            continue
-        if array.size == 1 and array.dtype.kind in "fiu":
-            stated.append(Stated(name, (f"{array.flat[0]:g}",), 0, f"{name}: {array.flat[0]:g}"))
-        elif array.size and array.dtype.kind in "fiu":
-            columns += _of_array(name, array)
+    for each in matlab_arrays(path, read_bytes(path, most=MOST_BYTES), MOST_BYTES):
+        if each.numbers.size == 1:
+            number = f"{float(each.numbers.flat[0]):.12g}"
+            stated.append(Stated(each.name, (number,), 0, f"{each.name}: {number}"))
+        else:
+            columns += _of_array(each)
     return columns, stated
 
 
-def _of_array(name: str, array: Any) -> Iterator[Column]:
+def _of_array(each: MatlabArray) -> Iterator[Column]:
     """Columns of an array, named as MATLAB indexes them; the samples are along its longer axis."""
-    counts = array.dtype.kind in "iu"
+    name, array = each.name, each.numbers
     if 1 in array.shape:
-        yield Column(*parts_of(name), array.ravel(), counts)
+        yield Column(*parts_of(name), array.ravel(), each.whole)
         return
     along_rows = array.shape[0] >= array.shape[1]
     for k, numbers in enumerate(array.T if along_rows else array, 1):
-        yield Column(f"{name}(:,{k})" if along_rows else f"{name}({k},:)", "", numbers, counts)
+        yield Column(f"{name}(:,{k})" if along_rows else f"{name}({k},:)", "", numbers, each.whole)
 
 
 def _tdms(path: Path) -> tuple[list[Column], list[Stated]]:
     """Channels of a file of LabVIEW, each after its times, if the file contains times."""
     from nptdms import TdmsFile
+    from nptdms.log import log_manager
 
+    # The package prints what is damaged, and goes on.
+    faults: list[str] = []
+
+    def refuse(record: LogRecord) -> bool:
+        faults.append(record.getMessage())
+        return False
+
+    log_manager.console_handler.addFilter(refuse)
+    try:
+        file = TdmsFile.read(str(path))
+    finally:
+        log_manager.console_handler.removeFilter(refuse)
+    if faults:
+        raise InputError(path, f"is damaged: {faults[0][:80]}; export it as CSV")
     columns: list[Column] = []
-    channels = [channel for group in TdmsFile.read(str(path)).groups() for channel in group.channels()]
+    channels = [channel for group in file.groups() for channel in group.channels()]
     names = [channel.name for channel in channels]
     for channel in channels:
         numbers = np.asarray(channel[:])
@@ -227,7 +238,7 @@ def _isf(path: Path) -> tuple[list[Column], list[Stated]]:
 # Libraries and readers of binary files, by the keys of ``file_kinds.KINDS``.
 Reader = Callable[[Path], tuple[list[Column], Iterable[Stated]]]
 READERS: Mapping[str, tuple[str, Reader]] = {
-    "mat": ("SciPy", _mat),
+    "mat": ("ehlectric", _mat),
     "tdms": ("npTDMS", _tdms),
     "trc": ("RigolWFM", _trc),
     "isf": ("RigolWFM", _isf),

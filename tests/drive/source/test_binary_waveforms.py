@@ -5,6 +5,7 @@ import sys
 
 import numpy as np
 import pytest
+import scipy
 
 from ehlectric.drive.waveform_file import read_waveform
 from ehlectric.errors import InputError
@@ -77,7 +78,9 @@ def test_numbers_of_binary_files(tmp_path, kind):
         (write.mat({"time": TIMES, "A": COUNTS}), {}, "scale: missing"),
         (write.mat({"time": TIMES**2, "A": VOLTS}), {"column": "A"}, "FILE"),
         (write.mat({}), {}, "0 columns"),
-        (b"MATLAB 5.0 MAT-file".ljust(128) + b"\1" * 300, {}, "SciPy"),
+        (b"MATLAB 5.0 MAT-file".ljust(128) + b"\1" * 300, {}, "damaged"),
+        (FILES["mat"][:-40], {}, "damaged"),
+        (FILES["tdms"][:-40], {}, "damaged"),
         (write.tdms({"I": (VOLTS, EVEN | {"unit_string": "A"})}), {}, "'A'"),
         (write.tdms({"U": (COUNTS, EVEN | {"unit_string": ""})}), {}, "scale: missing"),
         (write.tdms({"U": (VOLTS, {})}), {}, "step: missing"),
@@ -85,6 +88,18 @@ def test_numbers_of_binary_files(tmp_path, kind):
 )
 def test_refused_binary_files(tmp_path, content, keywords, words):
     assert re.search(words, refused(written(tmp_path, content), **keywords))
+
+
+@pytest.mark.parametrize("compressed", [False, True])
+@pytest.mark.parametrize("kind", ["f8", "f4"])
+def test_arrays_that_scipy_writes(tmp_path, compressed, kind):
+    path = tmp_path / "scope.mat"
+    others = {"note": "text", "cell": np.array(["a", 1], object), "both": VOLTS + 1j, "field": {"x": VOLTS}}
+    arrays = {"time_ns": 1e9 * TIMES, "CH1_V": VOLTS.astype(kind), "on": VOLTS > 0}
+    scipy.io.savemat(path, arrays | others, do_compression=compressed)
+    read, _ = read_waveform(path)
+    assert read.values == pytest.approx(VOLTS, rel=1e-6)
+    assert (read.start, read.step) == pytest.approx((START, STEP), rel=1e-9)
 
 
 def test_keys_apply_to_binary_files(tmp_path):
