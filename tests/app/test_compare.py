@@ -12,9 +12,13 @@ from ehlectric.app.charts import compare_charts as figures
 from ehlectric.app.compute.bearing_answers import meaning_of
 from ehlectric.app.compute.compare_answers import side, whole_side
 from ehlectric.app.compute.contact_answers import by_formula, contact_case
+from ehlectric.app.form_fields.axle_fields import other_inputs
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.compare_page import effects_table, inputs_table
+from ehlectric.app.pages.frame import AXLE
 from ehlectric.app.view_models import Effect, Film, Result, effects, in_both, input_rows, only_in
+from ehlectric.axle import solve_axle
+from ehlectric.cases.axle_case import AxleCase
 from ehlectric.errors import InputError
 from ehlectric.runs.preview import preview_of
 from tests.helpers.bearings import numbers_of
@@ -77,6 +81,23 @@ def test_an_upper_bound_says_so(both):
     assert whole["critical speed"].bound == "≥", "thinner films break down at higher speeds too"
     ceramic = side(FAST.changed({"bearing.element_material": "silicon-nitride"}).table)
     assert {row.name: row for row in ceramic.results}["capacitance of the bearing"].bound == "≤"
+
+
+@pytest.mark.slow
+def test_both_axles_have_the_numbers_of_the_command():
+    """Expected: ``solve_axle`` of both axles; a ring with 0 V on the rotor lowers all voltages."""
+    ring = dict(AXLE.changed({"circuit.grounding_ring_resistance": "1 ohm"}).table)
+    sides = [side(dict(AXLE.table)), side(ring)]
+    for one, table in zip(sides, (AXLE.table, ring), strict=True):
+        summary = solve_axle(AxleCase.from_written(dict(table)), remedies=False, probable=False).summary()
+        ratios = {row["element"]: row["voltage_ratio"] for row in summary["elements"] if row["voltage_ratio"]}
+        assert dict(one.ratios) == ratios
+        main = {result.name: result.value for result in one.results if result.main}
+        assert main == ratios | {row["shaft"]: row["voltage"] for row in summary["shafts"]}
+    changes = [effect for effect in effects(*sides) if effect.either.main]
+    assert all(effect.change < 0.0 for effect in changes)
+    rows = input_rows(AXLE.table, ring, lambda table: other_inputs(Inputs(table)))
+    assert [row.key for row in rows if row.sign != "="] == ["circuit.grounding_ring_resistance"]
 
 
 def test_effects_are_changes_in_percent(both):

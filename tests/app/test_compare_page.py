@@ -8,8 +8,9 @@ from ehlectric.app.page_inputs import Inputs
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.results import BEARING_BOOK
 from tests.app.driving import seen
-from tests.app.outputs import address_of, summary_by_command
+from tests.app.outputs import address_of, fits, summary_by_command
 from tests.helpers.places import EXAMPLES
+from tests.helpers.processes import wait_until
 
 pytestmark = pytest.mark.browser
 
@@ -91,6 +92,31 @@ def test_a_bearing_is_compared_from_its_page_and_changed_there(page, tmp_path):
     one, _ = tables()
     two = dict(Inputs(one).changed({"bearing.radial_load": "3600 N"}).table)
     assert_effects(page, by_command(one, tmp_path), by_command(two, tmp_path))
+
+
+@pytest.mark.slow
+def test_an_axle_is_compared_from_its_page_and_changed_there(open_page, app_server):
+    page = open_page(app_server, "/axle")
+    page.locator("[data-testid=answer][aria-busy=false]").wait_for()
+    page.get_by_test_id("compare").click()
+    page.wait_for_url("**/compare?**")
+    page.get_by_test_id("compared").get_by_text("Both cases have the same inputs").wait_for()
+    page.get_by_test_id("inputs-b").click()
+    form = page.get_by_test_id("form-b")
+    box = form.get_by_test_id("field-drive-torque")
+    box.fill("60 N m")
+    box.press("Tab")
+    page.get_by_test_id("input-drive-torque").wait_for()
+    assert cells(page, "mesh-of-rotor-and-intermediate")[3] != "no change"
+    bars = seen(page, "figure-ratios").locator(".barlayer .point")
+    assert wait_until(lambda: bars.count() == 14), "seven elements with a breakdown voltage in both"
+    # The form follows another name of a shaft.
+    form.get_by_test_id("group-shaft-output").locator("summary").first.click()
+    name = form.get_by_test_id("field-shaft-3-name")
+    name.fill("wheel")
+    name.press("Tab")
+    form.get_by_test_id("group-shaft-wheel").wait_for()
+    assert fits(page)
 
 
 @pytest.mark.slow

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
+from ehlectric.app.pages.frame import AXLE
 from tests.app.driving import complete, drawn, seen, wait_for_number
 from tests.app.outputs import address_of, downloaded, fits
 from tests.app.test_axle_page import simulate as simulate_axle
@@ -26,6 +27,12 @@ _MOST, _COLOURS = 250_000, 128
 MEASURED = {
     **tomllib.loads((EXAMPLES / "bearing_6208.toml").read_text(encoding="utf-8")),
     "measured": {"capacitance": "250 pF +- 5 %", "outer_ring_temperature": "74 degC +- 2 K"},
+}
+
+# Two axles of which one has a ring on the rotor.
+AXLES = {
+    name: dict(AXLE.changed({"remedies": None, "circuit.grounding_ring_resistance": ring}).table)
+    for name, ring in (("a", None), ("b", "1 ohm"))
 }
 
 # Height beyond which a picture of a page is cut off [px].
@@ -88,6 +95,12 @@ def compared(page):
     assert wait_until(lambda: page.get_by_test_id("effect-critical-speed").count() > 0)
 
 
+def compared_axles(page):
+    seen(page, "effect-mesh-of-rotor-and-intermediate").wait_for()
+    # Probabilities follow the first answer.
+    page.get_by_test_id("side-b").get_by_text("Measure first").wait_for()
+
+
 # Name of the picture: address of the page, and what waits until it is complete.
 PAGES = {
     "bearing": (lambda: "/", bearing),
@@ -100,6 +113,7 @@ PAGES = {
     "contact-point": (lambda: "/contact?contact.geometry=point", contact_point),
     "sweep": (lambda: address_of("/sweep", sweep(6)), swept),
     "compare": (lambda: "/compare", compared),
+    "compare-axle": (lambda: address_of("/compare", AXLES), compared_axles),
 }
 
 

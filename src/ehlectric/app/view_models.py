@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from string import ascii_lowercase
 from typing import Any, Literal
@@ -359,6 +359,8 @@ class Side:
     results: tuple[Result, ...]
     warnings: tuple[PageWarning, ...] = ()
     films: tuple[Film, ...] = ()
+    # Voltages of the elements of an axle divided by their breakdown voltages, the first element first.
+    ratios: tuple[tuple[str, float], ...] = ()
     # Voltages of a bearing over its speed; none unless the answer is whole.
     voltages: tuple[OverSpeed, ...] = ()
     method: str = ""  # how the results were obtained, and their error
@@ -423,15 +425,23 @@ class Effect:
         return f"{sign}{number}\N{NO-BREAK SPACE}%"
 
 
-def input_rows(first: Mapping[str, Any], second: Mapping[str, Any]) -> list[InputRow]:
-    """Inputs of two cases, those that differ first.
+def _flat(table: Mapping[str, Any]) -> dict[str, Any]:
+    return Inputs(table).flat()
+
+
+def input_rows(
+    first: Mapping[str, Any],
+    second: Mapping[str, Any],
+    flat: Callable[[Mapping[str, Any]], Mapping[str, Any]] = _flat,
+) -> list[InputRow]:
+    """Inputs of two cases by the dotted keys of ``flat``, those that differ first.
 
     Examples
     --------
     >>> [row.sign for row in input_rows({"a": 1, "b": 2}, {"a": 1, "b": 3, "c": 4})]
     ['≠', 'only B', '=']
     """
-    inputs_a, inputs_b = Inputs(first).flat(), Inputs(second).flat()
+    inputs_a, inputs_b = flat(first), flat(second)
     rows = [_input_row(key, inputs_a, inputs_b) for key in {**inputs_a, **inputs_b}]
     return sorted(rows, key=lambda row: row.sign == "=")
 

@@ -1,4 +1,5 @@
-"""Figures of two cases side by side: voltages over the speed, and films over the position of the elements.
+"""Figures of two cases side by side: films over the position of the elements, voltages over the speed, and
+voltage ratios of axles.
 
 They are built in the process of the server, so that nothing here loads NumPy.
 """
@@ -10,7 +11,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from ehlectric.app.view_models import Film, Side
-from ehlectric.quantities.palette import AMBER, BLUE
+from ehlectric.quantities.palette import AMBER, BLUE, GREY
 from ehlectric.readable import readable
 
 # Colours of both cases.
@@ -43,11 +44,50 @@ def over_speed(sides: Sequence[Side]) -> dict[str, Any]:
     return _figure(traces, 400, layout)
 
 
-def _log_axis() -> dict[str, Any]:
-    """Logarithmic axis with ticks at 1, 2 and 5 of each decade."""
-    ticks = [digit * 10.0**power for power in range(-6, 10) for digit in (1, 2, 5)]
+def _log_axis(digits: Sequence[int] = (1, 2, 5)) -> dict[str, Any]:
+    """Logarithmic axis with ticks at some digits of each decade."""
+    ticks = [digit * 10.0**power for power in range(-6, 10) for digit in digits]
     texts = [readable(tick, 6) for tick in ticks]
     return {"type": "log", "tickmode": "array", "tickvals": ticks, "ticktext": texts}
+
+
+def ratios(sides: Sequence[Side]) -> dict[str, Any]:
+    """Voltages of the elements of both axles divided by their breakdown voltages, which are at 1. Returns
+    figure for Plotly.
+    """
+    values = [dict(side.ratios) for side in sides]
+    names = [*dict.fromkeys(name for table in values for name in table)]
+    traces = [
+        {
+            "type": "bar",
+            "orientation": "h",
+            "name": name,
+            "x": [table[element] for element in names if element in table],
+            "y": [element for element in names if element in table],
+            "marker": {"color": colour},
+            "hovertemplate": f"{name}, %{{y}}: %{{x:,.3~r}}<extra></extra>",
+        }
+        for name, colour, table in zip(("A", "B"), (_FIRST, _SECOND), values, strict=True)
+    ]
+    limit = {"type": "line", "x0": 1.0, "x1": 1.0, "yref": "paper", "y0": 0.0, "y1": 1.0}
+    ends = [1.0, *(value for table in values for value in table.values())]
+    low, high = min(ends) / _BEYOND, max(ends) * _BEYOND
+    layout = {
+        "xaxis": {
+            "title": {"text": "U / V_b"},
+            **_log_axis((1, 3)),
+            "range": [math.log10(low), math.log10(high)],
+        },
+        "yaxis": {"autorange": "reversed", "type": "category", "automargin": True},
+        "shapes": [limit | {"line": {"color": GREY, "width": 2, "dash": "dash"}}],
+        "legend": {"orientation": "h", "x": 0.0, "xanchor": "left", "y": 1.02, "yanchor": "bottom"},
+        "bargap": 0.3,
+    }
+    return _figure(traces, 120 + 46 * max(1, len(names)), layout)
+
+
+# Factor between the ends of an axis and its values.
+_BEYOND = 1.6
 
 
 def films(sides: Sequence[Side]) -> dict[str, Any]:

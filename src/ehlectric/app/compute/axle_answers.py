@@ -60,20 +60,20 @@ def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> AxleA
     """Answer about an axle without its remedies and without probabilities. Raises InputError if the tables
     are no valid axle, a bearing cannot carry its load, or gears cannot run together.
     """
-    return answer_of(solve_axle(_alone(table, session), remedies=False, probable=False))
+    return answer_of(solve_axle(axle_after_an_edge(table, session), remedies=False, probable=False))
 
 
 def remedied_answer(table: Mapping[str, Any], session: Path | None = None) -> AxleAnswer:
     """Answer about an axle and its remedies, without probabilities; see ``quick_answer``."""
-    return answer_of(solve_axle(_alone(table, session), probable=False))
+    return answer_of(solve_axle(axle_after_an_edge(table, session), probable=False))
 
 
 def whole_answer(table: Mapping[str, Any], session: Path | None = None) -> AxleAnswer:
     """Answer about an axle and its remedies, with probabilities; see ``quick_answer``."""
-    return answer_of(solve_axle(_alone(table, session)))
+    return answer_of(solve_axle(axle_after_an_edge(table, session)))
 
 
-def _alone(table: Mapping[str, Any], session: Path | None) -> AxleCase:
+def axle_after_an_edge(table: Mapping[str, Any], session: Path | None) -> AxleCase:
     """Axle right after an edge, without a duty cycle and a simulated time."""
     case = axle_of(at_operating_point(table), session)
     return case.model_copy(update={"drive": case.drive.model_copy(update={"duration": None})})

@@ -4,23 +4,28 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any
 
-from ehlectric.app.compute import bearing_answers, contact_answers
-from ehlectric.app.compute.answer_parts import card, case_of, page_warnings_of
+from ehlectric.app.compute import axle_answers, bearing_answers, contact_answers
+from ehlectric.app.compute.answer_parts import card, case_of, kind_of, page_warnings_of
 from ehlectric.app.compute.bearing_answers import quick_summary, quick_verdict, solved_quickly
 from ehlectric.app.view_models import Film, Number, OverSpeed, Result, Side
+from ehlectric.axle import solve_axle
 from ehlectric.bearing import error_text, scaled_curves
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.defaults import OF_CONTACTS
+from ehlectric.errors import printable
 from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.rows import Row
 from ehlectric.quantities.sheets import COMPARED, NOT_COMPARED
 from ehlectric.quantities.units import rpm
+from ehlectric.readable import readable
 from ehlectric.runs.preview import preview_of
+from ehlectric.tables.axle_tables import axle_rows
 from ehlectric.tables.bearing_tables import check_rows
 
 
@@ -28,6 +33,8 @@ def side(table: Mapping[str, Any], folder: Path | None = None, *, whole: bool = 
     """Answer about one case; the answer of a bearing is ``whole`` with what depends on further solutions.
     Raises InputError if the tables are no valid case, or neither the atlas nor a formula describes its films.
     """
+    if kind_of(table) == "axle":
+        return _axle(table, folder, whole=whole)
     case = case_of(table, folder)
     return _bearing(case, whole=whole) if isinstance(case, BearingCase) else _contact(case)
 
@@ -55,6 +62,37 @@ def _bearing(case: BearingCase, *, whole: bool) -> Side:
         voltages=tuple(_over_speed(result.case, summary)) if whole else (),
         method=f"{OF_CONTACTS[result.case.contacts]}: films may be {error_text(result.solution)} off",
     )
+
+
+def _axle(table: Mapping[str, Any], folder: Path | None, *, whole: bool) -> Side:
+    """Answer about an axle right after an edge, with its probabilities if it is whole."""
+    case = axle_answers.axle_after_an_edge(table, folder)
+    result = solve_axle(case, remedies=False, probable=whole)
+    answer, summary = axle_answers.answer_of(result), result.summary()
+    ratios = tuple((printable(name), ratio) for name, ratio in result.solution.ranking() if ratio > 0.0)
+    rows = axle_rows(summary)
+    shafts = [
+        Result(_SHAFTS, printable(row["shaft"]), row["voltage"], readable(row["voltage"]), "V", main=True)
+        for row in summary["shafts"]
+    ]
+    first = [Result(_RATIOS, name, ratio, readable(ratio), main=True) for name, ratio in ratios]
+    others = [each for each in _results(rows) if each.group not in ("", _SHAFTS)]
+    return Side(
+        kind="axle",
+        title=case.title,
+        verdict=answer.verdict,
+        meaning=answer.meaning,
+        deciding=replace(answer.deciding, figure=""),
+        number=answer.number(answer.deciding.key),
+        results=(*first, *shafts, *others),
+        warnings=answer.warnings,
+        ratios=ratios,
+        method="films of the atlas, and voltages right after an edge",
+    )
+
+
+# Headings of the results of axles that decide.
+_RATIOS, _SHAFTS = "voltage / breakdown voltage", "voltages of the shafts after an edge"
 
 
 def _contact(case: Case) -> Side:

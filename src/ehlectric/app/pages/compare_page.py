@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from html import escape
@@ -14,11 +14,11 @@ from nicegui import ui
 
 from ehlectric.app.calls import COMPARE_SIDE, COMPARE_WHOLE_SIDE, Call
 from ehlectric.app.charts import compare_charts as figures
-from ehlectric.app.form_fields import Group
+from ehlectric.app.form_fields.axle_fields import other_inputs
 from ehlectric.app.latest_answer import LatestAnswer
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages import page_parts
-from ehlectric.app.pages.form import Form, groups_for
+from ehlectric.app.pages.form import Form, groups_for, shape_of_form
 from ehlectric.app.pages.frame import (
     BEARING,
     PAGE_PATIENCE,
@@ -140,7 +140,16 @@ def drawn(sides: tuple[Side, Side]) -> dict[str, Figure | None]:
     if all(side.films for side in sides):
         title, words = "Minimum film of the elements [µm]", "Minimum film over the position of the elements"
         films = Figure(title, words, figures.films(sides))
-    return {"over-speed": over_speed, "films": films}
+    ratios = None
+    if all(side.ratios for side in sides):
+        title = "Voltage after an edge / breakdown voltage"
+        ratios = Figure(
+            title,
+            "Bars of the bearings and meshes of A and B",
+            figures.ratios(sides),
+            caption="Above 1 the element breaks down.",
+        )
+    return {"over-speed": over_speed, "films": films, "ratios": ratios}
 
 
 _PATH = "/compare"
@@ -207,7 +216,7 @@ class SideBox:
         self._title.text = answer.title or "no title"
         self._panel.verdict.show(answer.verdict, answer.meaning, answer.deciding.said)
         self._panel.tell(answer.deciding, answer.number, ())
-        path = PATHS["bearing" if answer.kind == "bearing" else "contact"]
+        path = PATHS[answer.kind]
         self._link.props["href"] = address_of(path, case)
         self._link.update()
 
@@ -218,7 +227,7 @@ class ComparePage:
     def __init__(self, session: Session) -> None:
         self.session = session
         self._forms: dict[Name, Form] = {}
-        self._groups: dict[Name, Sequence[Group]] = {}
+        self._shapes: dict[Name, Any] = {}
         self._quick: Sides | None = None
         # Answers by call and case: of two cases, one is mostly as before.
         self._known: dict[tuple[str, str], Side] = {}
@@ -267,7 +276,7 @@ class ComparePage:
         with first:
             page_parts.heading("Inputs", 2)
             self._inputs = ui.html("", sanitize=False)
-            self._figures = {"over-speed": FigureBox("over-speed")}
+            self._figures = {name: FigureBox(name) for name in ("over-speed", "ratios")}
             page_parts.heading("Effect on the results", 2)
             self._method = ui.label().classes("soft")
             self._effects = ui.html(_NOTHING, sanitize=False)
@@ -279,20 +288,28 @@ class ComparePage:
         """Show the present inputs in the forms, which are made anew where a case needs another one."""
         for name in _NAMES:
             case = self.case(name)
-            if self._groups.get(name) is groups_for(case):
+            shape = shape_of_form(case)
+            if self._shapes.get(name) == shape:
                 self._forms[name].set(case)
                 continue
-            self._groups[name] = groups_for(case)
+            self._shapes[name] = shape
             place = self._places[name]
             place.clear()
             with place:
                 words = f"Inputs of {name.upper()}"
-                self._forms[name] = Form(self._groups[name], case, self._change(name), label=words)
+                listed = other_inputs if case.value("shaft") else Inputs.flat
+                self._forms[name] = Form(
+                    groups_for(case), case, self._change(name), label=words, listed=listed
+                )
 
     def _change(self, name: Name) -> Any:
         async def change(key: str, value: Any) -> None:
             case = self.case(name).changed({key: value})
             self._push({**self.session.inputs.table, name: dict(case.table)})
+            if shape_of_form(case) != self._shapes[name]:
+                # A field of the form that is made anew has no place on the page any more.
+                with self._places[name]:
+                    self._set_forms()
 
         return change
 
@@ -380,12 +397,19 @@ class ComparePage:
         cases = [Inputs(inputs.value(name) or {}) for name in _NAMES]
         self._method.text = "; ".join(dict.fromkeys((first.method, second.method)))
         self._effects.content = effects_table(changes)
-        self._inputs.content = inputs_table(input_rows(cases[0].table, cases[1].table), _labels(cases))
+        rows = input_rows(cases[0].table, cases[1].table, _flat_of(cases))
+        self._inputs.content = inputs_table(rows, _labels(cases))
         for name, shown in drawn((first, second)).items():
             self._figures[name].show(shown)
         self._notes.content = notes_html(first, second)
         for element in self._answers:
             element.classes(remove="old")
+
+
+def _flat_of(cases: Iterable[Inputs]) -> Callable[[Mapping[str, Any]], Mapping[str, Any]]:
+    """Function that returns the inputs of a case by dotted key; keys of axles contain numbers."""
+    axles = all(case.value("shaft") for case in cases)
+    return lambda table: other_inputs(Inputs(table)) if axles else Inputs(table).flat()
 
 
 def _labels(sides: Iterable[Inputs]) -> dict[str, str]:

@@ -11,6 +11,7 @@ from nicegui import ui
 
 from ehlectric.app.catalogue import choices
 from ehlectric.app.form_fields import BEARING_GROUPS, GEAR_GROUPS
+from ehlectric.app.form_fields.axle_fields import axle_groups, shape_of
 from ehlectric.app.form_fields.contact_fields import geometry_of, groups_of
 from ehlectric.app.form_fields.drive_fields import DRIVE_GROUPS
 from ehlectric.app.form_fields.field import Field, Group, in_field_unit, shown_text, written_text
@@ -362,12 +363,21 @@ def _is_of_kind(changes: Mapping[str, Any]) -> bool:
 
 
 def groups_for(case: Inputs) -> Sequence[Group]:
-    """Return the groups of fields of a drive, a gear pair, a bearing, or a contact with its geometry."""
+    """Return the groups of fields of a drive, a gear pair, an axle, a bearing, or a contact with its
+    geometry.
+    """
     if case.value("drive_end"):
         return DRIVE_GROUPS
     if case.value("gear"):
         return GEAR_GROUPS
+    if case.value("shaft"):
+        return axle_groups(case)
     return BEARING_GROUPS if case.value("bearing") else groups_of(geometry_of(case))
+
+
+def shape_of_form(case: Inputs) -> Any:
+    """Return what the groups of a case depend on, to be compared with the shape of an existing form."""
+    return shape_of(case) if case.value("shaft") else groups_for(case)
 
 
 # Longest note that is shown in an empty box [characters].

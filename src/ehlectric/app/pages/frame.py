@@ -203,7 +203,7 @@ class Toolbar:
             self._redo = _button("Redo", "redo", self.redo, "Control+Shift+Z")
             _button("Copy link", "copy-link", self.copy_link)
             if opens:
-                if path not in (PATHS["drive"], PATHS["gear"], PATHS["axle"]):
+                if path not in (PATHS["drive"], PATHS["gear"]):
                     _button("Compare", "compare", self.compare)
                 if path != PATHS["sweep"]:
                     _button("Vary", "vary", self.vary)
@@ -251,6 +251,8 @@ class Toolbar:
         if "drive_end" in case:
             self._tell(error="drives are compared on the page Drive, with mitigation measures")
             return
+        # An axle is compared without its mitigation measures.
+        case = {key: value for key, value in case.items() if key != "remedies"}
         self._go("/compare", Inputs({"a": case, "b": case}))
 
     def vary(self) -> None:
@@ -268,8 +270,8 @@ class Toolbar:
 
     @property
     def _case(self) -> Inputs:
-        """Inputs for other pages, which have no duty cycle."""
-        return self.session.inputs.changed({"duty": None})
+        """Inputs for other pages, which have no duty cycle and no measured values."""
+        return self.session.inputs.changed({"duty": None, "measured": None})
 
     def _go(self, path: str, inputs: Inputs) -> None:
         """Open another page with inputs; files stay in the session of this one."""
