@@ -191,10 +191,6 @@ def test_changes_of_an_oil_with_a_table():
             "viscosity_table and temperature",
         ),
         ({"viscosity_table": {"viscosity": [0.04, 0.05], "pressure": [0.0]}}, "viscosity_table.pressure"),
-        (
-            {"viscosity_table": {"viscosity": [0.04, 0.05], "pressure": [0.0, 0.0]}},
-            "one pressure and one temperature",
-        ),
         ({"viscosity_table": "none.csv"}, "none.csv"),
         (
             {"viscosity_table": {"viscosity": [0.04, 40.0, 0.05, 3.0], "pressure": [0.0, 1e8, 2e8, 3e8]}},
@@ -205,6 +201,48 @@ def test_changes_of_an_oil_with_a_table():
 def test_what_is_no_table_of_an_oil(change, words):
     with pytest.raises(InputError, match=words):
         Lubricant.from_dict({**ELECTRIC, "viscosity_table": table_of(rows_of(KNOWN["roelands"])), **change})
+
+
+def rheometer(rows, *, decimal=".", encoding="utf-8"):
+    """Export of a rheometer: intervals below each other, with the units below the heads; ``rows``,
+    temperature [degC], shear rate [1/s] and viscosity [mPa s] of the rows of each interval.
+    """
+    lines = ["Project:\tOil A", "Test:\tTemperature sweep", ""]
+    for number, interval in enumerate(rows, 1):
+        lines += [
+            f"Interval and data points:\t{number}\t{len(interval)}",
+            "Interval data:\tPoint No.\tTemperature\tShear Rate\tViscosity\tStatus",
+            "\t\t[°C]\t[1/s]\t[mPa·s]\t",
+            "",
+        ]
+        cells = [
+            f"\t{place}\t{t:.2f}\t{rate:.1f}\t{eta:.5g}\tM-".replace(".", decimal)
+            for place, (t, rate, eta) in enumerate(interval, 1)
+        ]
+        lines += [*cells, ""]
+    return "\n".join(lines).encode(encoding)
+
+
+@each("decimal, encoding", [(".", "utf-16"), (",", "cp1252"), (",", "utf-8-sig")])
+def test_an_export_of_a_rheometer(decimal, encoding, tmp_path):
+    """Vogel's law of FVA 3 over temperature, in two intervals; the viscosity at 50 degC between the rows."""
+    of = {t: 1e3 * 6.2e-5 * math.exp(1021.7 / (t + 273.15 - 171.5983)) for t in (20, 40, 60, 80, 100)}
+    intervals = [[(t, 100.0, of[t]) for t in (20, 40, 60)], [(t, 100.0, of[t]) for t in (80, 100)]]
+    (tmp_path / "rheo.txt").write_bytes(rheometer(intervals, decimal=decimal, encoding=encoding))
+    given = {"viscosity_law": "barus", "pressure_viscosity_coefficient": 18e-9}
+    table = Lubricant.from_dict({**ELECTRIC, **given, "viscosity_table": str(tmp_path / "rheo.txt")})
+    expected = 6.2e-5 * math.exp(1021.7 / (323.15 - 171.5983))
+    assert table.at(323.15).viscosity == pytest.approx(expected, rel=1e-3)
+
+
+def test_a_flow_curve_is_newtonian_or_refused(tmp_path):
+    path, given = tmp_path / "flow.txt", {"viscosity_law": "barus", "pressure_viscosity_coefficient": 18e-9}
+    path.write_bytes(rheometer([[(40.0, 10.0, 50.5), (40.01, 100.0, 50.0), (39.99, 1000.0, 49.5)]]))
+    table = Lubricant.from_dict({**ELECTRIC, **given, "viscosity_table": str(path)})
+    assert table.at(313.15).viscosity == pytest.approx(0.05, rel=1e-3)
+    path.write_bytes(rheometer([[(40.0, 10.0, 50.0), (40.0, 1000.0, 50.0), (40.0, 1e5, 30.0)]]))
+    with pytest.raises(InputError, match=r"shear rate: 50 mPa s at 10 1/s .* 30 mPa s"):
+        Lubricant.from_dict({**ELECTRIC, **given, "viscosity_table": str(path)})
 
 
 ROWS = rows_of(KNOWN["barus"], (0.1e6, 100e6, 300e6), (313.15, 353.15))

@@ -652,8 +652,10 @@ def _is_heads(row: Sequence[str], dialect: Dialect, book: ColumnBook) -> bool:
 
 
 def _is_title(row: Sequence[str], heads: Sequence[str], dialect: Dialect, book: ColumnBook) -> bool:
-    """Whether a row is a text between two tables, as the name of a step."""
+    """Whether a row is a text between two tables, as the name of a step or "Interval and points: 2 31"."""
     text, *others = row
+    if text.endswith(":"):
+        return True
     if not text or any(others) or len(heads) == 1 or is_void(text):
         return False
     known = len(row) < len(heads) or _parts_of(heads[0], book) is not None

@@ -8,10 +8,11 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Self
 
+import numpy as np
 from pydantic import model_validator
 
 from ehlectric.cases.amounts import amount_at
-from ehlectric.cases.measurements import MOST_POINTS, ColumnBook, read_measurement
+from ehlectric.cases.measurements import MOST_POINTS, ColumnBook, Measurement, read_measurement
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError, within
 from ehlectric.lubricant.oil import RangeCheck
@@ -70,8 +71,37 @@ def with_rows(table: Mapping[Any, Any]) -> Mapping[Any, Any]:
         raise InputError(
             KEY, f"{read.source}: has no viscosity", takes=f"headings such as {VISCOSITIES.examples}"
         )
+    _check_newtonian(read)
     rows = {name: read.values[name].tolist() for name in _COLUMNS if read.has(name)}
     return {**table, KEY: {**given, **rows}}
+
+
+# Largest ratio of viscosities at one temperature and pressure whose shear rates differ.
+_NEWTONIAN = 1.05
+
+# Temperatures of rows that are one temperature [K].
+_LEVEL = 0.5
+
+
+def _check_newtonian(read: Measurement) -> None:
+    """Refuse a table in which the viscosity depends on the shear rate."""
+    if not read.has("shear_rate"):
+        return
+    zeros = np.zeros(read.size)
+    pressure, temperature = (read.values.get(name, zeros) for name in ("pressure", "temperature"))
+    viscosity, rate = read.values["viscosity"], read.values["shear_rate"]
+    levels = np.stack([pressure, np.round(temperature / _LEVEL)], axis=1)
+    _, level = np.unique(levels, axis=0, return_inverse=True)
+    for number in np.unique(level):
+        rows = np.flatnonzero(level.ravel() == number)
+        low, high = rows[np.argmin(viscosity[rows])], rows[np.argmax(viscosity[rows])]
+        if viscosity[high] > _NEWTONIAN * viscosity[low] and rate[high] != rate[low]:
+            got = f"{read.source}: the viscosity depends on the shear rate: {1e3 * viscosity[high]:.4g} mPa s at "
+            got += (
+                f"{rate[high]:.4g} 1/s in line {read.lines[high]}, and {1e3 * viscosity[low]:.4g} mPa s at "
+            )
+            got += f"{rate[low]:.4g} 1/s in line {read.lines[low]}"
+            raise InputError(KEY, got, takes="the rows of the Newtonian plateau, at low shear rates")
 
 
 def fitted_values(table: Mapping[Any, Any], base: Mapping[str, Any]) -> dict[str, Any]:

@@ -153,9 +153,6 @@ def fit_viscosity(
     t = None if temperature is None else np.array(temperature)
     over_temperature = t is not None and bool(np.ptp(t) > _LEVEL)
     over_pressure = bool(np.any(p > _AMBIENT))
-    if not over_temperature and not over_pressure:
-        text = "has rows at one pressure and one temperature"
-        raise InputError("viscosity_table", text, takes="at least two pressures or two temperatures")
     at = np.full(eta.size, 313.15) if t is None else t
     models = _models(
         p, at, eta, law, reference, over_temperature=over_temperature, over_pressure=over_pressure
