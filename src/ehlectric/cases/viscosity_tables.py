@@ -96,11 +96,11 @@ def _check_newtonian(read: Measurement) -> None:
         rows = np.flatnonzero(level.ravel() == number)
         low, high = rows[np.argmin(viscosity[rows])], rows[np.argmax(viscosity[rows])]
         if viscosity[high] > _NEWTONIAN * viscosity[low] and rate[high] != rate[low]:
-            got = f"{read.source}: the viscosity depends on the shear rate: {1e3 * viscosity[high]:.4g} mPa s at "
-            got += (
-                f"{rate[high]:.4g} 1/s in line {read.lines[high]}, and {1e3 * viscosity[low]:.4g} mPa s at "
+            upper, lower = (
+                f"{1e3 * viscosity[row]:.4g} mPa s at {rate[row]:.4g} 1/s in line {read.lines[row]}"
+                for row in (high, low)
             )
-            got += f"{rate[low]:.4g} 1/s in line {read.lines[low]}"
+            got = f"{read.source}: the viscosity depends on the shear rate: {upper}, and {lower}"
             raise InputError(KEY, got, takes="the rows of the Newtonian plateau, at low shear rates")
 
 

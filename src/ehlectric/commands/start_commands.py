@@ -25,8 +25,10 @@ _GEOMETRIES = ("line", "point")
 
 # Measurements that belong to an example, by the name of its file.
 _MEASUREMENTS = {
-    "bearing_6208.toml": "measurements/bearing_6208_capacitance.csv",
-    "measured_contact.toml": "measurements/film_log.txt",
+    "bearing_6208.toml": ("measurements/bearing_6208_capacitance.csv", "measurements/meter_log.csv"),
+    "drive.toml": ("measurements/common_mode.csv",),
+    "duty_wltc.toml": ("measurements/wltc_low_km_h.csv",),
+    "measured_contact.toml": ("measurements/film_log.txt",),
 }
 
 # Folder of the examples that holds the surfaces of rough contacts.
@@ -186,8 +188,7 @@ def _needed(file: str) -> Iterator[str]:
     """File of an example and the files that it names, relative to the folder of the examples."""
     yield file
     table = tomli.loads((examples_folder() / file).read_text(encoding="utf-8"))
-    if file in _MEASUREMENTS:
-        yield _MEASUREMENTS[file]
+    yield from _MEASUREMENTS.get(file, ())
     if isinstance(table.get("case"), str):
         yield from _needed(table["case"])
     yield from (table[name]["file"] for name in ("duty", "measured") if "file" in table.get(name, ()))
