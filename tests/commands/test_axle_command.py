@@ -8,7 +8,9 @@ import shutil
 import pytest
 from scipy.io import loadmat
 
-from ehlectric import InputError, export, figure, load, save, solve
+from ehlectric import InputError, export, figure, load, save, solve, solve_axle
+from ehlectric.readable import readable
+from ehlectric.tables.axle_tables import remedied_simulation_cells
 from tests.axle.axles import two_stages
 from tests.helpers.places import EXAMPLES
 
@@ -206,6 +208,67 @@ def test_discharges_over_time(typed, tmp_path):
     assert bearing["peak_voltage"] == pytest.approx(rotor["peak_voltage"], rel=1e-6)
     assert (tmp_path / "out" / "axle_discharges.png").stat().st_size > 10_000
     assert load(tmp_path / "out").summary()["simulation"] == table
+
+
+@pytest.fixture(scope="module")
+def simulated():
+    """Result over time, also with a ring on the rotor and with a first mesh that conducts."""
+    remedies = [two_stages().remedies[number] for number in (0, 3)]
+    return solve_axle(two_stages(**SIMULATED | {"drive.duration": "1 ms", "remedies": remedies}))
+
+
+@pytest.mark.slow
+@pytest.mark.gate
+def test_a_loaded_result_is_not_simulated_again(simulated, tmp_path, monkeypatch):
+    """Its discharges are stored to the last digit, also with each remedy."""
+    save(simulated, tmp_path)
+    monkeypatch.setattr("ehlectric.axle.result.simulate_axle", None)
+    loaded = load(tmp_path)
+    assert same(loaded.summary(), simulated.summary())
+    assert loaded.discharges.events() == simulated.discharges.events()
+    for found, expected in zip(loaded.discharges.trace[:2], simulated.discharges.trace[:2], strict=True):
+        assert found.tolist() == expected.tolist()
+    assert figure(loaded, "axle_discharges").axes
+
+
+@pytest.mark.slow
+def test_each_remedy_is_simulated_with_the_seed_of_the_axle(simulated):
+    """The same numbers as of the changed axle alone; a mesh that conducts has no discharges."""
+    for variant, discharges in zip(simulated.case.variants(), simulated.remedied_discharges, strict=True):
+        alone = solve_axle(variant).discharges
+        assert alone.record.events.tolist() == discharges.record.events.tolist()
+        assert alone.summary() == discharges.summary()
+    summary = simulated.summary()
+    ring, mesh = (
+        {row["element"]: row["events"] for row in table["simulation"]["elements"]}
+        for table in summary["remedies"]
+    )
+    rotor = ("bearing 1 of rotor", "bearing 2 of rotor")
+    assert sum(ring[name] for name in rotor) < simulated.discharges.summary()["events"]
+    assert "mesh of rotor and intermediate" not in mesh
+    heads, *rows = remedied_simulation_cells(summary)
+    assert len(heads) == 4
+    cells = {row[0]: row[1:] for row in rows}
+    assert cells["mesh of rotor and intermediate"][2] == "–"
+    assert cells["power of all [µW]"][0] == readable(1e6 * summary["simulation"]["power"])
+
+
+@pytest.mark.slow
+def test_damaged_discharges_are_refused(simulated, tmp_path):
+    dataset = simulated.to_xarray()
+    names = json.loads(dataset.attrs["simulation"])
+    events = dataset["simulation_event_film"]
+    for damaged in (
+        dataset.drop_vars("simulation_block_events"),
+        dataset.drop_attrs().assign_attrs({**dataset.attrs, "remedy_2_simulation": "{}"}),
+        dataset.assign_attrs(simulation=json.dumps(names | {"elements": names["elements"][1:]})),
+        dataset.assign_attrs(simulation=json.dumps(names | {"elements": ["other"] * len(names["elements"])})),
+        dataset.assign(simulation_event_film=0 * events + 40),
+        dataset.isel(simulation_voltage=slice(2)),
+    ):
+        damaged.to_netcdf(tmp_path / "axle.nc", engine="h5netcdf")
+        with pytest.raises(InputError, match=r"axle\.nc"):
+            load(tmp_path / "axle.nc")
 
 
 def test_a_simulation_without_an_arc_is_refused(typed, tmp_path):

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from ehlectric.axle.axle_discharges import AxleDischarges, simulate_axle
 from ehlectric.axle.axle_duty import AxleDuty, check_axle_duty, run_axle_duty
 from ehlectric.axle.axle_verdict import axle_verdict
-from ehlectric.axle.solution import AxleSolution, elements_of, solve_elements, solve_films
+from ehlectric.axle.solution import AxleSolution, elements_of, solve_films
 from ehlectric.axle.stored import layout_of
 from ehlectric.axle.summary import ELEMENT_COLUMNS, axle_summary, tables_of_point
 from ehlectric.axle.uncertainty import AxleUncertainty, has_chance, uncertainty_of
@@ -51,6 +52,8 @@ class AxleResult(Shown):
         seconds.
     stored_duty : AxleDuty, optional
         Result of the duty cycle that was stored with the solution.
+    simulated : tuple of AxleDischarges, optional
+        Discharges over time of the solution and of each remedy; empty where they are not simulated yet.
     """
 
     result_kind: ClassVar[ResultKind] = "axle"
@@ -61,7 +64,7 @@ class AxleResult(Shown):
     version: str = __version__
     probable: bool = True
     stored_duty: AxleDuty | None = field(default=None, compare=False)
-    simulated: AxleDischarges | None = field(default=None, compare=False)
+    simulated: tuple[AxleDischarges, ...] = field(default=(), compare=False)
 
     @property
     def case(self) -> AxleCase:
@@ -94,9 +97,21 @@ class AxleResult(Shown):
         They are simulated when they are first asked for. Raises InputError if an element lacks a value that
         discharges need.
         """
+        return self._all_discharges[0] if self._all_discharges else None
+
+    @property
+    def remedied_discharges(self) -> tuple[AxleDischarges, ...]:
+        """Discharges over the simulated time with each remedy, from random numbers of the same seed; empty as
+        ``discharges`` is None.
+        """
+        return self._all_discharges[1:]
+
+    @read_only_property
+    def _all_discharges(self) -> tuple[AxleDischarges, ...]:
+        """Discharges of the axle and with each remedy."""
         if self.case.drive.duration is None or not self.probable:
-            return None
-        return simulate_axle(self.solution) if self.simulated is None else self.simulated
+            return ()
+        return self.simulated or tuple(map(simulate_axle, (self.solution, *self.remedies)))
 
     @read_only_property
     def verdict(self) -> Verdict:
@@ -134,12 +149,16 @@ class AxleResult(Shown):
             **({} if self.uncertainty is None else {"uncertainty": self.uncertainty.summary()}),
             **({} if self.duty is None else {"duty": self.duty.summary()}),
             **({} if self.discharges is None else {"simulation": self.discharges.summary()}),
-            "remedies": [
-                {"title": remedy.title, **axle_summary(solution)}
-                for remedy, solution in zip(self.case.remedies, self.remedies, strict=False)
-            ],
+            "remedies": [*self._remedies()],
             "seconds": self.seconds,
         }
+
+    def _remedies(self) -> Iterator[dict[str, Any]]:
+        """Tables ``remedies`` of the summary."""
+        simulations = [{"simulation": each.summary()} for each in self.remedied_discharges]
+        for number, solution in enumerate(self.remedies):
+            in_time = simulations[number] if simulations else {}
+            yield {"title": self.case.remedies[number].title, **axle_summary(solution), **in_time}
 
     def _heads(self) -> dict[str, Any]:
         """Title, warnings, verdict and inputs of a summary."""
@@ -159,7 +178,14 @@ class AxleResult(Shown):
     def layout(self) -> Layout:
         """Return variables and attributes of axle.nc."""
         solutions = (self.solution, *self.remedies)
-        return layout_of(solutions, self.seconds, self.version, probable=self.probable, duty=self.duty)
+        return layout_of(
+            solutions,
+            self.seconds,
+            self.version,
+            probable=self.probable,
+            duty=self.duty,
+            discharges=self._all_discharges,
+        )
 
     def to_xarray(self) -> xr.Dataset:
         """Return the dataset of the result, as axle.nc contains it; SI units."""
@@ -214,10 +240,13 @@ def solve_axle(
     check_axle_duty(case)
     start = time.perf_counter()
     variants = case.variants()
-    films = solve_films(case, progress)
-    solution = elements_of(films)
-    changed = tuple(solve_elements(variant, progress) for variant in variants) if remedies else ()
+    every = [solve_films(each, progress) for each in (case, *(variants if remedies else ()))]
+    solution, *changed = map(elements_of, every)
     timed = probable and case.drive.duration is not None
-    discharges = simulate_axle(solution, progress, films=films) if timed else None
+    simulated = tuple(
+        simulate_axle(axle, progress, films=films)
+        for axle, films in zip((solution, *changed), every, strict=True)
+        if timed
+    )
     seconds = time.perf_counter() - start
-    return AxleResult(solution, changed, seconds=seconds, probable=probable, simulated=discharges)
+    return AxleResult(solution, tuple(changed), seconds=seconds, probable=probable, simulated=simulated)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ehlectric.axle.result import AxleResult, solve_axle
 from ehlectric.axle.stored import SCHEMA, duty_of, solutions_of
+from ehlectric.axle.stored_discharges import discharges_of
 from ehlectric.axle.summary import ELEMENT_COLUMNS, SHAFT_COLUMNS
 from ehlectric.cases.axle_case import AxleCase
 from ehlectric.quantities.results import EVENT_COLUMNS
@@ -72,7 +73,8 @@ def result_of(dataset: xr.Dataset, path: Path) -> AxleResult:
         seconds, version = number_of(dataset.attrs, "seconds"), text_of(dataset.attrs, "version")
         probable = number_of(dataset.attrs, "probable", "0 or 1") == 1.0
         duty = duty_of(dataset, solution.case)
-    return AxleResult(solution, tuple(remedies), seconds, version, probable, duty)
+        simulated = discharges_of(dataset, [solution, *remedies])
+    return AxleResult(solution, tuple(remedies), seconds, version, probable, duty, simulated)
 
 
 def _csv(rows: Sequence[Mapping[str, Any]], columns: Mapping[str, str]) -> Content:

@@ -13,8 +13,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ehlectric.arrays import Array
+from ehlectric.axle.axle_discharges import AxleDischarges
 from ehlectric.axle.axle_duty import STATES, AxleDuty
 from ehlectric.axle.solution import AxleSolution, Element
+from ehlectric.axle.stored_discharges import discharge_attributes, discharge_variables
 from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.axle_inputs import HOUSING
 from ehlectric.quantities.result_warnings import CODES_OF_TEXTS, TEXTS, ResultWarning, warnings_of
@@ -50,11 +52,12 @@ def layout_of(
     *,
     probable: bool,
     duty: AxleDuty | None = None,
+    discharges: Sequence[AxleDischarges] = (),
 ) -> Layout:
     """Variables and attributes of an axle.nc, SI units, from which ``solutions_of`` makes equal solutions.
 
     ``solutions`` of the axle, and of the axle with each of its remedies; ``probable``, whether the result
-    contains the probabilities of the elements.
+    contains the probabilities of the elements; ``discharges`` over time of each solution, or of none.
     """
     count = max(len(solution.elements) for solution in solutions)
     warnings = [[[each.code, each.text] for each in solution.warnings] for solution in solutions]
@@ -62,6 +65,7 @@ def layout_of(
         {
             **{name: (_DIMENSIONS, _column(solutions, name, count)) for name in _NUMBERS},
             **_duty_variables(duty),
+            **discharge_variables(discharges),
         },
         {
             "schema": SCHEMA,
@@ -71,6 +75,7 @@ def layout_of(
             "seconds": seconds,
             "probable": int(probable),
             **({} if duty is None else {"duty": _text(_duty_attributes(duty))}),
+            **discharge_attributes(discharges),
         },
     )
 

@@ -434,6 +434,7 @@ def _axle_tables(outcome: RunOutcome[object]) -> Iterator[Table]:
         chances_table,
         duty_table,
         elements_table,
+        remedied_simulation_table,
         remedies_table,
         shafts_table,
         simulation_table,
@@ -451,6 +452,8 @@ def _axle_tables(outcome: RunOutcome[object]) -> Iterator[Table]:
         yield table_of(chance_rows(outcome.summary))
     if outcome.summary["remedies"]:
         yield remedies_table(outcome.summary)
+        if "simulation" in outcome.summary:
+            yield remedied_simulation_table(outcome.summary)
 
 
 @command("gear")

@@ -67,6 +67,9 @@ from .run import solve_to_folder as solve_to_folder
 from .solver import SIMULATING as SIMULATING
 from .source_in_time import SourceInTime as SourceInTime
 from .stored import SCHEMA as SCHEMA
+from .stored import EventColumns as EventColumns
+from .stored import SampleColumns as SampleColumns
+from .stored import check_events as check_events
 from .summary import both_summary as both_summary
 from .summary import checked_summary as checked_summary
 from .summary import end_summary as end_summary

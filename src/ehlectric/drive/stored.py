@@ -52,7 +52,7 @@ _sample = partial(stored, "sample", count="sample_count")
 
 
 @dataclass(frozen=True)
-class _Events:
+class EventColumns:
     """Columns of the events of a record, in their order."""
 
     begin: Array = field(metadata=_event("s"))
@@ -64,9 +64,13 @@ class _Events:
     peak_current: Array = field(metadata=_event("A", "not negative"))
     position: Array = field(metadata=_event("", "whole", dtype="i8"))
 
+    def table(self) -> Array:
+        """Columns as the rows of ``Record.events``."""
+        return np.column_stack([getattr(self, each.name) for each in fields(self)]).astype(float)
+
 
 @dataclass(frozen=True)
-class _Samples:
+class SampleColumns:
     """Columns of the trace of a record; the last two are the voltages across both films."""
 
     time: Array = field(metadata=_sample("s"))
@@ -75,7 +79,7 @@ class _Samples:
 
 
 _SOLUTION, _RECORD = Part(DriveSolution, (_VARIANT,)), Part(Record, (_VARIANT,))
-_EVENTS, _SAMPLES = Part(_Events, (_VARIANT,), "event_"), Part(_Samples, (_VARIANT,), "sample_")
+_EVENTS, _SAMPLES = Part(EventColumns, (_VARIANT,), "event_"), Part(SampleColumns, (_VARIANT,), "sample_")
 _ELEMENT, _PATH = Part(BearingElement, (_VARIANT, _END), "element_"), Part(Path, (_VARIANT, _END), "path_")
 _DUTY = StoredDuty(
     DriveDuty,
@@ -110,8 +114,8 @@ def dataset_of(
         {
             **_SOLUTION.written(solutions),
             **_RECORD.written(records),
-            **_EVENTS.written([_Events(*part.events.T) for part in records]),
-            **_SAMPLES.written([_Samples(part[:, 0], part[:, 1], part[:, 2:]) for part in traces]),
+            **_EVENTS.written([EventColumns(*part.events.T) for part in records]),
+            **_SAMPLES.written([SampleColumns(part[:, 0], part[:, 1], part[:, 2:]) for part in traces]),
             **_ELEMENT.written(elements),
             **_PATH.written([[part.path for part in pair] for pair in elements]),
             **{key: part for k, duty in enumerate(duties) for key, part in _duty(k).variables(duty).items()},
@@ -207,11 +211,11 @@ def _case(tables: dict[str, Any]) -> DriveCase:
 
 
 def _solution_of(values: Mapping[str, Array], k: int, **given: Any) -> DriveSolution:
-    events, samples = _Events(**_EVENTS.read(values, k)), _Samples(**_SAMPLES.read(values, k))
-    columns = [getattr(events, each.name) for each in fields(_Events)]
+    events = EventColumns(**_EVENTS.read(values, k))
+    samples = SampleColumns(**_SAMPLES.read(values, k))
     record = Record(
         **_RECORD.read(values, k),
-        events=np.column_stack(columns).astype(float),
+        events=events.table(),
         limits=values["limit"],
         trace=np.column_stack([samples.time, samples.source, samples.voltage.reshape(-1, len(ENDS))]),
     )
@@ -240,7 +244,15 @@ def check(dataset: xr.Dataset, variants: int) -> None:
     counted = np.sum(dataset["block_events"].values, axis=-1)
     values = values_of(dataset)
     for k, total in enumerate(counted):
-        films = _EVENTS.read(values, k)["bearing"].astype(int)
-        numbers = np.bincount(films, minlength=len(ENDS))
-        if np.any(numbers > total) or (films.size < KEPT and np.any(numbers != total)):
-            raise UnfitError("event_bearing does not belong to block_events")
+        check_events(_EVENTS.read(values, k)["bearing"].astype(int), total, "event_bearing", "block_events")
+
+
+def check_events(films: Array, total: Array, name: str, of_blocks: str) -> None:
+    """Check the film of each event against the number of events of each film, shape (films,).
+
+    Raises UnfitError, with both names of variables, where they contradict each other.
+    """
+    numbers = np.bincount(films, minlength=total.size)
+    complete = films.size < KEPT
+    if numbers.size > total.size or np.any(numbers > total) or (complete and np.any(numbers != total)):
+        raise UnfitError(f"{name} does not belong to {of_blocks}")

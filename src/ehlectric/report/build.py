@@ -50,8 +50,10 @@ from ehlectric.tables.axle_tables import (
     chances_table,
     duty_table,
     elements_table,
+    remedied_simulation_table,
     remedies_table,
     shafts_table,
+    simulation_table,
 )
 from ehlectric.tables.bearing_tables import films_table, loads_table, total_rows
 from ehlectric.tables.contact_tables import result_rows
@@ -191,12 +193,16 @@ def _axle(result: AxleResult) -> Part:
     )
     elements = cell_table(elements_table(summary), "Bearings and meshes, the first to break down first")
     further = [elements, cell_table(shafts_table(summary), "Shafts", "shaft")]
+    if "simulation" in summary:
+        further.append(cell_table(simulation_table(summary), "Discharges over time"))
     if "duty" in summary:
         further.append(cell_table(duty_table(summary), "Shares of the duty cycle"))
     if "uncertainty" in summary:
         further.append(cell_table(chances_table(summary), "Probabilities of bearings and meshes"))
     if summary["remedies"]:
         further.append(cell_table(remedies_table(summary), "Voltage / breakdown voltage with each remedy"))
+    if summary["remedies"] and "simulation" in summary:
+        further.append(cell_table(remedied_simulation_table(summary), "Discharges with each remedy"))
     return part_of(
         result,
         summary,

@@ -94,7 +94,12 @@ def remedy_cells(summary: Summary) -> Iterator[tuple[str, ...]]:
 
 def remedies_table(summary: Summary) -> Table:
     """Table of U/V_b of all bearings and meshes with each remedy, for the terminal."""
-    heads, *rows = remedy_cells(summary)
+    return _wrapped_table(remedy_cells(summary))
+
+
+def _wrapped_table(cells: Iterator[tuple[str, ...]]) -> Table:
+    """Table for the terminal whose heads, titles of remedies, are wrapped."""
+    heads, *rows = cells
     return columns_table(
         ["\n".join(textwrap.wrap(head, _HEAD, break_long_words=False)) for head in heads], rows, wrapped=(0,)
     )
@@ -124,6 +129,30 @@ def simulation_table(summary: Summary) -> Table:
     """Table of the discharges of all bearings and meshes and the voltages of all shafts over time."""
     heads, *rows = simulation_cells(summary)
     return columns_table(heads, rows, wrapped=(0,))
+
+
+def remedied_simulation_cells(summary: Summary) -> Iterator[tuple[str, ...]]:
+    """Yield the heads of the table of discharges with each remedy, then the discharges in a second of each
+    bearing and mesh, and their mean energies. A dash is an element that conducts or has no discharge.
+    """
+    cases = [("as it is", summary), *((each["title"], each) for each in summary["remedies"])]
+    yield "discharges [1/s]", *(printable(title) for title, _ in cases)
+    tables = [{row["element"]: row for row in case["simulation"]["elements"]} for _, case in cases]
+    for name, key, unit, factor in (
+        ("{}", "events_per_second", "", 1.0),
+        ("W of {}", "energy_mean", "nJ", 1e9),
+    ):
+        for row in summary["elements"]:
+            if any(row["element"] in table for table in tables):
+                values = (table.get(row["element"], {}).get(key) for table in tables)
+                head = name.format(printable(row["element"])) + (unit and f" [{unit}]")
+                yield head, *(_cell(value, factor) for value in values)
+    yield "power of all [µW]", *(_cell(case["simulation"]["power"], 1e6) for _, case in cases)
+
+
+def remedied_simulation_table(summary: Summary) -> Table:
+    """Table of the discharges of all bearings and meshes with each remedy, for the terminal."""
+    return _wrapped_table(remedied_simulation_cells(summary))
 
 
 def chance_cells(summary: Summary) -> Iterator[tuple[str, ...]]:
