@@ -19,6 +19,7 @@ from ehlectric.axle.films_in_time import AxleInTime, TimedFilm
 from ehlectric.axle.network import HOUSING, Network
 from ehlectric.axle.solution import AxleSolution, SolvedFilms, solve_films
 from ehlectric.bearing import Path
+from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.drive_inputs import Breakdown
 from ehlectric.drive import (
     CHARGE,
@@ -190,13 +191,25 @@ def _films_in_time(solved: SolvedFilms, breakdown: Breakdown, conducting: set[st
         if name not in conducting:
             with case.naming(number):
                 element = bearing_element(solved.bearings[number], breakdown)
-            films.append(TimedFilm(name, bearing.shaft, HOUSING, _few_positions(element)))
+            stream = _stream_of_bearing(case, number)
+            films.append(TimedFilm(name, bearing.shaft, HOUSING, _few_positions(element), stream))
     for number, (name, mesh) in enumerate(zip(case.names_of_meshes(), case.mesh, strict=True)):
         if name not in conducting:
             with within(f"mesh.{number + 1}.pair"):
                 film = _few_positions(mesh_film(solved.meshes[number], breakdown))
-            films.append(TimedFilm(name, mesh.gears[0], mesh.gears[1], film))
+            stream = f"mesh of {' and '.join(sorted(mesh.gears))}"
+            films.append(TimedFilm(name, mesh.gears[0], mesh.gears[1], film, stream))
     return films
+
+
+def _stream_of_bearing(case: AxleCase, number: int) -> int | str:
+    """Number or name from which the random numbers of a bearing follow, whatever the order in the file.
+
+    The bearings of the rotor have the random numbers of the bearings of a drive.
+    """
+    shaft = case.bearing[number].shaft
+    place = sorted(case.bearings_of(shaft), key=lambda each: case.bearing[each].at).index(number)
+    return place if shaft == case.rotor else f"bearing {place} of {shaft}"
 
 
 def _few_positions(film: BearingElement) -> BearingElement:

@@ -35,6 +35,8 @@ class TimedFilm:
     first: str  # shaft
     second: str  # shaft or housing
     film: BearingElement
+    # Number or name from which its random numbers follow; empty for the name of the film.
+    stream: int | str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,4 +96,7 @@ class AxleInTime:
         compiling: Callable[[str], None] = lambda _: None,
     ) -> Record:
         """March through a source, and record what happens; arguments as in ``simulate``."""
-        return simulate(self.states(), self.films_in_time(), chunks, measuring, seed, progress, compiling)
+        streams = [each.name if each.stream == "" else each.stream for each in self.active]
+        return simulate(
+            self.states(), self.films_in_time(), chunks, measuring, seed, progress, compiling, streams
+        )
