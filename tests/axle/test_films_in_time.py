@@ -4,12 +4,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from ehlectric.axle.films_in_time import AxleInTime, TimedFilm
 from ehlectric.axle.network import HOUSING, WINDING, Film, Network
 from ehlectric.drive import Measuring, Segments
-from ehlectric.drive.drive_record import ENERGY, FILM, ON, VOLTAGE
-from tests.helpers.drives import arc, element
+from ehlectric.drive.drive_record import ENERGY, FILM, OFF, ON, VOLTAGE
+from ehlectric.errors import InputError
+from tests.helpers.drives import arc, element, from_rest, square
 
 NANO = 1e-9
 SHAFTS = ("1", "2", "3")
@@ -179,3 +182,48 @@ def test_short_arcs_are_discharges_that_take_no_time():
     )
     assert short.events[:, ENERGY] == pytest.approx(ideal.events[:, ENERGY], rel=1e-3)
     assert np.all(short.events[:, FILM] == 1)
+
+
+def small_circuit(draw):
+    """One or two shafts whose films may break down just above the voltage at which an arc goes out."""
+    extinction = draw(st.floats(1e-3, 1.0))
+    resistance = draw(st.sampled_from([1e-2, 1.0, 10.0, 1e3]))
+    recovery = draw(st.sampled_from([0.0, 1e-9, 1e-7]))
+    ends = [("1", HOUSING), ("1", HOUSING), *([("1", "2"), ("2", HOUSING)] if draw(st.booleans()) else [])]
+    exponents, ratios = (
+        draw(st.lists(st.floats(low, high), min_size=len(ends), max_size=len(ends)))
+        for low, high in ((-12.0, -8.0), (1.001, 30.0))
+    )
+    films = tuple(
+        TimedFilm(
+            f"{number}", *of_film,
+            element(10.0**exponent, breakdown=ratio * extinction, conductance=10.0**exponent / RELAXATION,
+                    shape=draw(st.sampled_from([np.inf, 5.0, 1.0]))),
+        )
+        for number, (of_film, exponent, ratio) in enumerate(zip(ends, exponents, ratios, strict=True))
+    )  # fmt: skip
+    fixed = (Film("winding", WINDING, "1", 0.1 * NANO), Film("rotor and frame", "1", HOUSING, 0.5 * NANO))
+    shafts = tuple(dict.fromkeys(shaft for of_film in ends for shaft in of_film if shaft != HOUSING))
+    breakdown = arc(arc_resistance=resistance, extinction_voltage=extinction, recovery_time=recovery)
+    return AxleInTime(Network(shafts, fixed), films, breakdown)
+
+
+@pytest.mark.slow
+@given(st.data(), st.booleans())
+@settings(max_examples=40, deadline=None)
+def test_no_cascade_of_discharges_is_endless(data, ramps):
+    """Each march ends, or is refused with the input to change; each discharge takes energy from the circuit.
+
+    Recovery at once, and thresholds just above the extinction, give up to 1e5 discharges of one edge.
+    """
+    of = small_circuit(data.draw)
+    source = from_rest(square(300.0, PERIOD, 1e-7, 2), 1e-7) if ramps else steps(2)
+    try:
+        record = of.march(iter([source]), Measuring(0.0, 2.0 * PERIOD, 40.0, (1.0,), 0.0), 0)
+    except InputError as error:
+        if error.key != "breakdown.recovery_time":
+            raise
+        return
+    assert np.all(record.events[:, ENERGY] >= 0.0)
+    assert np.all(record.events[:, OFF] >= record.events[:, ON])
+    assert np.all(np.isfinite(record.shafts))

@@ -10,6 +10,7 @@ from scipy.integrate import quad
 
 from ehlectric.drive.discharges.films_and_source import Segments
 from ehlectric.drive.drive_record import CHARGE, ENERGY, FILM, OFF, ON, PEAK, VOLTAGE
+from ehlectric.errors import InputError
 from tests.helpers.drives import arc, element, march, motor, square
 
 
@@ -295,3 +296,18 @@ def test_largest_voltage_while_asperities_touch():
     beside = circuit.winding_rotor_capacitance + circuit.rotor_frame_capacitance + 600e-12
     divider = 100.0 * circuit.winding_rotor_capacitance / beside
     assert record.touching == pytest.approx([divider, 0.0], rel=1e-9)
+
+
+@pytest.mark.parametrize("resistance", [1e-2, 0.1])
+def test_films_that_insulate_at_once_are_refused(resistance):
+    """A film is charged from 10 mV to 10.01 mV in 0.2 ps of an edge of 50 V/us: 1e5 discharges in 20 ns.
+
+    The source feeds 25 mA, which keep no arc of 0.1 ohm alive at 10 mV.
+    """
+    bearings = [element(3e-12, breakdown=10.01e-3), element(3e-12)]
+    breakdown = arc(arc_resistance=resistance, extinction_voltage="10 mV", recovery_time=0.0)
+    circuit = motor(winding_rotor_capacitance="500 pF", rotor_frame_capacitance="1 pF")
+    with pytest.raises(InputError) as refused:
+        march(circuit, bearings, breakdown, ramp(0.0, 5e7, 1e-5), highest=500.0)
+    assert refused.value.key == "breakdown.recovery_time"
+    assert "insulate too soon" in str(refused.value)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+import zlib
+from collections.abc import Callable, Iterator, Sequence
 from copy import deepcopy
 from typing import Any
 
@@ -46,6 +47,7 @@ from ehlectric.drive.discharges.event_loop import (
     SCALE,
     SEGMENT,
     SILENT,
+    SINCE,
     SOURCE_HIGH,
     SOURCE_LOW,
     SPACING,
@@ -74,6 +76,8 @@ from ehlectric.drive.discharges.films_and_source import Films, Measuring, Segmen
 from ehlectric.drive.discharges.voltages_in_time import empty_piece, empty_series
 from ehlectric.drive.drive_record import COLUMNS, FILM, KEPT, OFF, ON, VOLTAGE, Record
 from ehlectric.drive.motor_circuit import RATE_ROW
+from ehlectric.errors import InputError
+from ehlectric.readable import readable
 
 # Events and random numbers that are held at once.
 _EVENTS, _RANDOM = 4096, 16384
@@ -96,6 +100,10 @@ _FIRST = 5
 BLOCKS = 40
 
 
+# Number of discharges, and mean time between two of them [s], from which on a simulation is refused: films
+# that insulate again at once discharge again and again while an edge lasts, for hours of computing time.
+_TOO_MANY, _TOO_SOON = 100_000, 1e-8
+
 # Arrays of a march that contain its state.
 _STATE = ("film", "phases", "random", "x", "ring", "now", "at")
 
@@ -103,9 +111,9 @@ _STATE = ("film", "phases", "random", "x", "ring", "now", "at")
 class _Random:
     """Random numbers of all films, for thresholds and for times, from two streams of each film."""
 
-    def __init__(self, seed: int, films: int) -> None:
-        streams = np.random.SeedSequence(seed).spawn(2 * films)
-        self.streams = [np.random.Generator(np.random.PCG64(stream)) for stream in streams]
+    def __init__(self, seed: int, films: Sequence[int | str]) -> None:
+        seeds = (np.random.SeedSequence(seed, spawn_key=key) for film in films for key in _keys(film))
+        self.streams = [np.random.Generator(np.random.PCG64(each)) for each in seeds]
 
     def fill(self, march: March) -> None:
         """Replace used numbers by new ones; those that are left come first."""
@@ -116,6 +124,14 @@ class _Random:
                 march.random[b, stream, : left.size] = left
                 march.random[b, stream, left.size :] = self.streams[2 * b + stream].standard_exponential(used)
                 march.phases[b, USED + stream] = 0
+
+
+def _keys(film: int | str) -> tuple[tuple[int, ...], ...]:
+    """Keys of both streams of a film by its number or by its name."""
+    if isinstance(film, int):
+        return (2 * film,), (2 * film + 1,)
+    named = zlib.crc32(film.encode())
+    return (named, 0), (named, 1)
 
 
 class _Log:
@@ -164,13 +180,16 @@ def simulate(
     seed: int,
     progress: Callable[[float], None] = lambda _: None,
     compiling: Callable[[str], None] = lambda _: None,
+    streams: Sequence[int | str] | None = None,
 ) -> Record:
     """March through a source, and record what happens.
 
     A chunk of the source ends where measuring begins. ``progress`` is called with the simulated time [s], and
-    ``compiling`` with a text where the march has to be compiled.
+    ``compiling`` with a text where the march has to be compiled. The random numbers of a film depend on
+    ``seed`` and on its entry of ``streams``, by default its number from 0. Raises InputError where discharges
+    follow each other too fast.
     """
-    random = _Random(seed, films.step.size)
+    random = _Random(seed, range(films.step.size) if streams is None else streams)
     march, begun = _at_rest(circuits, films, random, measuring), measuring.start == 0.0
     log = _Log(measuring.duration, films.step.size)
     trace: Array | None = None
@@ -196,7 +215,10 @@ def _through(
     start: float,
     compiling: Callable[[str], None] = lambda _: None,
 ) -> March:
-    """March through a chunk of the source, and log the events after a time [s]."""
+    """March through a chunk of the source, and log the events after a time [s]. Raises InputError where
+    discharges follow each other too fast.
+    """
+    begun, number = float(march.now[TIME]), 0
     march = march._replace(
         segments=np.array([chunk.duration, chunk.level, chunk.slope]), rings=np.ascontiguousarray(chunk.ring)
     )
@@ -212,8 +234,21 @@ def _through(
         random.fill(march)
         if log is not None:
             log.add(march.events[: march.at[FILLED]], start)
+        number += int(march.at[FILLED])
         march.at[FILLED] = 0
+        _check_rate(number, float(march.now[TIME] + march.now[SINCE]) - begun)
     return march
+
+
+def _check_rate(number: int, time: float) -> None:
+    """Raise InputError where many discharges took place in a time [s]."""
+    if number > _TOO_MANY and time < number * _TOO_SOON:
+        raise InputError.worded(
+            "breakdown.recovery_time",
+            f"films insulate too soon after a discharge: {number} discharges follow each other in "
+            f"{readable(1e6 * time, 3)} µs. Enter a longer recovery_time, or an extinction voltage or "
+            "current further below the breakdown voltages",
+        )
 
 
 def _typical(log: _Log) -> float:
