@@ -138,9 +138,9 @@ def discharges_of(dataset: xr.Dataset, solutions: Sequence[AxleSolution]) -> tup
     """
     if _stored(0).name not in dataset.attrs:
         return ()
-    found = tuple(_stored(variant).read(dataset) for variant in range(len(solutions)))
-    for each, solution in zip(found, solutions, strict=True):
+    records = tuple(_stored(variant).read(dataset) for variant in range(len(solutions)))
+    for each, solution in zip(records, solutions, strict=True):
         films = {element.name for element in solution.elements}
         if not films.issuperset(each.names) or not set(solution.turning).issuperset(each.shafts):
             raise UnfitError("its discharges have not the elements and shafts of its case")
-    return found
+    return records
