@@ -125,7 +125,7 @@ def discharge_variables(discharges: Sequence[AxleDischarges]) -> dict[str, Any]:
 
 
 def discharge_attributes(discharges: Sequence[AxleDischarges]) -> dict[str, str]:
-    """Attributes of the discharges: names of the elements and of the shafts of each record."""
+    """Names of elements and shafts of each record, as attributes of the file."""
     return {
         _stored(variant).name: json.dumps({"elements": each.names, "shafts": each.shafts})
         for variant, each in enumerate(discharges)
@@ -133,7 +133,7 @@ def discharge_attributes(discharges: Sequence[AxleDischarges]) -> dict[str, str]
 
 
 def discharges_of(dataset: xr.Dataset, solutions: Sequence[AxleSolution]) -> tuple[AxleDischarges, ...]:
-    """Discharges of a dataset for the axle and for each remedy; empty where the file has none. Raises
+    """Discharges of a dataset for the axle and for each remedy; empty for a file without them. Raises
     UnfitError where a record is missing, or is not as it was written.
     """
     if _stored(0).name not in dataset.attrs:
