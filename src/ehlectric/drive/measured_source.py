@@ -135,6 +135,7 @@ def measured_source(
             time_unit=source.time_unit,
             value_unit=source.value_unit,
             scale=source.scale,
+            resample=source.resample,
         )
     except InputError as error:
         if error.key == str(Path(source.file)):

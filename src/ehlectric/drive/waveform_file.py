@@ -20,7 +20,7 @@ from ehlectric.drive.waveform_heads import Labels, labels_of
 from ehlectric.drive.waveform_quality import quality_warnings
 from ehlectric.drive.waveform_refusals import refuse_counts, refuse_scpi, refuse_stated, refuse_words
 from ehlectric.drive.waveform_samples import MOST_BYTES, Samples, read_samples
-from ehlectric.drive.waveform_times import timing
+from ehlectric.drive.waveform_times import evened, timing
 from ehlectric.errors import InputError
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable
@@ -54,12 +54,14 @@ def read_waveform(
     time_unit: str | None = None,
     value_unit: str | None = None,
     scale: float = 1.0,
+    resample: float | None = None,
 ) -> tuple[Waveform, tuple[ResultWarning, ...]]:
     r"""Waveform [V] at equal steps [s] of a text file, and warnings: assumed units, and doubts about samples.
 
     ``column`` and ``time_column`` are names, or numbers from 1. A given ``step`` [s] replaces times that are
-    missing or printed with too few digits. The file is read block by block. An InputError names the key that
-    is needed, or the line that has no finite numbers or no later time.
+    missing or printed with too few digits. Uneven times are replaced by equal steps of ``resample`` [s] if it
+    is given, by linear interpolation; even ones are kept. The file is read block by block. An InputError
+    names the key that is needed, or the line that has no finite numbers or no later time.
 
     Examples
     --------
@@ -79,11 +81,17 @@ def read_waveform(
     labels, choice, read = _of_text(path, keys) if kind is None else read_binary(path, kind, keys)
     if read.values.size < LEAST_SAMPLES:
         raise InputError(path, f"has {read.values.size} samples", takes=f"at least {LEAST_SAMPLES}")
-    start, interval, gaps = timing(path, read, choice, step)
     refuse_scpi(path, read)
     refuse_counts(path, labels, read.values, choice.factor, keys)
+    read, uneven = evened(path, read, choice, resample if step is None else None, scale)
+    start, interval, gaps = timing(path, read, choice, step)
     waveform = Waveform(start, interval, _volts(path, read.values, choice, scale))
-    warnings = (*_of_reading(path, labels, choice, read.values.size), *_of_step(path, labels, step), *gaps)
+    warnings = (
+        *_of_reading(path, labels, choice, read.values.size),
+        *_of_step(path, labels, step),
+        *gaps,
+        *uneven,
+    )
     return waveform, (*warnings, *quality_warnings(str(path), waveform))
 
 

@@ -39,8 +39,9 @@ _BEGINS = re.compile(r"[#\s]*(?:segment|frame|block|step information)\b", re.IGN
 # Values of keys of the format or the acquisition that announce pairs of minimum and maximum.
 _ENVELOPES = ("env", "minmax", "min/max", "min-max", "peak", "pkdetect", "p-p")
 
-# Most segments whose places a message lists; least samples of a segment.
-_LISTED, _LEAST = 5, 4
+# Most segments whose places a message lists; least samples of a segment whose times begin again, and of a
+# segment after a gap, as circuit simulators also leave gaps.
+_LISTED, _LEAST, _LEAST_APART = 5, 4, 16
 
 # A gap of time between segments [usual steps].
 _GAP = 1.5
@@ -133,7 +134,7 @@ def refuse_gaps(path: Path, read: Samples) -> None:
     gaps = np.diff(read.times)
     begins = np.flatnonzero(gaps > _GAP * np.median(gaps)) + 1
     lengths = _lengths(read, begins)
-    if begins.size and np.all(lengths == lengths[0]) and lengths[0] >= _LEAST:
+    if begins.size and np.all(lengths == lengths[0]) and lengths[0] >= _LEAST_APART:
         raise _of_begins(path, read, begins, "gaps of time are before")
 
 

@@ -13,6 +13,7 @@ from ehlectric.drive.waveform_samples import Samples
 from ehlectric.errors import InputError
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable
+from ehlectric.runtime.sizes import check_memory_for
 
 # Largest sampling interval where no unit of time is stated [s].
 _SLOW = 1e-3
@@ -23,6 +24,10 @@ _SAME = 0.01
 # Largest deviation of times from equal spacing, beyond the rounding of printed times [steps]. Rounded to the
 # same digits, the times of two ends and a sample between them deviate by one last digit.
 _JITTER, _DIGITS = 1e-3, 1.01
+
+# Largest rounding of uneven times [new steps], relative allowance for rounding at the end of the times, and
+# memory for a new sample [bytes].
+_COARSE, _END, _MEMORY = 0.1, 1e-12, 40.0
 
 # Largest share of double distances that are taken for missing samples.
 _FEW = 0.05
@@ -59,6 +64,49 @@ def timing(
             "apart, too far for an inverter; expected 's', 'ms' or 'us'",
         )
     return start, interval, _missing(path, times)
+
+
+def evened(
+    path: Path, read: Samples, choice: Choice, interval: float | None, scale: float
+) -> tuple[Samples, tuple[ResultWarning, ...]]:
+    """Samples at equal steps of the user's ``interval`` [s], if times are uneven, and a warning.
+
+    Circuit simulators choose their steps, and join their points by straight lines: new samples lie on these
+    lines. The warning contains the largest distance of a point from the new samples, joined in the same way.
+    ``scale`` is the user's factor on the voltages. Without an interval, and for even times, nothing changes.
+    """
+    times = read.times
+    if choice.time is None or interval is None or times.size < 2:
+        return read, ()
+    refuse_restarts(path, read)
+    each, single = float(times[-1] - times[0]) / (times.size - 1), _single_precision(times, read.digit)
+    _check_order(path, read, each, single)
+    if _worst(times, each)[1] <= _tolerance(read, each, single):
+        return read, ()
+    refuse_gaps(path, read)
+    step, steps = interval / choice.time_factor, np.diff(times)
+    if max(read.digit, single) > _COARSE * step:
+        what = f"prints times to {read.digit * choice.time_factor:.2g} s, too coarse for uneven steps"
+        raise InputError(
+            path, what, takes=f"at most {_COARSE:g} of the resampling interval of {interval:g} s"
+        )
+    count = int((times[-1] - times[0]) / step * (1.0 + _END)) + 1
+    check_memory_for(path, _MEMORY * count, f"has {readable(count, 2)} samples at the resampling interval")
+    grid = times[0] + step * np.arange(count, dtype=np.float64)
+    values = np.interp(grid, times, read.values)
+    inside = times <= grid[-1]
+    off = float(np.max(np.abs(np.interp(times[inside], grid, values) - read.values[inside])))
+    span = float(np.ptp(read.values)) or 1.0
+    warning = ResultWarning.of(
+        "waveform-uneven",
+        file=path,
+        least=float(np.min(steps)) * choice.time_factor,
+        most=float(np.max(steps)) * choice.time_factor,
+        interval=interval,
+        error=off * abs(choice.factor * scale),
+        share=100.0 * off / span,
+    )
+    return Samples(values, grid), (warning,)
 
 
 def _single_precision(times: Array, digit: float) -> float:
@@ -110,7 +158,7 @@ def _check_even(path: Path, read: Samples, each: float, single: float, step: flo
     refuse_gaps(path, read)
     says = f"is unevenly sampled: the time of sample {worst + 1} is {readable(off / each)} of a step off"
     takes = f"equal steps of time, here {readable(each, 6)}, up to {_JITTER:g} of a step and the rounding"
-    takes += " of printed times"
+    takes += " of printed times; or a new interval as resample, for circuit simulators"
     if step is not None:
         raise InputError("step", f"got {step:g} s, but {path} {says}", takes=takes)
     raise InputError(path, says, takes=takes)

@@ -52,6 +52,30 @@ def test_uneven_times_are_not_replaced_by_a_step(tmp_path):
     assert float(re.search(r"is ([\d.]+) of a step off", line)[1]) == pytest.approx(worst, abs=0.1)
 
 
+def test_uneven_times_are_resampled_with_the_error(tmp_path):
+    """A triangle between points at uneven times: exact on its sides, and lower at its tip."""
+    times = np.concatenate([[0.0], np.cumsum(np.tile([1e-6, 3e-6, 0.5e-6, 2.5e-6], 10))])
+    tip = times[21]
+    volts = 10.0 - np.abs(times - tip) * 1e6
+    path = written(
+        tmp_path, ["time\tV(a)", *(f"{t:.12e}\t{v:.9e}" for t, v in zip(times, volts, strict=True))]
+    )
+    assert "resample" in refused(path)
+    read, warnings = read_waveform(path, resample=0.32e-6)
+    assert read.step == pytest.approx(0.32e-6, rel=1e-12)
+    seconds = read.start + read.step * np.arange(read.values.size)
+    assert read.values == pytest.approx(10.0 - np.abs(seconds - tip) * 1e6, abs=1e-6)
+    # Closed form: halfway between two new samples, the line is half a step below the tip.
+    lost = 0.5 * 0.32
+    assert (tip / 0.32e-6) % 1.0 == pytest.approx(0.5)
+    text = next(warning.text for warning in warnings if warning.code == "waveform-uneven")
+    assert float(re.search(r"at most ([\d.]+) V", text)[1]) == pytest.approx(lost, rel=2e-3)
+    coarse = written(
+        tmp_path, ["time\tV(a)", *(f"{t:.1e}\t{v:g}" for t, v in zip(times[2:], volts[2:], strict=True))]
+    )
+    assert refused(coarse, resample=0.4e-6)
+
+
 COUNTS = ["Memory Length,64,", "Source,CH1,", "Vertical Units,V,", "Vertical Scale,5.000E-01,"]
 COUNTS += [
     "Vertical Position,0.000E+00,",
