@@ -29,7 +29,7 @@ _USUAL = {"s": "'s', 'ms' or 'us'", "V": "'V', 'mV' or 'kV'"}
 _INCREASING, _EQUAL = 0.9, 0.05
 
 # Words by which heads name the two columns of an envelope.
-_EXTREME = re.compile(r"\b(min|max)(?:imum)?\b", re.IGNORECASE)
+_EXTREME = re.compile(r"(?<![a-z])(min|max)(?:imum)?(?![a-z])", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -163,7 +163,8 @@ def _named(path: Path, key: str, requested: str | int, heads: Sequence[Head]) ->
             got = f"{requested}, the number of {matches[0]} and the name of {called[0]} in {path}"
             raise InputError(key, got=got, takes="the name of a column in quotes")
     else:
-        name = " ".join(requested.split()).casefold()
+        # Fields of forms take a number in quotes as a name.
+        name = " ".join(requested.strip(" \"'").split()).casefold()
         matches = [head for head in heads if head.name.casefold() == name]
     if len(matches) != 1:
         raise InputError(key, got=f"{shown(requested)}, but {path} has the columns {_listed(heads)}")

@@ -53,7 +53,10 @@ SPELLINGS = {
         "verticalscale", "voltsdiv", "voltdiv", "vdiv", "voltsperdivision", "voltsperdiv", "vscale",
         "verticalsensitivity", "scalevdiv",
     ),
-    "format": ("pointformat", "ptfmt", "acquisitionmode", "acquiremode", "decimation", "acquisition"),
+    "format": (
+        "pointformat", "ptfmt", "acquisitionmode", "acquiremode", "acqmode", "samplemode", "samplingmode",
+        "decimation", "acquisition",
+    ),
 }  # fmt: skip
 
 # Words of keys of the sampling interval, and of keys in general, which are no names of columns.

@@ -22,16 +22,16 @@ from ehlectric.runtime.text_table import Layout
 
 # What instruments write for a voltage beyond their range.
 _EXCEEDED = re.compile(
-    r"[-+]?(?:∞|inf(?:inity)?|1\.#inf\w*|ol|o\.l\.?|ovl|ovr|over|overflow|overload|overrange|"
-    r"out[- ]of[- ]range|clip(?:ped)?)|[<>]=?[-+]?\d+(?:[.,]\d*)?(?:e[-+]?\d+)?",
+    r"[-+]?(?:∞|inf(?:inity)?\.?|1\.#inf\w*|ol|o\.l\.?|o/l|ovl|ovr|over|overflow|overload|over[- ]?range|"
+    r"out[- ]of[- ]range|clip(?:ped|ping)?)|[<>≤≥]=?\s*[-+]?\d+(?:[.,]\d*)?(?:e[-+]?\d+)?",
     re.IGNORECASE,
 )
 
 # Infinity and no number after SCPI-99, volume 1, section 7.2.1; relative difference of printed ones.
 _SCPI, _NEAR = (9.9e37, 9.91e37), 5e-4
 
-# Between the fields of a line of any dialect, and first signs of a number.
-_BETWEEN, _OF_NUMBER = re.compile(r'[;,\t" ]+'), "+-.0123456789"
+# Between the fields of a line, if it contains other signs than spaces there, and first signs of a number.
+_BETWEEN, _OF_NUMBER = re.compile("[;,\t]"), "+-.0123456789"
 
 # Lines that begin a segment, below the first numbers.
 _BEGINS = re.compile(r"[#\s]*(?:segment|frame|block|step information)\b", re.IGNORECASE)
@@ -79,7 +79,8 @@ def refuse_words(path: Path, layout: Layout | None) -> None:
     first = 1 if layout is None else layout.first
     above = [line.strip() for line in layout.header if line.strip()] if layout is not None else []
     for number, line in numbered_lines(path):
-        fields = [field for field in _BETWEEN.split(line.strip()) if field]
+        parts = _BETWEEN.split(line) if _BETWEEN.search(line) else line.split()
+        fields = [field for field in (part.strip(' "') for part in parts) if field]
         words = [field for field in fields if _EXCEEDED.fullmatch(field)]
         # A row has numbers in its other fields.
         if words and all(field in words or field[0] in _OF_NUMBER for field in fields):

@@ -160,7 +160,8 @@ def test_a_number_that_names_another_column_is_refused(tmp_path):
     assert refused(path, column=2).startswith("column: got 2, ")
     assert np.max(read_waveform(path, column="2")[0].values) == pytest.approx(0.42)
     assert np.max(read_waveform(path, column=3)[0].values) == pytest.approx(0.42)
-    assert np.max(read_waveform(path, column="1")[0].values) == pytest.approx(42.0)
+    for name in ("1", '"1"'):
+        assert np.max(read_waveform(path, column=name)[0].values) == pytest.approx(42.0)
 
 
 @pytest.mark.parametrize(("start", "step"), [(-4.0, 1e-4), (0.0, 2e-5), (-0.3, 4e-6)])
@@ -288,7 +289,25 @@ def test_segments_are_counted_and_refused(tmp_path, lines, places):
 
 @each(
     "word",
-    ["∞", "-∞", "OL", "OVERFLOW", "overload", ">1.00", "<-1.00", "1.#INF", "9.9E+37", "9.91e37", "-Inf"],
+    [
+        "∞",
+        "-∞",
+        "OL",
+        "OVERFLOW",
+        "overload",
+        ">1.00",
+        "<-1.00",
+        "1.#INF",
+        "9.9E+37",
+        "9.91e37",
+        "-Inf",
+        "OVER RANGE",
+        "≥ 20",
+        "O/L",
+        "OVER RANGE",
+        "≥ 20",
+        "O/L",
+    ],
 )
 def test_voltages_beyond_the_range_are_counted(tmp_path, word):
     rows = columns(evenly(1.0), VOLTS, form="{:.3f},{:.4f}")
@@ -313,6 +332,8 @@ def test_envelopes_are_refused(tmp_path, lines):
 def test_a_column_of_maxima_is_no_waveform(tmp_path):
     rows = columns(evenly(1e-6), VOLTS, [v + 1.0 for v in VOLTS], form="{:g},{:g},{:g}")
     path = written(tmp_path, ["t [s],CH1 Min [V],CH1 Max [V]", *rows])
+    lines = ["t [s],CH1_min [V],CH1_max [V]", *rows]
+    assert "envelope" in refused(written(tmp_path, lines, "other.csv"), column="CH1_max")
     for column in ("CH1 Max", 2):
         assert "envelope" in refused(path, column=column)
 
