@@ -524,7 +524,9 @@ def _of_text(path: Path, text: str, book: ColumnBook) -> _Rows:
     """
     lines = text.removesuffix("\n").split("\n")
     tables, dialect = _tables_of(path, lines, book)
-    first, *others = tables
+    first, *others = sorted(
+        tables, key=lambda table: not _measures(_columns(str(path), table.heads, book)[0])
+    )
     columns, _, twins = _columns(str(path), first.heads, book)
     measures, numbered = _measures(columns), _numbered(columns, twins)
     rows, skipped = list(first.rows), []
@@ -656,10 +658,10 @@ def _is_title(row: Sequence[str], heads: Sequence[str], dialect: Dialect, book: 
     text, *others = row
     if text.endswith(":"):
         return True
-    if not text or any(others) or len(heads) == 1 or is_void(text):
+    if not text or len(heads) == 1 or any(is_void(cell) for cell in row if cell):
         return False
-    known = len(row) < len(heads) or _parts_of(heads[0], book) is not None
-    return known and dialect.number(_split(text)[0]) is None
+    known = len(row) < len(heads) or (not any(others) and _parts_of(heads[0], book) is not None)
+    return known and not any(dialect.number(_split(cell)[0]) is not None for cell in row)
 
 
 def _fitted(path: Path, number: int, row: list[str], heads: Sequence[str]) -> list[str]:
@@ -742,10 +744,9 @@ def _columns(
     source: str, heads: Sequence[str], book: ColumnBook
 ) -> tuple[dict[int, Column], tuple[str, ...], dict[int, int]]:
     """Known columns by their place, heads of the others, and repeated columns: place of the first by the
-    place of the second. If a speed of the shaft is known, the vehicle speed is ignored.
+    place of the second.
     """
     columns: dict[int, Column] = {}
-    ignored: list[str] = []
     twins: dict[int, int] = {}
     for place, head in enumerate(heads):
         try:
@@ -753,7 +754,6 @@ def _columns(
         except InputError as error:
             raise InputError(source, str(error)) from None
         if column is None:
-            ignored.append(printable(head[:60]))
             continue
         same = [(at, other) for at, other in columns.items() if _key(other) == _key(column)]
         if same and same[0][1].head == column.head:
@@ -765,15 +765,36 @@ def _columns(
                 takes="one of the two",
             )
         columns[place] = column
-    names = {column.name for column in columns.values()}
-    if "speed" in names:
-        spare = [place for place, column in columns.items() if column.name == VEHICLE_SPEED]
-        ignored += [printable(columns.pop(place).head[:60]) for place in spare]
+    columns = _with_vehicle(source, heads, columns, book)
     if all(column.uncertainty for column in columns.values()):
         raise InputError(
             source, "has no headings of known columns", takes=f"headings such as {book.examples}"
         )
+    ignored = (printable(head[:60]) for place, head in enumerate(heads) if place not in columns)
     return columns, tuple(head for head in ignored if head), twins
+
+
+def _with_vehicle(
+    source: str, heads: Sequence[str], columns: Mapping[int, Column], book: ColumnBook
+) -> dict[int, Column]:
+    """Columns of a duty cycle with the speed of its vehicle, which may have any name if its unit is a unit of
+    vehicles. If a speed of the shaft is known, the speed of the vehicle is ignored.
+    """
+    names = {column.name for column in columns.values()}
+    if VEHICLE_SPEED not in book.columns or "speed" in names:
+        return {place: column for place, column in columns.items() if column.name != VEHICLE_SPEED}
+    units_of = {place: name_and_unit(head)[1] or "" for place, head in enumerate(heads)}
+    vehicles = {
+        place: Column(VEHICLE_SPEED, heads[place].strip(), unit, book=book)
+        for place, unit in units_of.items()
+        if place not in columns and plain(unit).lower() in _OF_VEHICLES
+    }
+    if VEHICLE_SPEED in names:
+        return dict(columns)
+    if len(vehicles) > 1:
+        named = " and ".join(shown(column.head) for column in vehicles.values())
+        raise InputError(source, f"has the columns {named}", takes="one speed of the vehicle")
+    return {**columns, **vehicles}
 
 
 def _key(column: Column) -> tuple[str, bool]:

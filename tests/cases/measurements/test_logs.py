@@ -101,6 +101,13 @@ def test_a_traction_log_contains_no_film(tmp_path):
         film_factors(case, log)
 
 
+def test_a_step_before_the_films_is_a_note(tmp_path):
+    zero = f"Step 0, zero\nTime (s)\tRolling Speed (mm/s)\n0\t5\n1\t6\n\nStep 1\tFilm\n{HEADS}"
+    log = read(tmp_path, EHD.replace(HEADS, zero, 1))
+    assert log.values["film"] == pytest.approx([200e-9, 125.7e-9, 100e-9])
+    assert any("the table below line" in text for text in log.ignored)
+
+
 def test_a_step_without_the_measured_quantity_is_a_note(tmp_path):
     log = read(
         tmp_path, EHD.replace("Step 3", "Step 3\nTime (s)\tRolling Speed (mm/s)\n0\t5\n1\t6\n\nStep 4")

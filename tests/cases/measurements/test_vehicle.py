@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
 
 from ehlectric.axle.axle_duty import check_axle_duty, run_axle_duty
 from ehlectric.bearing.duty_cycle import check_duty
@@ -21,6 +22,7 @@ from tests.axle.axles import two_stages
 from tests.bearing.duty.wltc_duty import FILE
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
+from tests.helpers.text_variants import Written, variants
 
 # The car of the example: 317 mm, and 9 turns of the motor for each turn of a wheel.
 CAR = {"wheel_radius": "317 mm", "ratio": 9}
@@ -56,6 +58,8 @@ def test_the_motor_of_the_test_cycle(tmp_path):
         ("vehicle_speed [mph]", 10.0 / 0.44704),
         ("velocity [mi/h]", 10.0 / 0.44704),
         ("car speed [mm/s]", 10_000.0),
+        ("v [km/h]", 36.0),
+        ("Geschwindigkeit (km/h)", 36.0),
     ],
 )
 def test_units_of_the_speed_of_a_vehicle(head, speed, tmp_path):
@@ -75,6 +79,16 @@ def test_an_axle_computes_the_ratio_from_its_meshes(tmp_path):
         case = two_stages(remedies=[], duty=table | {"vehicle": vehicle})
         result = run_axle_duty(case)
         assert result.speed == pytest.approx([10.0 / 0.3 * ratio, 20.0 / 0.3 * ratio])
+
+
+def test_further_columns_in_km_per_h(tmp_path):
+    """They are ignored next to the speed of the shaft, and refused if there are several without it."""
+    text = "time [s],v set [km/h],v [km/h],{}\n0,1,2,3\n1,1,2,3\n"
+    cycle = read_cycle(duty_of(tmp_path, text.format("speed [rpm]")))
+    assert cycle.values["speed"] == pytest.approx([math.pi / 10.0] * 2)
+    assert cycle.ignored == ("v set [km/h]", "v [km/h]")
+    with pytest.raises(InputError, match="one speed of the vehicle"):
+        read_cycle(duty_of(tmp_path, text.format("radial load [N]"), **CAR))
 
 
 SPEED = "time [s],speed [km/h]\n0,10\n1,20\n"
@@ -132,3 +146,37 @@ def test_a_measurement_contains_no_speed_of_a_vehicle(tmp_path):
         read_measurement(path)
     path.write_text("entrainment speed [km/h],film [nm]\n3.6,200\n", encoding="utf-8")
     assert read_measurement(path).values["entrainment_speed"] == pytest.approx([1.0])
+
+
+CYCLE_COLUMNS = (
+    Written(("time", "elapsed time"), (("s", 1.0), ("min", 1.0 / 60.0), ("ms", 1e3)), (0.0, 10.0, 25.5)),
+    Written(
+        ("speed", "vehicle speed", "v"),
+        (("km/h", 3.6), ("kmh", 3.6), ("mph", 1.0 / 0.44704)),
+        (1.25, 10.0, 12.75),
+    ),
+    Written(("radial load",), (("N", 1.0), ("kN", 1e-3)), (300.0, 302.5, 1250.0)),
+)
+COUNTS = [0, 0]
+
+
+@given(content=variants(CYCLE_COLUMNS, digits=8, steps=False))
+@settings(max_examples=60)
+def test_variants_of_a_driving_cycle_are_read_or_refused(tmp_path_factory, content):
+    path = tmp_path_factory.mktemp("cycle") / "cycle.csv"
+    path.write_bytes(content)
+    vehicle = {"wheel_radius": "0.5 m", "ratio": 10}
+    try:
+        cycle = read_cycle(Duty.from_dict({"file": str(path), "vehicle": vehicle}))
+    except InputError:
+        COUNTS[1] += 1
+        return
+    COUNTS[0] += 1
+    time, speed, load = (np.array(column.values) for column in CYCLE_COLUMNS)
+    assert cycle.time == pytest.approx(time, rel=1e-6), content
+    assert cycle.values["speed"] == pytest.approx(20.0 * speed, rel=1e-6), content
+    assert cycle.values["radial_load"] == pytest.approx(load, rel=1e-6), content
+
+
+def test_most_variants_are_read():
+    assert COUNTS[0] >= 2 * COUNTS[1]
