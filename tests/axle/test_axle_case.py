@@ -227,6 +227,24 @@ def test_contradictions_are_refused(table, change, key, words):
     assert "\n" not in str(refused.value)
 
 
+def test_a_shaft_that_drives_two_shafts_names_both_meshes():
+    table = two_stages().to_dict()
+    table["shaft"].append({"name": "other"})
+    table["bearing"] += [{**row, "shaft": "other"} for row in table["bearing"][4:6]]
+    table["mesh"].append({**table["mesh"][1], "gears": ["intermediate", "other"], "at": [0.09, 0.075]})
+    with pytest.raises(InputError, match=r"'output' by mesh\.2\.gears and 'other' by mesh\.3") as refused:
+        AxleCase.from_dict(table)
+    assert refused.value.key == "mesh.3.gears"
+
+
+def test_bearings_at_one_place_are_named():
+    table = two_stages().to_dict()
+    table["bearing"][3]["at"] = table["bearing"][2]["at"]
+    with pytest.raises(InputError, match=r"bearing\.3 of shaft 'intermediate'.*bearing 2 of") as refused:
+        loads_on_shafts(AxleCase.from_dict(table))
+    assert refused.value.key == "bearing.4.at"
+
+
 def test_a_shaft_without_gears_needs_loads():
     table = {**ALONE, "bearing": [ALONE["bearing"][0], {**ALONE["bearing"][1]}]}
     del table["bearing"][1]["radial_load"]

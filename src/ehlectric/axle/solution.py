@@ -37,6 +37,7 @@ from ehlectric.errors import ConvergenceError, InputError, within
 from ehlectric.gear import GearSolution, drawing_of, gear_pair, gear_warnings, solve_gear_pair, state_at
 from ehlectric.quantities.lubrication_states import CONDUCTS
 from ehlectric.quantities.result_warnings import ResultWarning
+from ehlectric.readable import readable
 from ehlectric.runtime.progress import Progress, silent
 
 # Assumptions about the conduction of gear meshes.
@@ -259,6 +260,12 @@ def _loads_on(
     first, second = case.bearings_of(shaft)
     places = case.bearing[first].at, case.bearing[second].at
     with case.naming(second):
+        if places[0] == places[1]:
+            raise InputError(
+                "bearing.at",
+                got=f"{readable(1e3 * places[1])} mm, the place of bearing.{first + 1} of shaft {shaft!r}",
+                takes="another place: two bearings at one place carry no moment",
+            )
         return bearing_loads(forces, places if rows is None else rows.pressure_centres(places))
 
 

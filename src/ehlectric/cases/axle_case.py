@@ -318,10 +318,10 @@ class AxleCase(CaseFile, book="axle_file"):
         """
         done = {self.rotor: Turning(self.drive.speed, self.drive.torque)}
         used: set[int] = set()
-        divided: list[str] = []
+        divided: list[InputError] = []
         joints = [*self._joints()]
         for name in _growing(done):
-            further = []
+            further: dict[str, str] = {}
             for number, (key, first, second, ratio) in enumerate(joints):
                 if number in used or name not in (first, second):
                     continue
@@ -330,12 +330,12 @@ class AxleCase(CaseFile, book="axle_file"):
                 speed = done[name].speed / factor
                 if other in done:
                     raise _second_path(key, other, speed, done[other].speed)
-                further.append(other)
+                further[other] = key
                 done[other] = Turning(speed, factor * done[name].torque)
             if len(further) > 1:
-                divided.append(f"shaft {name!r} drives {' and '.join(further)}")
+                divided.append(_divided(name, further))
         if divided:
-            raise InputError.worded("mesh.gears", f"{divided[0]}; a torque that divides is not computed")
+            raise divided[0]
         for number, shaft in enumerate(self.shaft, 1):
             if shaft.name not in done:
                 raise InputError.worded(
@@ -808,6 +808,13 @@ def _second_path(key: str, name: str, speed: float, known: float) -> InputError:
             takes="ratios that agree",
         )
     return InputError.worded(key, f"shaft {name!r} turns by two paths; a torque that divides is not computed")
+
+
+def _divided(name: str, driven: Mapping[str, str]) -> InputError:
+    """Error of a shaft that drives several shafts; ``driven``, the key of the joint of each of them."""
+    joints = " and ".join(f"{other!r} by {key}" for other, key in driven.items())
+    text = f"shaft {name!r} drives {joints}; a torque that divides is not computed, so remove one of them"
+    return InputError.worded([*driven.values()][-1], text)
 
 
 def with_gear_files(table: Mapping[str, Any], folder: Path) -> dict[str, Any]:
