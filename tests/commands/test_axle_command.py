@@ -5,6 +5,7 @@ import json
 import pickle
 import shutil
 
+import numpy as np
 import pytest
 from scipy.io import loadmat
 
@@ -229,6 +230,23 @@ def test_a_loaded_result_is_not_simulated_again(simulated, tmp_path, monkeypatch
     for found, expected in zip(loaded.discharges.trace[:2], simulated.discharges.trace[:2], strict=True):
         assert found.tolist() == expected.tolist()
     assert figure(loaded, "axle_discharges").axes
+
+
+@pytest.mark.slow
+def test_no_mark_of_a_discharge_hides_another(simulated):
+    """Each discharge in the figure has a mark for each of its shafts, above the voltage of the shaft."""
+    drawn = figure(simulated, "axle_discharges")
+    times = simulated.discharges.trace[0]
+    ends = {each.name: {each.first, each.second} - {"housing"} for each in simulated.solution.elements}
+    shown = [row for row in simulated.discharges.events() if times[0] <= row["time"] <= times[-1]]
+    marks = []
+    for ax in drawn.axes[1:]:
+        volts, *rows = ax.lines
+        heights = [float(row.get_ydata()[0]) for row in rows]
+        assert len(set(heights)) == len(rows)
+        assert min(heights, default=np.inf) > np.max(volts.get_ydata())
+        marks += [mark for row in rows for mark in row.get_xdata()]
+    assert len(marks) == sum(len(ends[row["element"]]) for row in shown) > 10
 
 
 @pytest.mark.slow

@@ -1,4 +1,6 @@
-"""Figure of the discharges of an axle: voltages of all shafts over a short time, with marks by element."""
+"""Figure of the discharges of an axle: voltages of all shafts over a short time, with a row of marks for each
+element.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +8,7 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 
+from ehlectric.arrays import Array
 from ehlectric.axle import AxleDischarges, AxleResult
 from ehlectric.cases.axle_inputs import HOUSING
 from ehlectric.errors import printable
@@ -19,14 +22,15 @@ from ehlectric.readable import readable
 
 _SIZE, _HEIGHT = 8.0, 1.5
 
-# Part of the largest voltage to which the axis of a panel extends.
-_ROOM = 1.1
+# Height of a row of marks, and of the space around the voltages, over the height of a panel.
+_ROW, _SPACE = 0.085, 0.05
 
 
 def axle_discharges(result: AxleResult) -> Axes:
     """Draw the voltages of the source and of all shafts over a short time.
 
-    A mark is a discharge, at the voltage of the shaft of the element when it begins.
+    A mark is a discharge when it begins. Each element of a shaft has a row of marks above its voltage, so
+    that discharges at one time do not hide each other.
     """
     along, panels = discharge_panels(result)
     axes = new_panels(len(panels), 1, (_SIZE, 1.2 + _HEIGHT * len(panels)))
@@ -48,35 +52,47 @@ def axle_discharges(result: AxleResult) -> Axes:
 def discharge_panels(result: AxleResult) -> tuple[Along, list[Panel]]:
     """Axis of a short time around a discharge, and panels with the voltages of the source and of all shafts.
 
-    Marks of one element have one colour and, in the first panel with them, a name.
+    Marks of one element are one row, and have one colour and, in the first panel with them, a name.
     """
     discharges = result.discharges
     assert discharges is not None
     times, source, shafts = discharges.trace
     factor, unit = unit_for(float(times[-1] - times[0]), "s", least=1.0)
     since = factor * (times - times[0])
-    panels = [_panel("source", [Curve("source", since, source, MIDDLE_GREY, width=0.9)])]
+    low, high, _ = _limits(source, 0)
+    panels = [Panel("source", "V", [Curve("source", since, source, MIDDLE_GREY, width=0.9)], high, low)]
     marks = _marks(result, discharges)
     names = [*dict.fromkeys(name for name, *_ in marks)]
     colours = dict(zip(names, colours_of_names(names), strict=True))
     named = set[str]()
     for shaft, volts in shafts.items():
         curves = [Curve(printable(shaft), since, volts, BLACK, width=0.9)]
-        for name in names:
+        of_shaft = [name for name in names if any((name, shaft) == (other, at) for other, at, _ in marks)]
+        low, high, heights = _limits(volts, len(of_shaft))
+        for name, height in zip(of_shaft, heights, strict=True):
             begins = np.array([time for other, at, time in marks if (other, at) == (name, shaft)])
-            if begins.size:
-                places = np.maximum(np.searchsorted(times, begins, side="right") - 1, 0)
-                label = "" if name in named else printable(name)
-                at = factor * (begins - times[0])
-                curves.append(Curve(label, at, volts[places], colours[name], marker="circle"))
-                named.add(name)
-        panels.append(_panel(printable(shaft), curves))
+            places = np.maximum(np.searchsorted(times, begins, side="right") - 1, 0)
+            curves.append(
+                Curve(
+                    "" if name in named else printable(name),
+                    factor * (begins - times[0]),
+                    np.full(begins.size, height),
+                    colours[name],
+                    marker="circle",
+                    texts=[f"{printable(name)} at {readable(float(volts[k]), 3)} V" for k in places],
+                )
+            )
+            named.add(name)
+        panels.append(Panel(printable(shaft), "V", curves, high, low))
     return Along("time", unit, (float(since[0]), float(since[-1]))), panels
 
 
-def _panel(title: str, curves: list[Curve]) -> Panel:
-    top = _ROOM * float(np.max(np.abs(curves[0].y), initial=0.0)) or 1.0
-    return Panel(title, "V", curves, top, -top)
+def _limits(volts: Array, rows: int) -> tuple[float, float, list[float]]:
+    """Lowest and highest value of the axis of some voltages, and heights of rows of marks above them [V]."""
+    low, high = float(np.min(volts)), float(np.max(volts))
+    height = (high - low or 1.0) / (1.0 - 2.0 * _SPACE - _ROW * rows)
+    top = high + (_SPACE + _ROW * rows) * height
+    return low - _SPACE * height, top, [top - _ROW * (row + 0.7) * height for row in range(rows)]
 
 
 def _marks(result: AxleResult, discharges: AxleDischarges) -> list[tuple[str, str, float]]:

@@ -99,7 +99,8 @@ def _voltages_figure(result: AxleResult) -> Figure:
         "Voltages over a short time",
         f"Voltages of {names} over a short time around a discharge. {discharges_finding(result)}.",
         made,
-        caption=f"Circles mark discharges, at the voltage of the shaft when they begin.{others}",
+        caption="Circles above a voltage mark discharges when they begin, in a row for each bearing and "
+        f"mesh.{others}",
     )
 
 
