@@ -811,7 +811,7 @@ def _second_path(key: str, name: str, speed: float, known: float) -> InputError:
 
 
 def _divided(name: str, driven: Mapping[str, str]) -> InputError:
-    """Error of a shaft that drives several shafts; ``driven``, the key of the joint of each of them."""
+    """Error of a shaft that drives several shafts; ``driven`` has their names and the keys of the joints."""
     joints = " and ".join(f"{other!r} by {key}" for other, key in driven.items())
     text = f"shaft {name!r} drives {joints}; a torque that divides is not computed, so remove one of them"
     return InputError.worded([*driven.values()][-1], text)

@@ -1,5 +1,5 @@
-"""Figure of the discharges of an axle: voltages of all shafts over a short time, with a row of marks for each
-element.
+"""Figure of the discharges of an axle: voltages of all shafts over a short time. Each element has a row of
+marks.
 """
 
 from __future__ import annotations
@@ -88,7 +88,7 @@ def discharge_panels(result: AxleResult) -> tuple[Along, list[Panel]]:
 
 
 def _limits(volts: Array, rows: int) -> tuple[float, float, list[float]]:
-    """Lowest and highest value of the axis of some voltages, and heights of rows of marks above them [V]."""
+    """Lowest and highest value of an axis for some voltages, and heights of the marks above them [V]."""
     low, high = float(np.min(volts)), float(np.max(volts))
     height = (high - low or 1.0) / (1.0 - 2.0 * _SPACE - _ROW * rows)
     top = high + (_SPACE + _ROW * rows) * height
