@@ -318,6 +318,7 @@ def test_blocks_of_text(tmp_path):
     with patch.object(text_table, "_BLOCK", 5):
         assert list(text_blocks(path, most=20)) == ["µ;1\n", "2;3\n", "4;5"]
     for content, message in (
+        (b"PK\x03\x04" + 30 * b"\0" + b"xl/workbook.xml", "workbook.*save the sheet as CSV"),
         (b"0,1\n\0\0", "not a text file"),
         (b"\xff\xfe\x00\xd8" + b"0\x00" * 40, "UTF-16"),
         (b"1" * 100_001, "line of more than 100000"),

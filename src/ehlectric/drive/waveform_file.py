@@ -19,7 +19,7 @@ from ehlectric.drive.waveform_choice import Choice, Keys, choice_of
 from ehlectric.drive.waveform_heads import Labels, labels_of
 from ehlectric.drive.waveform_quality import quality_warnings
 from ehlectric.drive.waveform_refusals import refuse_counts, refuse_scpi, refuse_stated, refuse_words
-from ehlectric.drive.waveform_samples import MOST_BYTES, Samples, read_samples
+from ehlectric.drive.waveform_samples import LEAST_SAMPLES, MOST_BYTES, Samples, read_samples
 from ehlectric.drive.waveform_times import evened, timing
 from ehlectric.errors import InputError
 from ehlectric.quantities.result_warnings import ResultWarning
@@ -28,9 +28,6 @@ from ehlectric.runtime.file_kinds import PEEKED, kind_of
 from ehlectric.runtime.reading import regular
 from ehlectric.runtime.sizes import check_memory_for
 from ehlectric.runtime.text_table import Layout, layout_of, text_blocks
-
-# Smallest number of samples of a waveform.
-LEAST_SAMPLES = 16
 
 # Characters of the beginning, which shows the columns, and rows of it in which times are recognised.
 _HEAD, _ROWS = 65_536, 1000

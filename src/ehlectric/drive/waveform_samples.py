@@ -12,6 +12,9 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.runtime.text_table import Layout, text_blocks
 
+# Smallest number of samples of a waveform.
+LEAST_SAMPLES = 16
+
 # Largest size of a file [bytes]: about 100 million samples of time and voltage.
 MOST_BYTES = 2_000_000_000
 

@@ -9,7 +9,7 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.drive.waveform_choice import Choice
 from ehlectric.drive.waveform_refusals import refuse_gaps, refuse_restarts
-from ehlectric.drive.waveform_samples import Samples
+from ehlectric.drive.waveform_samples import LEAST_SAMPLES, Samples
 from ehlectric.errors import InputError
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable
@@ -28,6 +28,9 @@ _JITTER, _DIGITS = 1e-3, 1.01
 # Largest rounding of uneven times [new steps], relative allowance for rounding at the end of the times, and
 # memory for a new sample [bytes].
 _COARSE, _END, _MEMORY = 0.1, 1e-12, 40.0
+
+# Number of new samples that no memory contains.
+_MOST = 1e15
 
 # Largest share of double distances that are taken for missing samples.
 _FEW = 0.05
@@ -90,7 +93,11 @@ def evened(
         raise InputError(
             path, what, takes=f"at most {_COARSE:g} of the resampling interval of {interval:g} s"
         )
-    count = int((times[-1] - times[0]) / step * (1.0 + _END)) + 1
+    count = int(min((times[-1] - times[0]) / step * (1.0 + _END), _MOST)) + 1
+    if count < LEAST_SAMPLES:
+        longest = (times[-1] - times[0]) * choice.time_factor / (LEAST_SAMPLES - 1)
+        takes = f"at most {longest:.3g} s, for {LEAST_SAMPLES} samples"
+        raise InputError("resample", got=f"{interval:g} s", takes=takes)
     check_memory_for(path, _MEMORY * count, f"has {readable(count, 2)} samples at the resampling interval")
     grid = times[0] + step * np.arange(count, dtype=np.float64)
     values = np.interp(grid, times, read.values)

@@ -580,7 +580,7 @@ def _is_broken_row(above: Sequence[list[str]], dialect: Dialect, columns: Sequen
         return False
     numbers = {k: dialect.number(field) for k, field in enumerate(row) if not is_void(field)}
     if None not in numbers.values():
-        known = list(numbers.values())
+        known = list(numbers.values()) or [None]
         return not (len(row) == 1 and known[0] is not None and known[0] >= count and known[0] % 1 == 0)
     whole = len(row) > columns[-1] if dialect.separator else len(row) == columns[-1] + 1
     below_row = len(above) > 1 and len(above[-2]) > columns[-1] and dialect.is_row(above[-2])

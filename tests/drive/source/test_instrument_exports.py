@@ -70,10 +70,11 @@ def test_uneven_times_are_resampled_with_the_error(tmp_path):
     assert (tip / 0.32e-6) % 1.0 == pytest.approx(0.5)
     text = next(warning.text for warning in warnings if warning.code == "waveform-uneven")
     assert float(re.search(r"at most ([\d.]+) V", text)[1]) == pytest.approx(lost, rel=2e-3)
+    assert refused(path, resample=1e-3).startswith("resample: ")
     coarse = written(
         tmp_path, ["time\tV(a)", *(f"{t:.1e}\t{v:g}" for t, v in zip(times[2:], volts[2:], strict=True))]
     )
-    assert refused(coarse, resample=0.4e-6)
+    assert "more digits" in refused(coarse, resample=0.4e-6)
 
 
 COUNTS = ["Memory Length,64,", "Source,CH1,", "Vertical Units,V,", "Vertical Scale,5.000E-01,"]
@@ -194,6 +195,11 @@ def test_columns_of_values_without_times(tmp_path):
 def test_commas_do_not_separate_columns_and_decimals(tmp_path):
     rows = [f"{1e3 * t:.3f},{v:.3f}".replace(".", ",") for t, v in zip(evenly(1e-6), VOLTS, strict=True)]
     assert "commas separate columns and decimals" in refused(written(tmp_path, rows), column=3, step=1e-6)
+
+
+def test_a_line_without_a_value_below_the_first_sample_is_refused(tmp_path):
+    path = written(tmp_path, ["t [s],u [V]", "0,40", "NaN", *columns(evenly(1e-6)[1:], VOLTS[1:])])
+    assert "line 3 is 'NaN'" in refused(path)
 
 
 def test_numbers_of_samples_are_no_times(tmp_path):
