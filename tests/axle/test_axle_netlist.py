@@ -4,10 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.linalg import expm
 
 from ehlectric import AxleCase, InputError, write_axle_netlist
+from ehlectric.axle.axle_discharges import _films_in_time
 from ehlectric.axle.axle_netlist_files import AxleNetlist, _distinct, axle_netlist
 from ehlectric.axle.films_in_time import AxleInTime
+from ehlectric.axle.solution import solve_films
 from ehlectric.drive import Measuring, Segments, write_files
 from tests.axle.axles import two_stages
 from tests.axle.test_films_in_time import axle
@@ -23,9 +26,9 @@ ARC = {"arc_resistance": 2.0, "extinction_voltage": "0.1 V", "recovery_time": "1
 RISE = 100e-6
 
 
-def simulated(solution, folder, source, analysis, commands):
+def simulated(netlist, folder, source, analysis, commands):
     """Numbers that ngspice measures in an axle with a source at its winding."""
-    write_files(AxleNetlist(solution), folder / "axle.lib", None)
+    write_files(netlist, folder / "axle.lib", None)
     lines = [
         '.include "axle.lib"',
         f"V_source winding 0 {source}",
@@ -38,7 +41,7 @@ def after_an_edge(solution, folder):
     """Voltages of the shafts after a source has risen to 300 V."""
     points = [f"meas tran {shaft} find v({shaft}) at={1.5 * RISE}" for shaft in SHAFTS]
     source = f"PWL(0 0 {RISE} 300 {2.0 * RISE} 300)"
-    return simulated(solution, folder, source, f"tran 1n {2.0 * RISE} 0 1n", points)
+    return simulated(AxleNetlist(solution), folder, source, f"tran 1n {2.0 * RISE} 0 1n", points)
 
 
 @pytest.mark.slow
@@ -49,6 +52,54 @@ def test_without_breakdown_the_shafts_have_the_voltages_of_the_divider(tmp_path)
     assert [found[shaft] for shaft in SHAFTS] == pytest.approx(
         [30.0 * part / 333.4 for part in (134.0, 15.0, 4.0)], rel=1e-3
     )
+
+
+@pytest.mark.slow
+@pytest.mark.gate
+@pytest.mark.reference
+def test_leaking_films_discharge_the_shafts(tmp_path):
+    """By the exponential of the matrices of the nodes: v(t) = exp(-C^-1 G t) v(0) after an edge, to 0.1 %."""
+    solution = by_hand()
+    films = {film.name: film for film in solution.network().elements}
+    times = {"b1": 20e-6, "m12": 50e-6, "b2": 10e-6, "b3": 40e-6}
+    leaks = {name: films[name].capacitance / time for name, time in times.items()}
+
+    def matrix(values):
+        total = np.zeros((3, 3))
+        for name, value in values.items():
+            ends = [films[name].first, films[name].second]
+            across = np.array([float(shaft == ends[0]) - (shaft == ends[1]) for shaft in SHAFTS])
+            total += value * np.outer(across, across)
+        return total
+
+    capacitance = matrix({name: film.capacitance for name, film in films.items()})
+    edge = np.linalg.solve(capacitance, [300.0 * films["winding"].capacitance, 0.0, 0.0])
+    moments = (5e-6, 15e-6, 30e-6)
+    # A short edge, in whose middle the voltages of its end would begin to fall.
+    rise, start = 10e-9, 1e-6
+    commands = [
+        f"meas tran {shaft}{k} find v({shaft}) at={start + 0.5 * rise + moment}"
+        for shaft in SHAFTS
+        for k, moment in enumerate(moments)
+    ]
+    source = f"PWL(0 0 {start} 0 {start + rise} 300 1m 300)"
+    values = simulated(AxleNetlist(solution, leaks), tmp_path, source, "tran 5n 40u 0 5n", commands)
+    for k, moment in enumerate(moments):
+        volts = expm(-np.linalg.solve(capacitance, matrix(leaks)) * moment) @ edge
+        assert [values[f"{shaft}{k}"] for shaft in SHAFTS] == pytest.approx(volts, rel=1e-3)
+
+
+def test_elements_leak_as_in_the_simulation():
+    """Conductances of a netlist are those of the films in time; oil without a conductivity does not leak."""
+    case = two_stages(breakdown=ARC, **{"bearings.contact_resistance": 1.0, "discharge.conductivity": 1e-9})
+    case = case.replace({"mesh.gear.contact.contact_resistance": 1.0})
+    leaks = axle_netlist(case).leaks
+    films = _films_in_time(solve_films(case), case.breakdown, set())
+    assert {each.name for each in films} == {*leaks}
+    for each in films:
+        # A mesh over time has 8 phases.
+        assert leaks[each.name] == pytest.approx(each.film.conductance, rel=1e-2), each.name
+    assert not axle_netlist(two_stages()).leaks
 
 
 @pytest.mark.slow
@@ -109,7 +160,7 @@ def test_discharges_agree_with_the_march(resistance, tmp_path):
         for shaft in SHAFTS
         for k, moment in enumerate(moments)
     ]
-    found = simulated(solution, tmp_path, f"PWL({points})", "tran 0.2n 100u 0 0.2n", commands)
+    found = simulated(AxleNetlist(solution), tmp_path, f"PWL({points})", "tran 0.2n 100u 0 0.2n", commands)
     assert len(record.events) >= 18
     for name, voltage in marched.items():
         assert found[name] == pytest.approx(voltage, rel=0.01, abs=1e-3), name

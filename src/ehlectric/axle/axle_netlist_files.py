@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from ehlectric.axle.network import HOUSING, WINDING, Film
-from ehlectric.axle.solution import AxleSolution, Element, solve_elements
+from ehlectric.axle.solution import AxleSolution, Element, SolvedFilms, elements_of, solve_films
+from ehlectric.bearing import oil_conductance, oil_relaxation_time, shaft_path
 from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.drive_inputs import Breakdown
 from ehlectric.drive import (
@@ -45,6 +46,8 @@ class AxleNetlist:
     """Netlist of an axle with solved films."""
 
     solution: AxleSolution
+    # Conductances of the oil by the names of the elements that leak [S].
+    leaks: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def case(self) -> AxleCase:
@@ -71,6 +74,7 @@ class AxleNetlist:
             _TEXTS["no_switch"] if self.case.breakdown is None else _TEXTS["switch"],
             *([filled(_TEXTS["conducting"], names=", ".join(conducting))] if conducting else []),
             *([filled(_TEXTS["touching"], names=", ".join(touching))] if touching else []),
+            *([] if self.leaks else [filled(_TEXTS["no_leak"], open=number(OPEN))]),
             _TEXTS["left_out"],
         )
 
@@ -91,6 +95,8 @@ class AxleNetlist:
                 yield Parameter(f"C_{name}", film.capacitance, "F", film.name)
             if film.conductance:
                 yield Parameter(f"R_{name}", 1.0 / film.conductance, "Ohm", film.name)
+            if film.name in self.leaks:
+                yield Parameter(f"R_leak_{name}", 1.0 / self.leaks[film.name], "Ohm", f"leak of {film.name}")
             if limit is not None:
                 yield Parameter(f"V_{name}", limit, "V", f"breakdown voltage, {film.name}")
         yield Parameter("R_metal", _METAL, "Ohm", "stands for contacts of metal")
@@ -145,11 +151,12 @@ class AxleNetlist:
             yield f"R_{name} {ends} {{R_{name}}}"
         if not film.capacitance:
             return
+        leak = f" R_leak={{R_leak_{name}}}" if film.name in self.leaks else ""
         if self._limit(film) is None:
-            yield f"X_{name} {ends} insulator C_films={{C_{name}}}"
+            yield f"X_{name} {ends} insulator C_films={{C_{name}}}{leak}"
         else:
             yield f"X_{name} {ends} film C_films={{C_{name}}} V_break={{V_{name}}}"
-            yield "+ V_ext={V_ext} R_arc={R_arc}"
+            yield f"+ V_ext={{V_ext}} R_arc={{R_arc}}{leak}"
 
     def bench(self, library: str) -> Iterator[str]:
         """Lines of a test bench, which includes the file of the subcircuits: the inverter at the winding."""
@@ -204,10 +211,26 @@ def axle_netlist(case: AxleCase, progress: Progress = silent) -> AxleNetlist:
 
     Raises InputError if an element cannot be solved, or an arc would go out above a breakdown voltage.
     """
-    solution = solve_elements(case, progress)
+    films = solve_films(case, progress)
+    solution = elements_of(films)
     if case.breakdown is not None:
         _check_arc(case.breakdown, solution)
-    return AxleNetlist(solution)
+    return AxleNetlist(solution, dict(leaks_of(films)))
+
+
+def leaks_of(films: SolvedFilms) -> Iterator[tuple[str, float]]:
+    """Names of elements, and the conductance C/tau of their oil [S] with its relaxation time tau = eps/sigma.
+
+    Oil without a conductivity, ceramic elements and coated rings do not leak.
+    """
+    for name, result in zip(films.case.names_of_bearings(), films.bearings, strict=True):
+        solution = result.solution
+        tau = oil_relaxation_time(solution)
+        if tau is not None and not (solution.conditions.ceramic or shaft_path(solution).coated):
+            yield name, float(oil_conductance(solution, tau))
+    for name, gears in zip(films.case.names_of_meshes(), films.meshes, strict=True):
+        if gears.relaxation_time is not None:
+            yield name, float(gears.loads.mean(gears.capacitance)) / gears.relaxation_time
 
 
 def _check_arc(breakdown: Breakdown, solution: AxleSolution) -> None:
