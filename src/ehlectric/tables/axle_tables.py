@@ -16,6 +16,9 @@ from ehlectric.tables.probability_rows import left_out_of_probability, shares_of
 if TYPE_CHECKING:
     from rich.table import Table
 
+# Share of a spread below which the shares of the inputs in it are called rough (engineering judgement).
+_PREDICTED = 0.9
+
 # Letters on a line of a head.
 _HEAD = 12
 
@@ -220,13 +223,23 @@ def chance_rows(summary: Summary) -> Iterator[Row]:
     """Rows of the uncertain inputs, and of the inputs that decide which element is first."""
     yield from shares_of_spread(summary)
     table = summary.get("uncertainty") or {}
+    yield from _rough_shares(table, "predicted")
     if table.get("deciding"):
         first, second = map(printable, table["deciding_elements"])
         yield Row(f"inputs that decide whether {first} or {second} is first")
         for each in table["deciding"]:
             share = f"{readable(100.0 * each['total'], 2)} % of the spread"
             yield Row(printable(each["label"]), share, key=f"uncertainty.deciding.{each['key']}")
+        yield from _rough_shares(table, "deciding_predicted")
     yield from left_out_of_probability(summary)
+
+
+def _rough_shares(table: Mapping[str, Any], key: str) -> Iterator[Row]:
+    """Row of the share of a spread that a polynomial of the inputs predicts, if it is small."""
+    predicted = table.get(key)
+    if predicted is not None and predicted < _PREDICTED:
+        text = f"{readable(100.0 * max(predicted, 0.0), 2)} % of the spread"
+        yield Row("predicted by these inputs", text, note=", shares are rough", key=f"uncertainty.{key}")
 
 
 def axle_rows(summary: Summary) -> Iterator[Row]:
