@@ -9,10 +9,11 @@ from hypothesis import given, settings
 import ehlectric
 from ehlectric import Case
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.case_oil import Lubricant, oil
+from ehlectric.cases.case_oil import Lubricant, named_oil, oil
 from ehlectric.errors import InputError
 from tests.helpers.bearings import BALLS
 from tests.helpers.each import each
+from tests.helpers.places import EXAMPLES
 from tests.helpers.text_variants import Written, variants
 
 ELECTRIC = {"density_law": "incompressible", "relative_permittivity": 2.2}
@@ -278,3 +279,10 @@ def test_variants_of_a_viscosity_table_are_read_or_refused(tmp_path_factory, con
 
 def test_most_variants_are_read():
     assert COUNTS[0] >= 2 * COUNTS[1]
+
+
+def test_the_report_of_an_oil_names_its_table():
+    named = named_oil(EXAMPLES / "measured_contact.toml")
+    source = named.source("roelands_z")
+    assert (source.kind, source.citation) == ("fitted", "viscosity table of oil_viscosity.csv")
+    assert "40 rows" in source.note

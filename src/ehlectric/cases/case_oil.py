@@ -32,6 +32,7 @@ from ehlectric.cases.oil_inputs import (
     of_base_oil,
     refuse_missing,
 )
+from ehlectric.cases.roughness_inputs import find_files
 from ehlectric.cases.table import nearest, read_toml
 from ehlectric.cases.viscosity_tables import table_check
 from ehlectric.errors import InputError, shown, within
@@ -633,6 +634,11 @@ class NamedOil:
         """Source of the value of a dotted key; None for a value that the table itself gives."""
         if key in values_of(self.given):
             return None
+        rows = self.table.viscosity_table
+        if rows is not None and key in _known(self.table):
+            file = "" if rows.file is None else f" of {Path(rows.file).name}"
+            note = f"Fitted to the {len(rows.viscosity)} rows of viscosity_table."
+            return Source((key,), "fitted", f"viscosity table{file}", note=note)
         known = {} if self.base is None else self.base.values()
         # A value of the data sheet of the base may be used together with another way to give the viscosity.
         for name in (key, f"temperature.{key}"):
@@ -666,6 +672,7 @@ def named_oil(source: str | Path | Mapping[str, Any]) -> NamedOil:
 def _of_file(path: Path) -> NamedOil:
     """Oil of a file, at its temperatures and with the conductivity of its discharge."""
     tables = read_toml(path)
+    find_files(tables, path.parent)
     table = Lubricant.of_name(tables.get("lubricant"))
     if not isinstance(table, Mapping):
         raise InputError(path, "has no table [lubricant]", takes="a case, a bearing file or a file of an oil")

@@ -350,9 +350,7 @@ def fit_warnings(
     if worst > _DEVIATES:
         yield ResultWarning.of("viscosity-table-deviates", worst=100.0 * worst, law=law)
     if 0.0 < highest < max_pressure:
-        yield ResultWarning.of(
-            "law-range", "viscosity_table", highest=highest / 1e9, pressure=max_pressure / 1e9, law=law
-        )
+        yield ResultWarning.of("law-range", "viscosity_table", highest=highest / 1e9, law=law)
 
 
 def _share_above(keys: Mapping[str, float | str], temperature: float, highest: float) -> float:
