@@ -15,6 +15,7 @@ from ehlectric.cases.amounts import amount_at
 from ehlectric.cases.measurements import MOST_POINTS, ColumnBook, Measurement, read_measurement
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError, within
+from ehlectric.lubricant.law import is_many
 from ehlectric.lubricant.oil import RangeCheck
 from ehlectric.lubricant.viscosity_fit import ViscosityFit, fit_viscosity, fit_warnings
 from ehlectric.quantities.result_warnings import ResultWarning
@@ -143,7 +144,8 @@ def table_check(
     if rows is None:
         return None
     law = parameters["viscosity_law"] if fits_pressure(rows) else None
-    fit = rows.fit(law, parameters.get("reference_temperature"))
+    reference = parameters.get("reference_temperature")
+    fit = rows.fit(law, None if is_many(reference) else reference)
     replaced = [key for key, value in fit.keys.items() if not _equal(parameters.get(key), value)]
     if replaced:
         return RangeCheck(
@@ -154,6 +156,9 @@ def table_check(
 
 
 def _equal(given: Any, value: float | str) -> bool:
+    if is_many(given):
+        # A value for each of many points.
+        return False
     if isinstance(value, str) or not isinstance(given, int | float):
         return bool(given == value)
     return math.isclose(given, value, rel_tol=1e-9)
