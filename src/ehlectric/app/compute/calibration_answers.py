@@ -9,11 +9,13 @@ from typing import Any
 
 from ehlectric.app.charts.calibration_charts import compared_figure, ranges_figure
 from ehlectric.app.compute.answer_parts import page_warnings_of, run_case_of
+from ehlectric.app.form_fields.axle_fields import other_inputs
 from ehlectric.app.form_fields.field_defaults import DRIVE_END, NON_DRIVE_END, end_and_key
 from ehlectric.app.form_fields.field_rules import changed
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.view_models import CalibrationAnswer, Table
 from ehlectric.calibration import Calibration, calibrate, given_points
+from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.input_keys import unit_of
 from ehlectric.discharge.breakdown_rule import Chance
 from ehlectric.quantities.inputs import ENDS, REPLACED, input_at
@@ -92,7 +94,7 @@ def _texts(chance: Chance) -> tuple[str, str, str]:
 
 def _updated(table: Mapping[str, Any], case: Any, result: Calibration) -> dict[str, Any]:
     """Tables of a page with the values and ranges that the measurement changed, without measured values."""
-    before, after = (Inputs(each.to_dict()).flat() for each in (case, result.case))
+    before, after = (_flat(each) for each in (case, result.case))
     changes = {
         key: _written(key, value)
         for key, value in after.items()
@@ -120,11 +122,18 @@ def _of_page(inputs: Inputs, changes: Mapping[str, Any]) -> Iterator[tuple[str, 
             yield key, value
 
 
+def _flat(case: Any) -> Mapping[str, Any]:
+    """Inputs of a case by dotted key; tables of an axle have numbers, from 1."""
+    inputs = Inputs(case.to_dict())
+    return other_inputs(inputs) if isinstance(case, AxleCase) else inputs.flat()
+
+
 def _resolved(case: Any, key: str) -> Any:
     """Value that a case has of a dotted key, also from the library; None where it has none."""
     value = case
     for name in key.split("."):
-        value = getattr(value, name, None)
+        listed = isinstance(value, list | tuple) and name.isdecimal() and 1 <= int(name) <= len(value)
+        value = value[int(name) - 1] if listed else getattr(value, name, None)
     return value
 
 
