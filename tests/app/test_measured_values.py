@@ -7,6 +7,7 @@ import pytest
 from tests.app.driving import complete, drawn, field, type_into, wait_for_address
 from tests.app.outputs import command, downloaded, fits
 from tests.app.test_accessibility import findings
+from tests.helpers.places import EXAMPLES
 
 pytestmark = pytest.mark.browser
 
@@ -55,6 +56,27 @@ def test_measured_values_update_the_ranges_as_the_command_does(open_page, app_se
     assert not page.get_by_test_id("calibration").is_visible()
     page.get_by_test_id("undo").click()
     page.get_by_test_id("calibration").wait_for()
+
+
+@pytest.mark.slow
+def test_a_file_of_operating_points_is_opened_with_its_case_and_can_be_replaced(
+    open_page, app_server, tmp_path
+):
+    page = open_page(app_server, "/")
+    complete(page)
+    files = [EXAMPLES / "bearing_measured.toml", EXAMPLES / "measurements" / "bearing_6208_points.csv"]
+    page.get_by_test_id("upload-case").locator("input[type=file]").set_input_files(files)
+    # Two values of the file, and seven of the CSV at four operating points; the case itself is a further one.
+    page.get_by_test_id("measured-used").get_by_text("9 measured values at 5 operating points").wait_for()
+    bad = tmp_path / "bad.csv"
+    bad.write_text("speed [rpm],capacitance [pF]\n3000,250\n", encoding="utf-8")
+    page.get_by_test_id("upload-measured").set_input_files(bad)
+    error = page.get_by_test_id("error-measured").get_by_text("uncertainty of capacitance")
+    error.wait_for()
+    assert error.inner_text().startswith("bad.csv"), "the file has the name that its user knows"
+    assert page.get_by_test_id("calibrate").is_disabled()
+    page.get_by_test_id("measured-remove").click()
+    calibrate(page, explained=True)
 
 
 @pytest.mark.slow

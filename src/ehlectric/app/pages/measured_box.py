@@ -70,6 +70,7 @@ class MeasuredBox:
     ) -> None:
         self._session, self._change, self._show = session, change, show
         self._fields = measured_fields(kind)
+        self._had = self._given  # whether the inputs that were shown last had measured values
         self._begun: list[str] = []  # quantities whose value is still to be typed
         self._rows: dict[str, tuple[Control, Control]] = {}
         self._results: dict[str, CalibrationAnswer] = {}
@@ -127,6 +128,9 @@ class MeasuredBox:
 
     def _fill(self) -> None:
         inputs = self._session.inputs
+        if self._given and not self._had:
+            self._group.turn(opened=True)
+        self._had = self._given
         given = [name for name in self._fields if inputs.value(f"{MEASURED}.{name}") is not None]
         self._begun = [name for name in self._begun if name not in given]
         names = [name for name in self._fields if name in given or name in self._begun]
