@@ -163,7 +163,7 @@ def _check_even(path: Path, read: Samples, each: float, single: float, step: flo
     if off <= _tolerance(read, each, single):
         return
     refuse_gaps(path, read)
-    says = f"is unevenly sampled: the time of sample {worst + 1} is {readable(off / each)} of a step off"
+    says = f"is unevenly sampled: the time of sample {worst + 1} is {readable(off / each)} steps off"
     takes = f"equal steps of time, here {readable(each, 6)}, up to {_JITTER:g} of a step and the rounding"
     takes += " of printed times; or a new interval as resample, for circuit simulators"
     if step is not None:

@@ -49,7 +49,7 @@ def test_uneven_times_are_not_replaced_by_a_step(tmp_path):
     worst = np.max(np.abs(even - times)) / step
     line = refused(path, step=step)
     assert line.startswith("step: ")
-    assert float(re.search(r"is ([\d.]+) of a step off", line)[1]) == pytest.approx(worst, abs=0.1)
+    assert float(re.search(r"is ([\d.]+) steps off", line)[1]) == pytest.approx(worst, abs=0.1)
 
 
 def test_uneven_times_are_resampled_with_the_error(tmp_path):
