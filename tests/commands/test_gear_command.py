@@ -5,8 +5,13 @@ import json
 import re
 
 import pytest
+from hypothesis import given, settings
 
+from ehlectric.cases.gear_case import GearCase
+from ehlectric.errors import InputError
+from ehlectric.gear import solve_gear
 from ehlectric.quantities.results import PATH_POINTS, PHASE_COLUMNS
+from tests.gear.drawings import LAWS, SPOILT, tables_of_drawing
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
 
@@ -99,3 +104,44 @@ def test_bad_files_end_in_one_line_and_write_nothing(typed, tmp_path, name):
     assert done.stdout == ""
     assert re.fullmatch(r"error: [^\n]+\n", done.stderr)
     assert [path.name for path in tmp_path.iterdir()] == ["gear.toml"]
+
+
+def toml_of(tables, before=""):
+    """Lines of TOML with the dotted keys of tables; lists and numbers of JSON are those of TOML."""
+    for name, value in tables.items():
+        key = f"{before}{name}"
+        if isinstance(value, dict):
+            yield from toml_of(value, f"{key}.")
+        else:
+            yield f"{key} = {json.dumps(value)}"
+
+
+def is_refused(tables):
+    try:
+        solve_gear(GearCase.from_dict(tables), probable=False)
+    except InputError:
+        return True
+    return False
+
+
+@pytest.mark.slow
+def test_two_hundred_bad_drawings_end_in_one_line_and_write_nothing(typed, tmp_path):
+    """Impossible drawings and wrong values, each of which the command refuses with the status 2."""
+    refused = []
+
+    @settings(max_examples=250, deadline=None)
+    @given(SPOILT, LAWS)
+    def check(drawing, law):
+        tables = tables_of_drawing(drawing, law)
+        if not is_refused(tables):
+            return
+        (tmp_path / "gear.toml").write_text("\n".join(toml_of(tables)), "utf-8")
+        done = typed("gear", "gear.toml", "-o", "out")
+        assert done.returncode == 2
+        assert done.stdout == ""
+        assert re.fullmatch(r"error: gear\.[^\n]+\n", done.stderr)
+        assert [path.name for path in tmp_path.iterdir()] == ["gear.toml"]
+        refused.append(done.stderr)
+
+    check()
+    assert len(refused) >= 200

@@ -131,9 +131,9 @@ def solved():
 
 @pytest.mark.slow
 def test_the_film_is_the_solved_one_within_the_error_of_the_atlas(solved):
+    """Also within 1 %, if the stated error is larger."""
     _, films, _, summary = solved
-    error = films.error[0]
-    assert error < 0.02
+    error = min(films.error[0], 0.01)
     film = summary["film"]
     assert films.central[0] == pytest.approx(film["central_thickness"], rel=error)
     assert films.minimum[0] == pytest.approx(film["minimum_thickness"], rel=error)
@@ -222,6 +222,17 @@ def test_the_mesh_holds_the_capacitance_of_all_pairs():
     at_c = capacitance_at(solution, solution.path.pitch_point)
     assert np.median(capacitance[single]) == pytest.approx(at_c, rel=0.03)
     assert 1.2 * at_c < np.median(capacitance[~single]) < 2.0 * at_c
+
+
+def test_the_capacitance_over_a_phase_of_a_separate_program():
+    """FZG type C with the shares of ISO: 661.197 to 944.748 pF with a mean of 791.087 pF, with flat zones of
+    the central film, wedges to 4 mm and a permittivity of 1.14 times the ambient one in the zone.
+    """
+    solution = solve_gear_pair(case_of(operation__load_sharing="iso"))
+    capacitance = 1e12 * solution.capacitance
+    assert np.min(capacitance) == pytest.approx(661.197, rel=1.5e-2)
+    assert np.max(capacitance) == pytest.approx(944.748, rel=1.5e-2)
+    assert solution.loads.mean(capacitance) == pytest.approx(791.087, rel=1e-2)
 
 
 def capacitance_at(solution, place):

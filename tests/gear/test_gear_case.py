@@ -5,14 +5,14 @@ import tomllib
 
 import pytest
 from hypothesis import given, settings
-from hypothesis import strategies as st
 
 import ehlectric
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.errors import InputError
 from ehlectric.gear.solving import solve_gear_pair
 from ehlectric.quantities.results import GEAR_KEYS
-from tests.gear.pairs import FZG_C_CASE, case_of
+from tests.gear.drawings import ANY, LAWS, USUAL, tables_of_drawing
+from tests.gear.pairs import case_of
 from tests.helpers.places import EXAMPLES
 
 FILES = sorted(EXAMPLES.glob("gear_[ps]*.toml"))
@@ -120,36 +120,16 @@ def test_wrong_keys_are_refused_by_name(name):
     assert "\n" not in str(refused.value)
 
 
-DRAWINGS = st.fixed_dictionaries(
-    {
-        "normal_module": st.floats(0.3e-3, 20e-3),
-        "teeth": st.tuples(st.integers(4, 80), st.integers(-120, 200).filter(lambda z: abs(z) >= 4)),
-        "normal_pressure_angle": st.floats(0.1, 0.75),
-        "helix_angle": st.floats(0.0, 0.9),
-        "face_width": st.floats(1e-3, 0.2),
-        "centre_distance": st.none() | st.floats(2e-3, 0.8),
-        "profile_shift": st.lists(st.floats(-2.0, 2.0), min_size=1, max_size=2),
-        "tip_diameter": st.none() | st.lists(st.floats(2e-3, 1.5), min_size=2, max_size=2),
-    }
-)
-
-
-LAWS = st.sampled_from(["stiffness", "rigid", "iso", "tip-relief"])
-
-
 def solved_or_refused(drawing, law):
     """Summary of a drawing, or the text with which it is refused."""
-    numbers = {key: value for key, value in drawing.items() if value is not None}
-    operation = {**FZG_C_CASE["gear"]["operation"], "load_sharing": law}
-    gear = {"flank_ra": "0.3 um", "material": "steel", "operation": operation, **numbers}
     try:
-        return ehlectric.solve_gear(GearCase.from_dict({**FZG_C_CASE, "gear": gear})).summary()
+        return ehlectric.solve_gear(GearCase.from_dict(tables_of_drawing(drawing, law))).summary()
     except InputError as error:
         return str(error)
 
 
 @settings(max_examples=200, deadline=None)
-@given(DRAWINGS, LAWS)
+@given(ANY, LAWS)
 def test_any_drawing_runs_or_is_refused_in_one_line(drawing, law):
     """What is refused names its key; what runs has finite numbers."""
     answer = solved_or_refused(drawing, law)
@@ -160,18 +140,6 @@ def test_any_drawing_runs_or_is_refused_in_one_line(drawing, law):
     for key in ("minimum_thickness", "max_pressure", "capacitance"):
         assert 0.0 < answer["mesh"][key] < math.inf
     assert answer["gear"]["transverse_contact_ratio"] >= 1.0
-
-
-USUAL = st.fixed_dictionaries(
-    {
-        "normal_module": st.floats(1e-3, 8e-3),
-        "teeth": st.tuples(st.integers(18, 40), st.integers(20, 120)),
-        "normal_pressure_angle": st.floats(0.33, 0.44),
-        "helix_angle": st.just(0.0) | st.floats(1e-9, 0.6),
-        "face_width": st.floats(5e-3, 60e-3),
-        "profile_shift": st.lists(st.floats(0.0, 0.3), min_size=2, max_size=2),
-    }
-)
 
 
 @settings(max_examples=100, deadline=None)

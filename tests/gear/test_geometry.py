@@ -35,6 +35,58 @@ def test_the_path_of_fzg_type_c_is_that_of_another_program():
     assert 1e3 * path.tangent_length == pytest.approx(34.93, abs=0.005)
 
 
+# Places g of A to E, reduced radii there and T1T2 [mm], working pressure angle [degree] and transverse contact
+# ratio, which a separate program computed.
+COMPUTED = {
+    "FZG C": (
+        FZG_C,
+        (4.47230, 10.28480, 13.97008, 17.75689, 23.56939),
+        (3.89960, 7.25612, 8.38205, 8.72882, 7.66351),
+        (34.92521, 22.43879, 1.43754),
+    ),
+    "FZG A": (FZG_A, (10.65239, 15.44921, 13.97008, 23.93698, 28.73380), None, (34.92521, 22.43879, 1.36108)),
+    "first stage": (
+        FIRST_STAGE,
+        (5.18586, None, 8.34972, None, 13.21617),
+        (4.75369, None, 6.77289, None, 8.57545),
+        (None, 22.05827, 1.42655),
+    ),
+    "second stage": (
+        SECOND_STAGE,
+        (4.14006, None, 9.25647, None, 15.66471),
+        (3.92685, None, 7.67554, None, 10.64880),
+        (None, 21.64752, 1.49425),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", COMPUTED)
+def test_paths_of_a_separate_program(name):
+    """All numbers to the five decimals of that program."""
+    drawing, places, radii, (tangent, angle, ratio) = COMPUTED[name]
+    pair = gear_pair(drawing)
+    path = contact_path(pair)
+    g = np.array(list(path.points.values()))
+    rows = [(1e3 * g, places), (1e3 * path.reduced_radius(g), radii or [None] * 5)]
+    rows += [
+        ([1e3 * path.tangent_length], [tangent]),
+        ([math.degrees(pair.working_pressure_angle)], [angle]),
+        ([path.contact_ratio], [ratio]),
+    ]
+    for values, expected in rows:
+        for value, number in zip(values, expected, strict=True):
+            assert number is None or value == pytest.approx(number, abs=6e-6)
+
+
+def test_speeds_of_a_separate_program():
+    """Both flanks of FZG type C at A to E [m/s], at 2170 rpm."""
+    pair = gear_pair(FZG_C)
+    path = contact_path(pair)
+    first, second = path.speeds(np.array(list(path.points.values())), 2170.0 * math.pi / 30.0, pair.ratio)
+    assert first == pytest.approx([1.01629, 2.33714, 3.17459, 4.03511, 5.35595], abs=6e-6)
+    assert second == pytest.approx([4.61345, 3.73289, 3.17459, 2.60091, 1.72034], abs=6e-6)
+
+
 def involute_curve(base_radius, start):
     """Points of an involute around the origin that begins at an angle [rad] on its base circle."""
     roll = np.linspace(0.0, 1.5, 300_001)
