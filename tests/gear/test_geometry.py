@@ -35,8 +35,8 @@ def test_the_path_of_fzg_type_c_is_that_of_another_program():
     assert 1e3 * path.tangent_length == pytest.approx(34.93, abs=0.005)
 
 
-# Places g of A to E, reduced radii there and T1T2 [mm], working pressure angle [degree] and transverse contact
-# ratio, which a separate program computed.
+# Places g of A to E, reduced radii there and T1T2 [mm], working pressure angle [degree] and transverse
+# contact ratio, which a separate program computed.
 COMPUTED = {
     "FZG C": (
         FZG_C,

@@ -104,14 +104,30 @@ def test_wrong_arrays_are_refused(given, text):
         {"gear.operation.pinion_torque": 44.0, "gear.operation.bulk_temperature": 333.0},
         {"gear.operation.pinion_speed": 200.0, "gear.flank_ra": 1e-7},
         {"gear.operation.load_sharing": "rigid"},
+        {
+            "gear.face_width": "12 mm",
+            "gear.profile_shift": [0.18, 0.17],
+            "gear.flank_ra": ["0.1 um", "0.2 um"],
+        },
+        {"gear.composite_rq": "0.1 um"},
+        {"gear.centre_distance": None},
+        {"gear.tip_diameter": ["82 mm", "118 mm"], "gear.helix_angle": "1 deg"},
     ],
 )
 def test_a_changed_pair_is_the_replaced_case(changes):
     assert changed_pair(case_of(), changes) == case_of().replace(changes)
 
 
-def test_a_wrong_operating_point_has_the_error_of_the_replaced_case():
-    changes = {"gear.operation.pinion_torque": 0.0}
+@each(
+    "changes",
+    [
+        {"gear.operation.pinion_torque": 0.0},
+        {"gear.face_width": "-1 mm"},
+        {"gear.flank_ra": ["0.1 um", "wide"]},
+        {"gear.lead_crowning": "5 um", "gear.operation.load_sharing": "iso"},
+    ],
+)
+def test_a_wrong_pair_has_the_error_of_the_replaced_case(changes):
     with pytest.raises(InputError) as replaced:
         case_of().replace(changes)
     with pytest.raises(InputError) as changed:

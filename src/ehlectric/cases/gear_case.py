@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 from pydantic import field_serializer, field_validator, model_validator
 
-from ehlectric.cases.amounts import Amounts
 from ehlectric.cases.case_oil import Lubricant
 from ehlectric.cases.defaults import Contacts
 from ehlectric.cases.discharge_inputs import Discharge
@@ -167,32 +166,47 @@ class GearCase(CaseFile, book="gear_file"):
         return self.from_dict(table)
 
 
-# Start of the keys of the operating point, whose rules belong to this table only.
-_OPERATION = "gear.operation."
+# Tables whose numbers are checked within their table only, by the start of their keys.
+_OPERATION, _GEAR = "gear.operation.", "gear."
+
+_Numbers = TypeVar("_Numbers", Gear, GearOperation)
 
 
 def changed_pair(case: GearCase, changes: Mapping[str, Any], *, parsed: bool = False) -> GearCase:
-    """Changed copy of a case as ``replace`` makes it, in a tenth of the time if only numbers of the operating
-    point change. ``parsed``, whether values are as a case stores them. Raises InputError as ``replace`` does.
+    """Changed copy of a case as ``replace`` makes it, in a tenth of the time if only numbers of the drawing
+    and of the operating point change that the case contains. ``parsed``, whether values are as a case stores
+    them. Raises InputError as ``replace`` does.
     """
-    names = {key.removeprefix(_OPERATION): value for key, value in changes.items() if key in _NUMBERS}
-    if len(names) < len(changes) or case.ranges or None in names.values():
+    of_operation = {key: value for key, value in changes.items() if key in _NUMBERS[_OPERATION]}
+    of_gear = {key: value for key, value in changes.items() if key in _NUMBERS[_GEAR]}
+    new = any(getattr(case.gear, key.removeprefix(_GEAR)) is None for key in of_gear)
+    if new or len(of_operation) + len(of_gear) < len(changes) or case.ranges or None in changes.values():
         return case.replace(changes)
-    with within(_OPERATION[:-1]):
-        values = names if parsed else {name: _parsed(name, value) for name, value in names.items()}
-        table = case.gear.operation.model_copy(update=values).checked()
-    return case.model_copy(update={"gear": case.gear.model_copy(update={"operation": table})})
+    gear, operation = case.gear, case.gear.operation
+    operation = _with_numbers(operation, _OPERATION, of_operation, parsed=parsed)
+    gear = _with_numbers(gear.model_copy(update={"operation": operation}), _GEAR, of_gear, parsed=parsed)
+    return case.model_copy(update={"gear": gear})
 
 
-def _parsed(name: str, value: Any) -> Any:
-    """Value of a number of the operating point in SI units."""
-    with within(name):
-        return _NUMBERS[f"{_OPERATION}{name}"].parse(value)
+def _with_numbers(table: _Numbers, start: str, changes: Mapping[str, Any], *, parsed: bool) -> _Numbers:
+    """Copy of a table with other numbers, by their dotted keys, which begin with ``start``."""
+    with within(start[:-1]):
+        values = {}
+        for key, value in changes.items():
+            name = key.removeprefix(start)
+            values[name] = value
+            if not parsed:
+                with within(name):
+                    values[name] = _NUMBERS[start][key].parse(value)
+        return table.model_copy(update=values).checked()
 
 
-# Annotations of the numbers of the operating point, by dotted key.
+# Annotations of numbers by dotted key, by the start of their keys.
 _NUMBERS = {
-    f"{_OPERATION}{name}": annotation
-    for name, field in GearOperation.known_keys().items()
-    if (annotation := annotation_of(field)) is not None and not isinstance(annotation, Amounts)
+    start: {
+        f"{start}{name}": annotation
+        for name, field in table.known_keys().items()
+        if (annotation := annotation_of(field)) is not None
+    }
+    for start, table in ((_OPERATION, GearOperation), (_GEAR, Gear))
 }

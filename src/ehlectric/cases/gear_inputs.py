@@ -188,6 +188,10 @@ class Gear(Table, book="gear"):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
+        return self.checked()
+
+    def checked(self) -> Self:
+        """Table itself. Raises InputError for keys that exclude each other or need another one."""
         keys = ("composite_rq", "flank_ra")
         self.check_alternatives(keys, f"either {' or '.join(keys)}", needed=True)
         if self.rq_over_ra is not None and self.flank_ra is None:

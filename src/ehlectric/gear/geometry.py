@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 from ehlectric.errors import InputError, shown
 
@@ -114,22 +115,22 @@ class GearPair:
         """Ratio u = z2/z1 of the numbers of teeth, negative for an internal pair."""
         return self.teeth[1] / self.teeth[0]
 
-    @property
+    @cached_property
     def transverse_module(self) -> float:
         """Transverse module m_t [m]."""
         return self.normal_module / math.cos(self.helix_angle)
 
-    @property
+    @cached_property
     def transverse_pressure_angle(self) -> float:
         """Pressure angle alpha_t of the transverse plane [rad]."""
         return math.atan(math.tan(self.normal_pressure_angle) / math.cos(self.helix_angle))
 
-    @property
+    @cached_property
     def base_helix_angle(self) -> float:
         """Helix angle beta_b of the base cylinder [rad]."""
         return math.atan(math.tan(self.helix_angle) * math.cos(self.transverse_pressure_angle))
 
-    @property
+    @cached_property
     def reference_diameter(self) -> tuple[float, float]:
         """Reference diameters d [m]."""
         first, second = self.teeth
@@ -140,19 +141,19 @@ class GearPair:
         """Tip diameters d + 2 m_n (1 + x) of a full addendum, negative for a ring [m]."""
         return usual_tips(self, self.profile_shift)
 
-    @property
+    @cached_property
     def base_diameter(self) -> tuple[float, float]:
         """Base diameters d_b [m]."""
         first, second = self.reference_diameter
         cosine = math.cos(self.transverse_pressure_angle)
         return first * cosine, second * cosine
 
-    @property
+    @cached_property
     def working_pressure_angle(self) -> float:
         """Working pressure angle alpha_wt [rad]."""
         return math.acos(sum(self.base_diameter) / (2.0 * self.centre_distance))
 
-    @property
+    @cached_property
     def form_curvature(self) -> tuple[float, float]:
         """Transverse radii of curvature at which the involutes begin above the fillets of both gears [m].
 
@@ -166,7 +167,7 @@ class GearPair:
         )
         return first, -math.inf if self.internal else second
 
-    @property
+    @cached_property
     def working_diameter(self) -> tuple[float, float]:
         """Diameters d_w of the working circles, which touch at the pitch point [m]."""
         first = 2.0 * self.centre_distance / (self.ratio + 1.0)

@@ -23,6 +23,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from functools import lru_cache
 
 from ehlectric.gear.contact_path import ContactPath
 from ehlectric.gear.geometry import GearPair
@@ -31,6 +32,7 @@ from ehlectric.gear.geometry import GearPair
 _RISE, _EXPONENT, _INJECTED = 7400.0, 0.72, 1.2
 
 
+@lru_cache(maxsize=64)
 def loss_factor(pair: GearPair, path: ContactPath) -> float:
     """Loss factor H_v of a gear pair, dimensionless."""
     first = (path.end - path.pitch_point) / path.base_pitch

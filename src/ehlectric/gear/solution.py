@@ -74,7 +74,7 @@ class GearSolution:
         """Height of the highest summits [m]."""
         return self.case.gear.summit_height * self.rq
 
-    @property
+    @cached_property
     def strength(self) -> float | None:
         """Dielectric strength of the oil at ambient pressure [V/m]; None without one."""
         return strength_of(self.case)
@@ -137,7 +137,7 @@ class GearSolution:
         lines = self.loads.along(self.capacitance_of_lines)
         return np.asarray(lines + self.open_capacitance + self.back_capacitance)
 
-    @property
+    @cached_property
     def back_capacitance(self) -> float:
         """Mean capacitance of the flanks behind the working ones [F]; 0 where the backlash is not known."""
         if self.pair.normal_backlash is None:
