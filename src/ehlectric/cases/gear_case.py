@@ -173,9 +173,9 @@ _Numbers = TypeVar("_Numbers", Gear, GearOperation)
 
 
 def changed_pair(case: GearCase, changes: Mapping[str, Any], *, parsed: bool = False) -> GearCase:
-    """Changed copy of a case as ``replace`` makes it, in a tenth of the time if only numbers of the drawing
-    and of the operating point change that the case contains. ``parsed``, whether values are as a case stores
-    them. Raises InputError as ``replace`` does.
+    """Changed copy of a case as ``replace`` makes it, in a tenth of the time if all changes are numbers of
+    [gear] and [gear.operation] that the case contains. ``parsed``, whether values are as a case stores them.
+    Raises InputError as ``replace`` does.
     """
     of_operation = {key: value for key, value in changes.items() if key in _NUMBERS[_OPERATION]}
     of_gear = {key: value for key, value in changes.items() if key in _NUMBERS[_GEAR]}
