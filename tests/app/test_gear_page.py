@@ -108,6 +108,22 @@ def test_a_spur_drawing_is_typed_without_errors(gears):
 
 
 @pytest.mark.slow
+def test_the_second_value_of_a_pair_is_asked_for_without_an_alert(gears):
+    """A tip diameter that is removed is asked for as the one of the other gear is given."""
+    page = gears
+    page.get_by_test_id("gears").get_by_text("Spur pair").click()
+    assert wait_until(lambda: field(page, "gear.teeth.1").input_value() == "16")
+    type_into(page, "gear.tip_diameter.1", "")
+    waiting = page.get_by_test_id("error-gear-tip_diameter-1")
+    waiting.filter(has_text="missing").wait_for()
+    assert waiting.get_attribute("role") == "status"
+    assert field(page, "gear.tip_diameter.1").get_attribute("aria-invalid") is None
+    assert page.get_by_role("alert").filter(visible=True).all_inner_texts() == []
+    type_into(page, "gear.tip_diameter.1", "82.46 mm")
+    waiting.wait_for(state="hidden")
+
+
+@pytest.mark.slow
 def test_a_gear_file_opens_on_its_page(page):
     page.get_by_test_id("upload-case").locator("input[type=file]").set_input_files(
         EXAMPLES / "gear_spur.toml"

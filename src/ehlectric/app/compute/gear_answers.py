@@ -81,7 +81,7 @@ def _check_both(gear: Any) -> None:
         if empty is None and name in whole and len(values) == 1:
             empty = 2
         if empty is not None:
-            raise InputError(f"gear.{name}.{empty}", "is empty;", takes="a value, as for the other gear")
+            raise InputError.missing(f"gear.{name}.{empty}", "a value, as for the other gear")
 
 
 def _alone(table: Mapping[str, Any], session: Path | None) -> GearCase:

@@ -18,7 +18,7 @@ from ehlectric.app.form_fields.measured_fields import measured_fields, measured_
 from ehlectric.app.latest_answer import LatestAnswer
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.downloads import Downloads
-from ehlectric.app.pages.form import Form
+from ehlectric.app.pages.form import Form, is_to_type
 from ehlectric.app.pages.frame import PAGE_PATIENCE, Toolbar, framed, session_of, show_address
 from ehlectric.app.pages.measured_box import CalibrationView, MeasuredBox
 from ehlectric.app.pages.page_parts import Strip, button, heading, lines_html, mark, say
@@ -237,6 +237,7 @@ class AnswerPage(Generic[A]):
         self._strip.show("grey", "No answer", [words])
         self.solving.show(None, error)
         earlier = " The answer below is that of earlier inputs." if self.view.shown else ""
+        mark(self._notice, "wrong", on=not is_to_type(error))
         say(self._notice, f"{words}.{earlier}")
 
 

@@ -90,7 +90,11 @@ class Form:
         text = field_text if exact else "" if error is None else str(error)
         self.wrong = field
         for other, control in self._controls:
-            control.show(error=text if other is field else "", shown=self._is_shown(other))
+            control.show(
+                error=text if other is field else "",
+                empty=other is field and is_to_type(error),
+                shown=self._is_shown(other),
+            )
         say(self.message, "" if field is not None else text)
         if field is not None:
             title = self._group_of(field).title
@@ -360,6 +364,11 @@ class Form:
 def _is_of_kind(changes: Mapping[str, Any]) -> bool:
     """Whether changes may bring another kind of bearing."""
     return any(end_and_key(key)[1] in ("bearing.base", "bearing.kind") for key in changes)
+
+
+def is_to_type(error: Exception | None) -> bool:
+    """Return whether an error is a value that is still to be typed, which is not shown as a wrong one."""
+    return isinstance(error, InputError) and error.is_missing
 
 
 def groups_for(case: Inputs) -> Sequence[Group]:

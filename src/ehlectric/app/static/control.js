@@ -6,7 +6,7 @@ const THROTTLE = 100; // ms between two values of a dragged slider
 
 export default {
   template: `
-    <div v-if="shown" class="field" :class="{ wrong: !!error, listed: beside }" @keydown.esc="helped = false">
+    <div v-if="shown" class="field" :class="{ wrong: !!error && !empty, listed: beside }" @keydown.esc="helped = false">
       <div class="field-head">
         <label :for="boxId">{{ label }}</label>
         <span v-if="note" class="field-note" :id="boxId + '-note'">{{ note }}</span>
@@ -47,7 +47,7 @@ export default {
         </template>
       </div>
       <p v-if="help && helped" class="field-help" :id="boxId + '-help'">{{ help }}</p>
-      <p v-if="error" class="field-error" role="alert" :id="boxId + '-error'" :data-testid="'error-' + testid">{{ error }}</p>
+      <p v-if="error" class="field-error" :class="{ empty: empty }" :role="empty ? 'status' : 'alert'" :id="boxId + '-error'" :data-testid="'error-' + testid">{{ error }}</p>
     </div>`,
   props: {
     boxId: String,
@@ -58,6 +58,8 @@ export default {
     unit: String,
     help: String,
     error: String,
+    // Whether the error is a value that is still to be typed.
+    empty: { type: Boolean, default: false },
     shown: { type: Boolean, default: true },
     text: { type: String, default: "" },
     // Text with all digits, where that in the box is rounded.
@@ -118,7 +120,7 @@ export default {
       const by = [this.unit && "-unit", this.note && "-note", this.help && this.helped && "-help", this.error && "-error"]
         .filter(Boolean)
         .map((end) => this.boxId + end);
-      return { "aria-invalid": this.error ? "true" : null, "aria-describedby": by.join(" ") || null };
+      return { "aria-invalid": this.error && !this.empty ? "true" : null, "aria-describedby": by.join(" ") || null };
     },
     matches() {
       const query = this.typed ? this.query.toLowerCase() : "";
