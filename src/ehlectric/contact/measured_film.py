@@ -82,9 +82,9 @@ def contact_factors(
     if case.inlet is not None:
         raise InputError("inlet", "is not used with a measurement", takes="a flooded contact")
     if not measured.has("film"):
-        raise InputError.missing(
-            f"{measured.source}: film", "a column 'film [nm]' with the entrainment speed"
-        )
+        further = "; a traction coefficient gives no film factor" * measured.has("traction_coefficient")
+        takes = f"a column 'film [nm]' with the entrainment speed{further}"
+        raise InputError.missing(f"{measured.source}: film", takes)
     if measured.has("speed") and not measured.has("entrainment_speed"):
         raise InputError(
             f"{measured.source}: speed", got="a rotational speed", takes="a column 'entrainment speed [m/s]'"
