@@ -2,7 +2,7 @@
 
 import pytest
 
-from ehlectric import AxleCase, solve_axle
+from ehlectric import AxleCase, load, save, solve_axle
 from ehlectric.axle.axle_discharges import _stream_of_bearing, simulate_axle
 from ehlectric.axle.films_in_time import AxleInTime, TimedFilm
 from ehlectric.axle.network import HOUSING, WINDING, Film, Network
@@ -31,6 +31,22 @@ def test_an_axle_of_one_shaft_is_a_drive():
     assert len(drive.events) > 100
     for name in ("events", "counts", "sums", "largest", "histogram", "above", "peak", "rms", "spectrum"):
         assert getattr(record, name).tolist() == getattr(drive, name).tolist(), name
+
+
+def test_nothing_discharges_if_all_shafts_are_connected_to_the_housing(tmp_path):
+    """Bearings with summits that always touch conduct; a result without a simulation is stored and loaded."""
+    rough = [
+        {**bearing, "composite_rq": "1 um", "contact_resistance": "1 ohm"} for bearing in ALONE["bearing"]
+    ]
+    timed = ALONE["drive"] | {"duration": "1 ms", "speed": "20 rpm"}
+    case = AxleCase.from_dict(
+        COUPLED | {"drive": timed, "shaft": ALONE["shaft"], "bearing": rough, "link": []}
+    )
+    result = solve_axle(case)
+    assert result.discharges is None
+    assert "simulation" not in result.summary()
+    save(result, tmp_path)
+    assert load(tmp_path).discharges is None
 
 
 def test_a_duration_without_an_arc_is_refused():

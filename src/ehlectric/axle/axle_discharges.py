@@ -153,8 +153,9 @@ def _rates(counts: Array, duration: float) -> dict[str, float]:
 
 def simulate_axle(
     solution: AxleSolution, progress: Progress = silent, *, films: SolvedFilms | None = None
-) -> AxleDischarges:
-    """Simulate the discharges of a solved axle for the duration of its case.
+) -> AxleDischarges | None:
+    """Simulate the discharges of a solved axle for the duration of its case; None if all shafts are connected
+    to the housing by metal, so that nothing discharges.
 
     ``films``, solved films of the axle; by default they are solved. ``progress`` is called with a percentage,
     100, and a text. Raises InputError if an element lacks a value that discharges need.
@@ -172,6 +173,8 @@ def simulate_axle(
     names = {each.name for each in timed}
     fixed = Network(network.shafts, tuple(each for each in network.elements if each.name not in names))
     axle = AxleInTime(fixed, tuple(timed), breakdown, source.ring_rate)
+    if not axle.floating:
+        return None
     divider = max((abs(value) for value in network.potentials(1.0).values()), default=0.0)
     whole = source.settling + source.duration
     record = axle.march(

@@ -64,7 +64,7 @@ class AxleResult(Shown):
     version: str = __version__
     probable: bool = True
     stored_duty: AxleDuty | None = field(default=None, compare=False)
-    simulated: tuple[AxleDischarges, ...] = field(default=(), compare=False)
+    simulated: tuple[AxleDischarges | None, ...] = field(default=(), compare=False)
 
     @property
     def case(self) -> AxleCase:
@@ -100,14 +100,14 @@ class AxleResult(Shown):
         return self._all_discharges[0] if self._all_discharges else None
 
     @property
-    def remedied_discharges(self) -> tuple[AxleDischarges, ...]:
+    def remedied_discharges(self) -> tuple[AxleDischarges | None, ...]:
         """Discharges over the simulated time with each remedy, from random numbers of the same seed; empty as
         ``discharges`` is None.
         """
         return self._all_discharges[1:]
 
     @read_only_property
-    def _all_discharges(self) -> tuple[AxleDischarges, ...]:
+    def _all_discharges(self) -> tuple[AxleDischarges | None, ...]:
         """Discharges of the axle and with each remedy."""
         if self.case.drive.duration is None or not self.probable:
             return ()
@@ -155,10 +155,10 @@ class AxleResult(Shown):
 
     def _remedies(self) -> Iterator[dict[str, Any]]:
         """Tables ``remedies`` of the summary."""
-        simulations = [{"simulation": each.summary()} for each in self.remedied_discharges]
-        for number, solution in enumerate(self.remedies):
-            in_time = simulations[number] if simulations else {}
-            yield {"title": self.case.remedies[number].title, **axle_summary(solution), **in_time}
+        in_time = self.remedied_discharges or (None,) * len(self.remedies)
+        for number, (solution, discharges) in enumerate(zip(self.remedies, in_time, strict=True)):
+            simulation = {} if discharges is None else {"simulation": discharges.summary()}
+            yield {"title": self.case.remedies[number].title, **axle_summary(solution), **simulation}
 
     def _heads(self) -> dict[str, Any]:
         """Title, warnings, verdict and inputs of a summary."""

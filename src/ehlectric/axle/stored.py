@@ -52,7 +52,7 @@ def layout_of(
     *,
     probable: bool,
     duty: AxleDuty | None = None,
-    discharges: Sequence[AxleDischarges] = (),
+    discharges: Sequence[AxleDischarges | None] = (),
 ) -> Layout:
     """Variables and attributes of an axle.nc, SI units, from which ``solutions_of`` makes equal solutions.
 

@@ -115,31 +115,38 @@ def _stored(variant: int) -> _Stored:
     return _Stored(f"remedy_{variant}_simulation" if variant else "simulation")
 
 
-def discharge_variables(discharges: Sequence[AxleDischarges]) -> dict[str, Any]:
+def discharge_variables(discharges: Sequence[AxleDischarges | None]) -> dict[str, Any]:
     """Variables of the discharges of an axle and with each remedy, in this order."""
     return {
         name: variable
         for variant, each in enumerate(discharges)
+        if each is not None
         for name, variable in _stored(variant).variables(each).items()
     }
 
 
-def discharge_attributes(discharges: Sequence[AxleDischarges]) -> dict[str, str]:
+def discharge_attributes(discharges: Sequence[AxleDischarges | None]) -> dict[str, str]:
     """Names of elements and shafts of each record, as attributes of the file."""
     return {
         _stored(variant).name: json.dumps({"elements": each.names, "shafts": each.shafts})
         for variant, each in enumerate(discharges)
+        if each is not None
     }
 
 
-def discharges_of(dataset: xr.Dataset, solutions: Sequence[AxleSolution]) -> tuple[AxleDischarges, ...]:
+def discharges_of(
+    dataset: xr.Dataset, solutions: Sequence[AxleSolution]
+) -> tuple[AxleDischarges | None, ...]:
     """Discharges of a dataset for the axle and for each remedy; empty for a file without them. Raises
     UnfitError where a record is missing, or is not as it was written.
     """
-    if _stored(0).name not in dataset.attrs:
+    stored = [_stored(variant) for variant in range(len(solutions))]
+    if not any(each.name in dataset.attrs for each in stored):
         return ()
-    records = tuple(_stored(variant).read(dataset) for variant in range(len(solutions)))
+    records = tuple(each.read(dataset) if each.name in dataset.attrs else None for each in stored)
     for each, solution in zip(records, solutions, strict=True):
+        if each is None:
+            continue
         films = {element.name for element in solution.elements}
         if not films.issuperset(each.names) or not set(solution.turning).issuperset(each.shafts):
             raise UnfitError("its discharges have not the elements and shafts of its case")

@@ -140,7 +140,8 @@ def remedied_simulation_cells(summary: Summary) -> Iterator[tuple[str, ...]]:
     """
     cases = [("as it is", summary), *((each["title"], each) for each in summary["remedies"])]
     yield "discharges [1/s]", *(printable(title) for title, _ in cases)
-    tables = [{row["element"]: row for row in case["simulation"]["elements"]} for _, case in cases]
+    in_time = [case.get("simulation") or {} for _, case in cases]
+    tables = [{row["element"]: row for row in table.get("elements", ())} for table in in_time]
     for name, key, unit, factor in (
         ("{}", "events_per_second", "", 1.0),
         ("W of {}", "energy_mean", "nJ", 1e9),
@@ -150,7 +151,7 @@ def remedied_simulation_cells(summary: Summary) -> Iterator[tuple[str, ...]]:
                 values = (table.get(row["element"], {}).get(key) for table in tables)
                 head = name.format(printable(row["element"])) + (unit and f" [{unit}]")
                 yield head, *(_cell(value, factor) for value in values)
-    yield "power of all [µW]", *(_cell(case["simulation"]["power"], 1e6) for _, case in cases)
+    yield "power of all [µW]", *(_cell(table.get("power"), 1e6) for table in in_time)
 
 
 def remedied_simulation_table(summary: Summary) -> Table:
