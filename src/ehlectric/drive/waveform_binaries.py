@@ -6,6 +6,7 @@ number of segments, and that the samples are no envelope.
 
 from __future__ import annotations
 
+import math
 import re
 import struct
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -15,23 +16,27 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import scipy
 
 from ehlectric.arrays import Array
-from ehlectric.drive.matlab_file import MatlabArray, matlab_arrays
 from ehlectric.drive.waveform_choice import Choice, Keys, choice_of, envelope
 from ehlectric.drive.waveform_heads import Head, Labels, Stated, parts_of
 from ehlectric.drive.waveform_refusals import exceeded, segments
 from ehlectric.drive.waveform_samples import MOST_BYTES, Samples
 from ehlectric.errors import InputError, shown
+from ehlectric.readable import readable
 from ehlectric.runtime.file_kinds import PEEKED
-from ehlectric.runtime.reading import read_bytes, regular
-from ehlectric.runtime.sizes import check_size
+from ehlectric.runtime.reading import regular
+from ehlectric.runtime.sizes import check_memory_for, check_size
 
-# Memory for a byte of a file while it is read [bytes], as its samples have 16 bits or more.
-_MEMORY = 16.0
+# Memory for a byte of a file while it is read [bytes], as its samples have 16 bits or more, and for a number.
+_MEMORY, _NUMBER = 16.0, 24.0
 
 # Largest number of columns, and of first samples in which times are recognised.
 _MOST_COLUMNS, _PEEKED = 1000, 1000
+
+# Classes of MATLAB of arrays of numbers.
+_MAT_NUMBERS = re.compile(r"double|single|u?int\d+")
 
 # Fields of the header of LeCroy, template LECROY_2_3, by their place from the word WAVEDESC: form of struct,
 # without the order of bytes. Source: the template that these oscilloscopes return by TEMPLATE?.
@@ -104,27 +109,35 @@ def _samples(path: Path, choice: Choice, columns: list[Column], keys: Keys) -> S
 
 
 def _mat(path: Path) -> tuple[list[Column], list[Stated]]:
-    """Arrays of a file of MATLAB; single numbers and texts are keys."""
+    """Arrays of real numbers of a file of MATLAB; single numbers are keys. Other variables are left out."""
+    known = scipy.io.whosmat(str(path))
+    # A compressed variable may be large.
+    count = sum(math.prod(map(float, shape)) for _, shape, _ in known)
+    check_memory_for(path, _NUMBER * count, f"has {readable(count, 2)} numbers")
+    content = scipy.io.loadmat(str(path), appendmat=False)
     columns: list[Column] = []
     stated: list[Stated] = []
-    for each in matlab_arrays(path, read_bytes(path, most=MOST_BYTES), MOST_BYTES):
-        if each.numbers.size == 1:
-            number = f"{float(each.numbers.flat[0]):.12g}"
-            stated.append(Stated(each.name, (number,), 0, f"{each.name}: {number}"))
-        else:
-            columns += _of_array(each)
+    for name, shape, kind in known:
+        array = np.asarray(content[name])
+        if _MAT_NUMBERS.fullmatch(kind) is None or array.dtype.kind not in "fiu" or len(shape) > 2:
+            continue
+        if array.size == 1:
+            number = f"{float(array.flat[0]):.12g}"
+            stated.append(Stated(name, (number,), 0, f"{name}: {number}"))
+        elif array.size:
+            # MATLAB stores whole numbers of the class double as integers: only the class means counts.
+            columns += _of_array(name, array, counts="int" in kind)
     return columns, stated
 
 
-def _of_array(each: MatlabArray) -> Iterator[Column]:
+def _of_array(name: str, array: Any, *, counts: bool) -> Iterator[Column]:
     """Columns of an array, named as MATLAB indexes them; the samples are along its longer axis."""
-    name, array = each.name, each.numbers
     if 1 in array.shape:
-        yield Column(*parts_of(name), array.ravel(), each.whole)
+        yield Column(*parts_of(name), array.ravel(), counts)
         return
     along_rows = array.shape[0] >= array.shape[1]
     for k, numbers in enumerate(array.T if along_rows else array, 1):
-        yield Column(f"{name}(:,{k})" if along_rows else f"{name}({k},:)", "", numbers, each.whole)
+        yield Column(f"{name}(:,{k})" if along_rows else f"{name}({k},:)", "", numbers, counts)
 
 
 def _tdms(path: Path) -> tuple[list[Column], list[Stated]]:
@@ -238,7 +251,7 @@ def _isf(path: Path) -> tuple[list[Column], list[Stated]]:
 # Libraries and readers of binary files, by the keys of ``file_kinds.KINDS``.
 Reader = Callable[[Path], tuple[list[Column], Iterable[Stated]]]
 READERS: Mapping[str, tuple[str, Reader]] = {
-    "mat": ("ehlectric", _mat),
+    "mat": ("SciPy", _mat),
     "tdms": ("npTDMS", _tdms),
     "trc": ("RigolWFM", _trc),
     "isf": ("RigolWFM", _isf),
