@@ -109,7 +109,7 @@ def _samples(path: Path, choice: Choice, columns: list[Column], keys: Keys) -> S
 
 
 def _mat(path: Path) -> tuple[list[Column], list[Stated]]:
-    """Arrays of real numbers of a file of MATLAB; single numbers are keys. Other variables are left out."""
+    """Arrays of real numbers of a file of MATLAB; single numbers are keys. Other variables are ignored."""
     known = scipy.io.whosmat(str(path))
     # A compressed variable may be large.
     count = sum(math.prod(map(float, shape)) for _, shape, _ in known)
