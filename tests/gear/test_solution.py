@@ -364,3 +364,15 @@ def test_extremes_over_the_phase_are_those_of_a_dense_sampling(changes, monkeypa
     assert summary["breakdown_voltage_high"] == pytest.approx(np.max(voltage), rel=6e-3)
     assert summary["breakdown_voltage"] == pytest.approx(np.min(voltage), rel=5e-3)
     assert summary["capacitance"] == pytest.approx(dense.loads.mean(dense.capacitance), rel=2e-3)
+
+
+@pytest.mark.parametrize("case", [case_of(flank_ra="0.01 um"), helical_case()])
+def test_the_table_over_the_phase_has_the_extremes_and_the_mean_of_the_summary(case):
+    """Also the voltages between the phases at which the mesh is solved."""
+    result = ehlectric.solve_gear(case.replace({"gear.flank_ra": "0.01 um"}), probable=False)
+    mesh, phase = result.summary()["mesh"], result.over_phase()
+    assert np.all(np.diff(phase["phase"]) > 0.0)
+    for key, low in (("capacitance", "capacitance_low"), ("breakdown_voltage", "breakdown_voltage")):
+        assert np.min(phase[key]) == mesh[low]
+        assert np.max(phase[key]) == mesh[f"{key}_high"]
+    assert phase["phase_weight"] @ phase["capacitance"] == pytest.approx(mesh["capacitance"], rel=1e-12)

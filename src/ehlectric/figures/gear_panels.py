@@ -245,12 +245,12 @@ def mesh_panels(result: GearResult) -> list[Panel]:
     factor, unit = unit_for(float(np.max(capacitance)), "F", least=1.0)
     panels = [_over_phase("capacitance $C$", unit, [_phase_curve(result, "", factor * capacitance, BLUE)])]
     if over_phase is not None and has_voltage(result):
-        phases, voltage = over_phase
+        voltage = over_phase[1]
         most, applied = float(np.max(voltage)), result.case.gear.contact.voltage
         near = applied is not None and applied <= _NEAR * most
         scale, volts = unit_for(max(most, applied) if applied is not None and near else most, "V", least=1.0)
         name = "breakdown voltage" if near else ""
-        curves = [_phase_curve(result, name, scale * voltage, STRENGTH, phases)]
+        curves = [_phase_curve(result, name, scale * voltage, STRENGTH)]
         if applied is not None and near:
             level = np.full(2, scale * applied)
             curves.append(Curve("voltage between both gears", np.array([0.0, 1.0]), level, BLACK, "dash"))
@@ -268,13 +268,11 @@ def has_voltage(result: GearResult) -> bool:
     return voltage is not None and bool(np.max(voltage) > 0.0)
 
 
-def _phase_curve(
-    result: GearResult, name: str, values: Array, colour: str, phases: Array | None = None
-) -> Curve:
-    """Values over the phase, which return to the first one after a pitch; of a spur pair in a step.
-    ``phases`` of the values, by default the phases of the solution.
+def _phase_curve(result: GearResult, name: str, values: Array, colour: str) -> Curve:
+    """Values at the phases of the table, which return to the first one after a pitch; of a spur pair in a
+    step.
     """
-    phases = result.solution.loads.phases if phases is None else phases
+    phases = result.over_phase()["phase"]
     if result.solution.pair.helix_angle == 0.0:
         x, ends = np.concatenate([[0.0], phases, [1.0]]), (values[:1], values[-1:])
     else:
@@ -408,7 +406,7 @@ def mesh_finding(result: GearResult) -> str:
     if np.all(touching):
         return f"{lead}: the highest summits touch at all phases, no breakdown voltage; {capacitance}"
     if np.any(touching):
-        at = f"{_part_text(float(touching @ phase['phase_weight']))} of the phases"
+        at = f"{_part_text(result.solution.loads.mean(touching))} of the phases"
         if voltage is None:
             return f"{lead}: the highest summits touch at {at}; {capacitance}"
         most = _prefixed(float(np.max(voltage)), "V")

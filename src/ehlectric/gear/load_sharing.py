@@ -140,7 +140,7 @@ class LineLoads:
         after = np.searchsorted(self.phases, _BETWEEN)
         cycle = np.concatenate([self.phases[-1:] - 1.0, self.phases, self.phases[:1] + 1.0])
         between = _BETWEEN[cycle[after + 1] - cycle[after] > _NEXT]
-        phases = np.sort(np.concatenate([self.phases, between, ends]))
+        phases = np.unique(np.concatenate([self.phases, between, ends]))
         lines = phases + np.arange(math.floor(first), math.ceil(last) + 1.0)[:, np.newaxis]
         there = np.min(np.interp(lines, place, least, left=math.inf, right=math.inf), axis=0)
         met = np.isfinite(there)

@@ -156,16 +156,20 @@ class GearResult(Shown):
         """Return capacitance [F], breakdown voltage [V] and share of time with metallic contact over the
         phase of the mesh, each of shape (p,); the voltage is NaN without a dielectric strength.
 
-        A mean over the phase is the sum of the values times ``phase_weight``.
+        The phases contain the extremes of the breakdown voltage. A mean over the phase is the sum of the
+        values times ``phase_weight``, which is 0 at phases between the phases of the solution.
         """
         solution = self.solution
-        voltage = solution.breakdown_voltage
+        nodes, over_phase = solution.loads.phases, solution.breakdown_voltage_over_phase
+        phases, voltage = (nodes, np.full_like(nodes, np.nan)) if over_phase is None else over_phase
+        weights = np.zeros_like(phases)
+        weights[np.searchsorted(phases, nodes)] = solution.loads.weights
         return {
-            "phase": solution.loads.phases,
-            "phase_weight": solution.loads.weights,
-            "capacitance": solution.capacitance,
-            "breakdown_voltage": np.full_like(solution.capacitance, np.nan) if voltage is None else voltage,
-            "contact_time_share": solution.contact_time_share(),
+            "phase": phases,
+            "phase_weight": weights,
+            "capacitance": np.interp(phases, nodes, solution.capacitance, period=1.0),
+            "breakdown_voltage": voltage,
+            "contact_time_share": np.interp(phases, nodes, solution.contact_time_share(), period=1.0),
         }
 
     def to_xarray(self) -> xr.Dataset:
