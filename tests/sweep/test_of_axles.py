@@ -168,7 +168,7 @@ def test_cells_of_a_map_meet_halfway_on_the_axis():
         ({"bearing.rotor.temperature": ["60 degC"]}, "drive.temperature"),
         ({"mesh.1.gear.operation.pinion_speed": ["100 rpm"]}, "drive.speed"),
         ({"mesh.1.discharge.dielectric_strength": ["10 V/um"]}, "discharge.dielectric_strength"),
-        ({"mesh.1.gear.flank_rq": ["1 um"]}, "mesh.1.gear.flank_ra"),
+        ({"mesh.1.gear.flank_rq": ["1 um"]}, "mesh.1.gear.composite_rq"),
         ({"drive.sped": ["100 rpm"]}, "drive.speed"),
         ({"link": ["a"]}, "cannot vary"),
         ({"bearings.radial_clearance": ["5 um"]}, "bearing.rotor.radial_clearance"),
