@@ -11,8 +11,8 @@ from tests.helpers.places import EXAMPLES
 
 import ehlectric
 from ehlectric import BearingCase, DriveCase, GearCase, InputError
-from ehlectric.calibration.calibrate import given_values
 from ehlectric.calibration.models import model_of
+from ehlectric.calibration.range_update import given_values
 from ehlectric.cases.measured_inputs import Measured, measured_points
 from ehlectric.cases.measurements import BEARING_POINTS
 
@@ -135,9 +135,8 @@ def test_what_nothing_explains_is_reported(bearing, measured, key, contradicting
     assert calibration.unexplained.key == key
     assert list(calibration.unexplained.contradicting) == contradicting
     if key:
-        # By the slope of the logarithm at 80 °C.
-        needed = 353.15 * (1.0 + np.log(383.15 / 353.15))
-        assert calibration.unexplained.needed == pytest.approx(needed, abs=0.5)
+        # The ring has the temperature of the oil.
+        assert calibration.unexplained.needed == pytest.approx(383.15, abs=0.5)
         assert calibration.rows[0].nearest == pytest.approx(353.15, abs=0.5)
 
 
@@ -226,6 +225,32 @@ def test_a_drive_is_calibrated_by_its_discharges():
         low, _, high = inputs[key].posterior
         assert low < true[key] < high
     assert inputs["circuit.winding_rotor_capacitance"].reduction > 0.3
+
+
+@pytest.mark.slow
+def test_measured_discharges_that_need_a_larger_strength_are_reported():
+    """A shaft voltage of 12 V is several times the breakdown voltage at 15 V/um: each of the 6 edges per
+    period of 10 kHz discharges, and 30 discharges per millisecond need a larger strength, above 30 V/um.
+    """
+    measured = {"shaft_voltage": "12 V +- 5 %", "discharge_rate": "30 1/ms +- 10 %"}
+    case = DriveCase.from_toml(EXAMPLES / "drive.toml").replace({"remedies": []})
+    calibration = ehlectric.calibrate(
+        case.replace({f"measured.{key}": text for key, text in measured.items()})
+    )
+    assert not calibration.explained
+    assert calibration.unexplained.key.endswith("dielectric_strength")
+    assert calibration.unexplained.needed > 30e6
+
+
+@pytest.mark.slow
+def test_a_wide_range_of_the_strength_explains_measured_discharges():
+    """In the example, the strength is above 30 V/um, as at smaller strengths each edge discharges."""
+    calibration = ehlectric.calibrate(DriveCase.from_toml(EXAMPLES / "drive_measured.toml"))
+    (strength,) = (each for each in calibration.inputs if each.key.endswith("dielectric_strength"))
+    assert calibration.explained
+    assert strength.posterior[0] > 30e6
+    assert strength.reduction > 0.3
+    assert all(abs(row.residual) < 1.5 for row in calibration.rows)
 
 
 def test_without_the_library_of_the_chain_its_extra_is_named(bearing, monkeypatch):

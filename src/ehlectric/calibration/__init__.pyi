@@ -1,7 +1,7 @@
 """Names of calibration that other packages may import."""
 
-from .calibrate import calibrate as calibrate
-from .calibrate import given_points as given_points
+from .range_update import calibrate as calibrate
+from .range_update import given_points as given_points
 from .result import CalibratedInput as CalibratedInput
 from .result import Calibration as Calibration
 from .result import Compared as Compared

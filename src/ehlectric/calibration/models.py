@@ -41,8 +41,12 @@ class Model(Protocol):
     ) -> dict[str, Array]:
         """Quantities, or the margin, at inputs from 0 to 1 and operating points, shape (n, k) -> (n, p)."""
 
-    def error(self, name: str) -> float:
-        """Standard deviation of a quantity due to interpolation between solutions, SI units."""
+    def errors(
+        self, at: Array, points: Sequence[Mapping[str, float]], quantities: Sequence[str]
+    ) -> dict[str, Array]:
+        """Standard deviations of quantities due to interpolation between solutions, with the arguments and
+        the shapes of ``numbers``.
+        """
 
     def updated(self, values: Mapping[str, float], ranges: Mapping[str, tuple[float, float]]) -> Any:
         """Case with other values of some inputs, by the keys of ``names``, and with other ranges."""

@@ -31,6 +31,9 @@ from ehlectric.formulas.sobol import sobol_points
 # Predictions at points from 0 to 1, shape (n, k) -> (n, m); NaN where the model has none.
 Predict = Callable[[Array], Array]
 
+# Standard deviations of predictions at points, shape (n, k) -> (n, m).
+Errors = Callable[[Array], Array]
+
 # Effective number of points below which weights count as collapsed.
 LEAST_EFFECTIVE = 50.0
 
@@ -46,8 +49,8 @@ _ROUNDS, _PADDING = 3, 0.25
 # Probability that a measurement within the ranges counts as unexplained: of 3 standard deviations.
 UNEXPLAINED = float(2.0 * scipy.special.ndtr(-3.0))
 
-# Steps of the search for the nearest prediction.
-_SEARCH = 6
+# Steps of the search for the nearest prediction, and of the search for the errors of likely predictions.
+_SEARCH, _WIDENED = 6, 3
 
 
 def chi_squares(predictions: Array, values: Array, uncertainties: Array) -> Array:
@@ -126,6 +129,8 @@ class Posterior:
     prior_at: Array  # points of the design, shape (samples, k)
     emulator: Emulator | None
     nearest: Nearest
+    # Standard uncertainties of the measured values together with the errors of predictions, shape (m,).
+    uncertainties: Array
     residuals: Array  # deviation of each nearest prediction in standard uncertainties, shape (m,)
     chain: bool  # whether the points are from a Markov chain
 
@@ -171,20 +176,18 @@ def infer(
     *,
     samples: int = 512,
     seed: int = SEED,
-    errors: Callable[[], Array] | None = None,
+    errors: Errors | None = None,
 ) -> Posterior:
     """Update k inputs by m measured values.
 
     ``predict``, model; ``width``, k; ``values`` and ``uncertainties``, measured values and their standard
-    uncertainties, > 0, shape (m,); ``samples``, points of the design, a power of 2; ``errors``, standard
-    deviations of the predictions, which are known after the first call of the model, shape (m,). Raises
-    InputError where the model has no prediction at any point, or where the library of the Markov chain is
-    missing.
+    uncertainties, > 0, shape (m,); ``samples``, points of the design, a power of 2; ``errors``, errors of the
+    predictions, whose mean squares over the posterior points widen the uncertainties. Raises InputError where
+    the model has no prediction at any point, or where the library of the Markov chain is missing.
     """
     at = sobol_points(width, samples, seed)
     predictions = predict(at)
-    if errors is not None:
-        uncertainties = np.hypot(uncertainties, errors())
+    uncertainties = _widened(uncertainties, at, predictions, values, errors)
     chi2 = chi_squares(predictions, values, uncertainties)
     if not np.any(np.isfinite(chi2)):
         raise InputError("measured", "has values that the model does not compute at any inputs")
@@ -201,6 +204,7 @@ def infer(
         prior_at=at,
         emulator=emulator,
         nearest=nearest,
+        uncertainties=uncertainties,
         residuals=residuals,
         chain=False,
     )
@@ -227,6 +231,23 @@ def infer(
             break
         box = smaller
     return best
+
+
+def _widened(
+    uncertainties: Array, at: Array, predictions: Array, values: Array, errors: Errors | None
+) -> Array:
+    """Uncertainties with the errors of predictions at the points that are likely after the measurement.
+
+    The points are weighted with the errors of a step before, from the mean error of all points.
+    """
+    if errors is None:
+        return uncertainties
+    squares = np.square(errors(at))
+    wide = np.hypot(uncertainties, np.sqrt(np.mean(squares, axis=0)))
+    for _ in range(_WIDENED):
+        weights = weights_of(chi_squares(predictions, values, wide))
+        wide = np.hypot(uncertainties, np.sqrt(weights @ squares))
+    return wide
 
 
 def nearest_of(

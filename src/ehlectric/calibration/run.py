@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from ehlectric.calibration.calibrate import calibrate
+from ehlectric.calibration.range_update import calibrate
 from ehlectric.calibration.result import Calibration
 from ehlectric.runtime.files import write_together
 from ehlectric.runtime.folders import alone_in

@@ -146,10 +146,10 @@ class DriveModel:
             ends.append(self.bearings[1].numbers(self._columns(1, at), places, _BOTH_BEARINGS))
             numbers |= self._circuit(at, ends, peaks)
         if circuit & set(_SIMULATED):
-            features = _features(ends, numbers["shaft_voltage"])
+            features = _features(ends, numbers["shaft_voltage"], divided=self.divided)
             if not self._nodes:
                 self._nodes.append(self._simulated(at, points, features))
-            numbers |= self._nodes[0].at(features)
+            numbers |= self._nodes[0].at(features, numbers["shaft_voltage"])
         return {name: numbers[name] for name in quantities}
 
     def _columns(self, number: int, at: Array) -> Array:
@@ -182,9 +182,17 @@ class DriveModel:
             margin = np.full_like(margin, np.nan)
         return {"bearing_voltage_ratio": ratio, "shaft_voltage": shaft, MARGIN: margin}
 
-    def error(self, name: str) -> float:
-        """Standard deviation of a quantity due to the interpolation between simulated drives, SI units."""
-        return self._nodes[0].errors[name] if self._nodes and name in _SIMULATED else 0.0
+    def errors(
+        self, at: Array, points: Sequence[Mapping[str, float]], quantities: Sequence[str]
+    ) -> dict[str, Array]:
+        """Standard deviations of quantities due to the interpolation between simulated drives, SI units,
+        shape (n, p), with the arguments of ``numbers``.
+        """
+        errors = dict.fromkeys(quantities, np.zeros((len(at), len(points))))
+        if self._nodes and set(quantities) & set(_SIMULATED):
+            features, shaft = self._features(at, points)
+            errors |= self._nodes[0].errors(features, shaft)
+        return {name: errors[name] for name in quantities}
 
     def _simulated(self, at: Array, points: Sequence[Mapping[str, float]], features: Array) -> _Nodes:
         """Simulated drives at some of the inputs and points, whose films have their computed thickness."""
@@ -202,22 +210,28 @@ class DriveModel:
             nodes[:, place] = (1.0 - low) / (high - low)
         values, rows = np.full((places.size, len(_SIMULATED)), np.nan), []
         for k, (row, number) in enumerate(zip(nodes, point.tolist(), strict=True)):
-            rows.append(self._features_of(row, points[number]))
+            of_row, of_shaft = self._features(row[np.newaxis], [points[number]])
+            shaft = float(of_shaft[0, 0])
+            rows.append(of_row[0, 0])
             with suppress(InputError):
                 record = solve(self._drive_at(row, points[number], k)).record
-                values[k] = record.shaft_rms, np.sum(record.counts) / record.duration
+                # Surfaces that touch short the shaft.
+                part = record.shaft_rms / shaft if shaft > 0.0 else 0.0
+                values[k] = part, np.sum(record.counts) / record.duration
         return _Nodes.of(np.array(rows), values)
 
-    def _features_of(self, row: Array, point: Mapping[str, float]) -> Array:
-        """Features of one drive, shape (d,)."""
-        at, place = row[np.newaxis], {key: value for key, value in point.items() if key != _PEAK}
+    def _features(self, at: Array, points: Sequence[Mapping[str, float]]) -> tuple[Array, Array]:
+        """Features of drives, shape (n, p, d), and their shaft voltages without discharges [V], shape
+        (n, p).
+        """
+        places = [{key: value for key, value in point.items() if key != _PEAK} for point in points]
         ends = [
-            model.numbers(self._columns(number, at), [place], _BOTH_BEARINGS)
+            model.numbers(self._columns(number, at), places, _BOTH_BEARINGS)
             for number, model in enumerate(self.bearings)
         ]
-        circuit = self._circuit(at, ends, np.array([point.get(_PEAK, self.peak)]))
-        features: Array = _features(ends, circuit["shaft_voltage"])[0, 0]
-        return features
+        peaks = np.array([point.get(_PEAK, self.peak) for point in points])
+        shaft = self._circuit(at, ends, peaks)["shaft_voltage"]
+        return _features(ends, shaft, divided=self.divided), shaft
 
     def _drive_at(self, row: Array, point: Mapping[str, float], seed: int) -> DriveCase:
         """Drive at inputs from 0 to 1, shape (k,), and at an operating point, simulated for a short time."""
@@ -290,18 +304,29 @@ class DriveModel:
         return replace(verdict, reasons=(*verdict.reasons, *stated))
 
 
-def _features(ends: Sequence[Mapping[str, Array]], shaft: Array) -> Array:
+def _features(ends: Sequence[Mapping[str, Array]], shaft: Array, *, divided: bool) -> Array:
     """Places of drives between which simulated quantities are interpolated, shape (n, p, d).
 
-    They are logarithms: for both bearings of capacitance and breakdown voltage, and of the shaft voltage.
-    Surfaces that touch have a small voltage instead of none.
+    With x = ln(shaft voltage/breakdown voltage) of a bearing, they are x/(1 + abs(x)) of the bearing with the
+    larger ratio, at which almost all discharges occur, and a part of it of the other bearing. If capacitances
+    divide the voltage of the source, the discharges of a drive depend on no other ratio of voltages;
+    otherwise they also depend on the capacitances.
     """
-    columns = [end[name] for end in ends for name in _BOTH_BEARINGS]
-    return np.stack([np.log(np.maximum(column, _LEAST)) for column in (*columns, shaft)], axis=-1)
+    limits = [end["breakdown_voltage"] for end in ends]
+    touching = np.minimum(*limits) == 0.0
+    with np.errstate(divide="ignore", invalid="ignore"):
+        logs = [np.clip(np.log(shaft / limit), -_FARTHEST, _FARTHEST) for limit in limits]
+    logs = [np.where(touching, _FARTHEST, log) for log in logs]
+    places = [log / (1.0 + np.abs(log)) for log in (np.maximum(*logs), np.minimum(*logs))]
+    columns = [places[0], _OF_OTHER * places[1]]
+    if not divided:
+        columns += [np.log(end[SHAFT_CAPACITANCE]) for end in ends]
+    return np.stack(columns, axis=-1)
 
 
-# Least number that has a logarithm, in the SI unit of a capacitance or a voltage.
-_LEAST = 1e-12
+# Largest logarithm of a ratio of voltages, which is also its value where surfaces touch; and weight of the
+# bearing with the smaller ratio (both by trial).
+_FARTHEST, _OF_OTHER = 100.0, 0.25
 
 
 @dataclass(frozen=True)
@@ -309,12 +334,15 @@ class _Nodes:
     """Simulated drives, between which quantities over time are interpolated."""
 
     features: Array  # shape (m, d)
-    values: Array  # simulated quantities, NaN without a result, shape (m, 2)
-    errors: Mapping[str, float]  # standard deviations of nodes from the interpolation between other nodes
+    # Rms of the shaft voltage divided by its peak without discharges, and discharges per second [1/s]; NaN
+    # without a result, shape (m, 2).
+    values: Array
+    # Deviations of the values from the interpolation between other nodes, shape (m, 2).
+    off: Array
 
     @classmethod
     def of(cls, features: Array, values: Array) -> _Nodes:
-        """Nodes with their errors, from the interpolation without one of some groups of nodes."""
+        """Nodes with their deviations from the interpolation without one of some groups of nodes."""
         group, off = np.arange(len(features)) % _GROUPS, np.full(values.shape, np.nan)
         for k in range(_GROUPS):
             outside, inside = group != k, group == k
@@ -322,14 +350,23 @@ class _Nodes:
                 off[inside] = values[inside] - between_places(
                     features[outside], values[outside], features[inside]
                 )
-        known = np.isfinite(off[:, 0])
-        deviations = np.sqrt(np.mean(np.square(off[known]), axis=0)) if np.any(known) else np.zeros(2)
-        return cls(features, values, dict(zip(_SIMULATED, deviations.tolist(), strict=True)))
+        return cls(features, values, off)
 
-    def at(self, features: Array) -> dict[str, Array]:
-        """Quantities at drives with some features, shape (n, p, d) -> (n, p)."""
+    def at(self, features: Array, shaft: Array) -> dict[str, Array]:
+        """Quantities at drives with some features, shape (n, p, d), and shaft voltages without discharges
+        [V], shape (n, p) -> (n, p).
+        """
         rows = between_places(self.features, self.values, features.reshape(-1, features.shape[-1]))
-        return {name: row.reshape(features.shape[:2]) for name, row in zip(_SIMULATED, rows.T, strict=True)}
+        part, rate = (row.reshape(shaft.shape) for row in rows.T)
+        return dict(zip(_SIMULATED, (part * shaft, rate), strict=True))
+
+    def errors(self, features: Array, shaft: Array) -> dict[str, Array]:
+        """Standard deviations of the quantities, interpolated between squared deviations of nodes, with the
+        arguments of ``at``.
+        """
+        rows = between_places(self.features, np.square(self.off), features.reshape(-1, features.shape[-1]))
+        part, rate = (np.sqrt(np.nan_to_num(row)).reshape(shaft.shape) for row in rows.T)
+        return dict(zip(_SIMULATED, (part * shaft, rate), strict=True))
 
 
 # Groups of simulated drives that are omitted in turn.

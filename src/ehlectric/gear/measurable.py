@@ -98,9 +98,11 @@ class GearModel:
             for name in quantities
         }
 
-    def error(self, name: str) -> float:  # noqa: ARG002
-        """Standard deviation of a quantity due to interpolation, SI units: none."""
-        return 0.0
+    def errors(
+        self, at: Array, points: Sequence[Mapping[str, float]], quantities: Sequence[str]
+    ) -> dict[str, Array]:
+        """Standard deviations of quantities due to interpolation, shape (n, p): none."""
+        return dict.fromkeys(quantities, np.zeros((len(at), len(points))))
 
     def updated(self, values: Mapping[str, float], ranges: Mapping[str, tuple[float, float]]) -> GearCase:
         """Case with other values of some inputs, by the keys of the columns, and other ranges of them."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,9 +17,9 @@ from ehlectric.calibration.posterior import (
     LEAST_EFFECTIVE,
     SEED,
     Posterior,
+    chi_squares,
     equal_points,
     infer,
-    slopes_of,
     weighted_quantiles,
     weights_of,
 )
@@ -46,6 +47,10 @@ _DECIDES = 0.05
 
 # Largest number of measured values that may contradict the others.
 _COMPARED = 6
+
+# Steps of an input beyond its range, in parts of its width: least, largest and number; least number of these
+# steps; and number of steps to which predictions are interpolated.
+_STEPS, _LEAST_STEPS, _BETWEEN = (0.02, 20.0, 24), 3, 2001
 
 # Largest number of quantities to measure next, and least margin of which the logarithm counts.
 _NEXT, _LEAST_MARGIN = 3, 0.05
@@ -112,7 +117,7 @@ def calibrate(
         given_errors(given),
         samples=samples,
         seed=seed,
-        errors=compared.model_errors,
+        errors=compared.errors,
     )
     return compared.calibration(case, posterior)
 
@@ -154,14 +159,11 @@ class _Compared:
     seed: int
     progress: Progress
 
-    def model_errors(self) -> Array:
-        """Standard deviations of the predictions due to interpolation, SI units, shape (m,)."""
-        return np.array([self.model.error(value.quantity) for value in self.given.values])
-
-    @property
-    def errors(self) -> Array:
-        """Standard uncertainties of the measured values and the predictions, SI units, shape (m,)."""
-        return np.hypot(given_errors(self.given), self.model_errors())
+    def errors(self, at: Array) -> Array:
+        """Standard deviations of the predictions at inputs from 0 to 1, shape (n, k) -> (n, m)."""
+        names = tuple(dict.fromkeys(value.quantity for value in self.given.values))
+        errors = self.model.errors(at, self.given.points, names)
+        return np.stack([errors[value.quantity][:, value.point] for value in self.given.values], axis=-1)
 
     def predict(self, at: Array) -> Array:
         """Predictions of the measured values at inputs from 0 to 1, shape (n, k) -> (n, m)."""
@@ -234,7 +236,7 @@ class _Compared:
 
     def _rows(self, posterior: Posterior) -> Iterator[Compared]:
         """Measured values next to computed ones."""
-        decided, errors = self._decided(posterior), self.errors
+        decided, errors = self._decided(posterior), posterior.uncertainties
         even = np.full(len(posterior.prior_at), 1.0 / len(posterior.prior_at))
         for place, value in enumerate(self.given.values):
             column = posterior.predictions[:, place]
@@ -270,7 +272,7 @@ class _Compared:
         low, high = posterior.emulator.low, posterior.emulator.high
         dense = low + (high - low) * sobol_points(width, _DENSE, self.seed)
         predictions = posterior.emulator.at(dense)
-        spread = np.hypot(self.errors, posterior.emulator.deviation(given_values(self.given)))
+        spread = np.hypot(posterior.uncertainties, posterior.emulator.deviation(given_values(self.given)))
         decided = []
         for place, value in enumerate(self.given.values):
             weights = weights_of(np.square((predictions[:, place] - value.value) / spread[place]))
@@ -332,16 +334,13 @@ class _Compared:
 
     def _unexplained(self, posterior: Posterior) -> Unexplained:
         """What nothing within the ranges explains, and why."""
-        values, errors, nearest = given_values(self.given), self.errors, posterior.nearest
+        values, errors, nearest = given_values(self.given), posterior.uncertainties, posterior.nearest
         far = np.flatnonzero(np.abs(posterior.residuals) > posterior.limit).tolist()
         alone = np.min(np.abs(posterior.prior_predictions - values) / errors, axis=0)
         rows = tuple(far or [int(np.argmax(np.abs(posterior.residuals)))])
         unreachable = [place for place in rows if alone[place] > posterior.limit]
         contradicting = () if unreachable or values.size < 2 else tuple(self._contradicting(posterior))
-        name, needed = None, None
-        if posterior.emulator is not None and (unreachable or not contradicting):
-            place = max(unreachable or rows, key=lambda k: abs(posterior.residuals[k]))
-            name, needed = self._leaving(posterior, place)
+        name, needed = self._leaving(posterior, contradicting)
         key, label = ("", "") if name is None else (name.key, name.label)
         ends = None if name is None else (_end(name.low), _end(name.high))
         return Unexplained(rows, posterior.limit, nearest.p_value, key, label, needed, ends, contradicting)
@@ -350,7 +349,7 @@ class _Compared:
         """Places of measured values without which inputs within the ranges explain the others. Only the
         values with the largest residuals are examined.
         """
-        values, errors = given_values(self.given), self.errors
+        values, errors = given_values(self.given), posterior.uncertainties
         farthest = np.argsort(-np.abs(posterior.residuals))[:_COMPARED]
         for place in sorted(farthest.tolist()):
             others = np.arange(values.size) != place
@@ -361,27 +360,55 @@ class _Compared:
             if infer_explained(predict, posterior, values[others], errors[others], others, self.seed):
                 yield place
 
-    def _leaving(self, posterior: Posterior, place: int) -> tuple[Names | None, float | None]:
-        """Names of the input that would have to leave its range by the smallest part of it, without
-        the others, and the value that it would need, by the slope of the model at the nearest prediction.
+    def _leaving(
+        self, posterior: Posterior, contradicting: Sequence[int]
+    ) -> tuple[Names | None, float | None]:
+        """Names of the input that explains the measurement outside of its range, and its value with the
+        smallest chi2. If several inputs do, the smallest step counts, in parts of the range; None if no input
+        explains the measurement.
+
+        The other inputs stay at the nearest prediction, or at the point of the design that is nearest without
+        one of the ``contradicting`` values.
         """
-        emulator, nearest = posterior.emulator, posterior.nearest
-        assert emulator is not None
-        slopes = slopes_of(emulator, nearest.at, nearest.predictions)[:, place]
-        gap = self.given.values[place].value - nearest.predictions[place]
-        with np.errstate(divide="ignore", invalid="ignore"):
-            if emulator.logs[place] and self.given.values[place].value > 0.0:
-                gap_log = np.log(self.given.values[place].value / nearest.predictions[place])
-                needed = nearest.at + gap_log * nearest.predictions[place] / slopes
-            else:
-                needed = nearest.at + gap / slopes
-        outside = np.where(np.isfinite(needed), np.maximum(-needed, needed - 1.0), np.inf)
-        outside = np.where(outside > 0.0, outside, np.inf)
-        if not np.any(np.isfinite(outside)):
-            return None, None
-        best = int(np.argmin(outside))
-        name = self.model.names()[best]
-        return name, float(self.model.values(best, needed[best : best + 1])[0])
+        values, errors = given_values(self.given), posterior.uncertainties
+        starts = [posterior.nearest.at]
+        for place in contradicting:
+            others = np.arange(values.size) != place
+            chi2 = chi_squares(posterior.prior_predictions[:, others], values[others], errors[others])
+            starts.append(posterior.prior_at[int(np.argmin(chi2))])
+        best: tuple[float, Names | None, float | None] = np.inf, None, None
+        for start, (place, name), sign in product(starts, enumerate(self.model.names()), (1.0, -1.0)):
+            step = self._step(posterior, start, place, sign)
+            if step < best[0]:
+                needed = self.model.values(place, np.array([0.5 + sign * (0.5 + step)]))
+                best = step, name, float(needed[0])
+        return best[1], best[2]
+
+    def _step(self, posterior: Posterior, start: Array, place: int, sign: float) -> float:
+        """Step of an input beyond an end of its range with the smallest chi2, in parts of the range; infinite
+        if this step does not explain the measurement.
+        """
+        steps = np.concatenate([[0.0], np.geomspace(*_STEPS)])
+        ends = 0.5 + sign * (0.5 + steps)
+        # An input keeps its sign.
+        inside = np.sign(self.model.values(place, ends)) == np.sign(self.model.values(place, np.array([0.5])))
+        at = np.tile(start, (int(np.count_nonzero(inside)), 1))
+        at[:, place] = ends[inside]
+        if len(at) < _LEAST_STEPS:
+            return np.inf
+        try:
+            predictions = self.predict(at)
+        except InputError:
+            return np.inf
+        values, errors = given_values(self.given), posterior.uncertainties
+        fine = np.linspace(0.0, steps[inside][-1], _BETWEEN)
+        line = np.stack([np.interp(fine, steps[inside], column) for column in predictions.T], axis=-1)
+        chi2 = chi_squares(line, values, errors)
+        least = int(np.argmin(chi2))
+        nearest = replace(posterior.nearest, predictions=line[least], chi2=float(chi2[least]))
+        residuals = (values - line[least]) / errors
+        explained = replace(posterior, nearest=nearest, residuals=residuals).explained
+        return float(fine[least]) if explained and np.isfinite(chi2[least]) else np.inf
 
     def _warnings(self, posterior: Posterior) -> Iterator[ResultWarning]:
         """Warnings about the file, and about too few points."""
