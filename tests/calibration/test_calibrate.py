@@ -183,14 +183,29 @@ def test_a_quantity_that_the_model_lacks_is_refused(bearing, changes, named):
 
 
 @pytest.mark.slow
-def test_true_inputs_of_bearings_lie_in_the_interval_of_90_per_cent(bearing):
+@pytest.mark.parametrize(
+    ("case", "quantities", "keys"),
+    [
+        (
+            lambda: BearingCase.from_toml(EXAMPLES / "bearing_6208.toml").replace({"contacts": "atlas"}),
+            ("capacitance", "shaft_voltage", "first_breakdown_voltage"),
+            ("bearing.temperature", "motor.winding_rotor_capacitance"),
+        ),
+        (
+            lambda: DriveCase.from_toml(EXAMPLES / "drive.toml"),
+            ("capacitance", "shaft_voltage", "breakdown_voltage"),
+            ("drive.temperature", "circuit.winding_rotor_capacitance"),
+        ),
+    ],
+    ids=["bearing", "drive"],
+)
+def test_true_inputs_lie_in_the_interval_of_90_per_cent(case, quantities, keys):
     """Of 50 simulated measurements with known inputs, 40 to 49 have the true inputs in their intervals."""
     from ehlectric.calibration.posterior import infer
 
-    model, random = model_of(bearing), np.random.default_rng(11)
+    model, random = model_of(case()), np.random.default_rng(11)
     names = [name.key for name in model.names()]
-    quantities = ("capacitance", "shaft_voltage", "first_breakdown_voltage")
-    columns = [names.index(key) for key in ("bearing.temperature", "motor.winding_rotor_capacitance")]
+    columns = [names.index(key) for key in keys]
 
     def predict(at):
         numbers = model.numbers(at, [{}], quantities)

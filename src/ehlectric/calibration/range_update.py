@@ -394,21 +394,32 @@ class _Compared:
         inside = np.sign(self.model.values(place, ends)) == np.sign(self.model.values(place, np.array([0.5])))
         at = np.tile(start, (int(np.count_nonzero(inside)), 1))
         at[:, place] = ends[inside]
-        if len(at) < _LEAST_STEPS:
-            return np.inf
-        try:
-            predictions = self.predict(at)
-        except InputError:
+        predictions = self._on_line(at)
+        steps = steps[: len(predictions)]
+        if len(steps) < _LEAST_STEPS:
             return np.inf
         values, errors = given_values(self.given), posterior.uncertainties
-        fine = np.linspace(0.0, steps[inside][-1], _BETWEEN)
-        line = np.stack([np.interp(fine, steps[inside], column) for column in predictions.T], axis=-1)
+        fine = np.linspace(0.0, steps[-1], _BETWEEN)
+        line = np.stack([np.interp(fine, steps, column) for column in predictions.T], axis=-1)
         chi2 = chi_squares(line, values, errors)
         least = int(np.argmin(chi2))
         nearest = replace(posterior.nearest, predictions=line[least], chi2=float(chi2[least]))
         residuals = (values - line[least]) / errors
         explained = replace(posterior, nearest=nearest, residuals=residuals).explained
         return float(fine[least]) if explained and np.isfinite(chi2[least]) else np.inf
+
+    def _on_line(self, at: Array) -> Array:
+        """Predictions at the first points of a line, before a point that is refused or has none, shape
+        (n, k) -> (<= n, m).
+        """
+        for count in range(len(at), 0, -1):
+            try:
+                predictions = self.predict(at[:count])
+            except InputError:
+                continue
+            known = np.all(np.isfinite(predictions), axis=1)
+            return predictions[: count if np.all(known) else int(np.argmin(known))]
+        return np.empty((0, len(self.given.values)))
 
     def _warnings(self, posterior: Posterior) -> Iterator[ResultWarning]:
         """Warnings about the file, and about too few points."""
