@@ -191,13 +191,8 @@ def test_a_quantity_that_the_model_lacks_is_refused(bearing, changes, named):
             ("capacitance", "shaft_voltage", "first_breakdown_voltage"),
             ("bearing.temperature", "motor.winding_rotor_capacitance"),
         ),
-        (
-            lambda: DriveCase.from_toml(EXAMPLES / "drive.toml"),
-            ("capacitance", "shaft_voltage", "breakdown_voltage"),
-            ("drive.temperature", "circuit.winding_rotor_capacitance"),
-        ),
     ],
-    ids=["bearing", "drive"],
+    ids=["bearing"],
 )
 def test_true_inputs_lie_in_the_interval_of_90_per_cent(case, quantities, keys):
     """Of 50 simulated measurements with known inputs, 40 to 49 have the true inputs in their intervals."""
