@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import AfterValidator, model_validator
 
 from ehlectric.cases.mean_heights import FACTOR, StatedRa
+from ehlectric.cases.surface_heights import Heights
 from ehlectric.cases.table import as_mapping
 from ehlectric.errors import InputError, shown, within
 from ehlectric.quantities.units import length_unit
@@ -23,7 +24,8 @@ GENERATORS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "pit": (("depth", "width"), ("rim", "position", "position_y")),
     "asperity": (("height", "width"), ("position", "position_y")),
 }
-_FILE_KEYS = ("x_unit", "z_unit", "spacing", "spacing_y", "line", "along", "direction", "assume_transverse")
+_HEIGHTS_KEYS = ("spacing", "spacing_y", "line", "along", "direction", "assume_transverse")
+_FILE_KEYS = ("x_unit", "z_unit", *_HEIGHTS_KEYS)
 SHAPES = ("sinusoid", "pit", "asperity")
 _POINT_KEYS = ("correlation_length_y", "orientation", "position_y", "shift_y")
 _STEPS = ("form", "cutoff_long", "cutoff_short", "trim", "rescale_rq", "truncate", "extend")
@@ -34,6 +36,7 @@ class Roughness(StatedRa, book="roughness"):
 
     surface: Literal[1, 2]
     file: str | None = None
+    heights: Heights | None = None
     x_unit: _LengthUnit | None = None
     z_unit: _LengthUnit | None = None
     spacing: float | None = None
@@ -74,14 +77,26 @@ class Roughness(StatedRa, book="roughness"):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        self.check_alternatives(("file", "generator"), "either file or generator", needed=True)
+        self.check_alternatives(
+            ("file", "generator", "heights"), "a file, a generator or heights", needed=True
+        )
+        if self.heights is not None and self.spacing is None:
+            raise InputError.missing("spacing", "the distance between neighbouring heights")
+        if self.heights is not None and self.heights.values.ndim == 1 and self.spacing_y is not None:
+            raise InputError.worded("spacing_y", "is not used by heights of a profile")
         if self.generator is not None:
             self._check_generator()
-        allowed = used_by(self.generator)
+        allowed = used_by(self.generator, heights=self.heights is not None)
         for name in sorted(self._given() - allowed):
             what = f"the generator {self.generator!r}" if self.generator else "a file"
+            what = what if self.heights is None else "heights"
             raise InputError.worded(name, f"is not used by {what}")
         return self
+
+    @property
+    def is_measured(self) -> bool:
+        """Whether the surface is measured, in a file or an array of heights, and not generated."""
+        return self.generator is None
 
     def _given(self) -> set[str]:
         """Names of the keys whose value differs from the default."""
@@ -132,8 +147,8 @@ class Roughness(StatedRa, book="roughness"):
             )
 
 
-def used_by(generator: str | None) -> set[str]:
-    """Keys of a rough surface from a file, or from a generator.
+def used_by(generator: str | None, *, heights: bool = False) -> set[str]:
+    """Keys of a rough surface from a file, from an array of heights, or from a generator.
 
     Examples
     --------
@@ -141,6 +156,8 @@ def used_by(generator: str | None) -> set[str]:
     (True, False, True)
     """
     used = {"surface", "shift", "shift_y"}
+    if heights:
+        return used | {"heights", *_HEIGHTS_KEYS, *_STEPS}
     if generator is None:
         return used | {"file", *_FILE_KEYS, *_STEPS}
     needed, optional = GENERATORS[generator]
@@ -153,8 +170,12 @@ def unused_of_surfaces(tables: Any, geometry: Any) -> set[str]:
     given = [as_mapping(table) for table in tables] if isinstance(tables, list | tuple) else []
     kinds = {table.get("generator") for table in given}
     used = set(Roughness.model_fields)
-    if given and kinds <= {None, *GENERATORS} and all("file" in row or "generator" in row for row in given):
-        used = set().union(*map(used_by, kinds))
+    if (
+        given
+        and kinds <= {None, *GENERATORS}
+        and all({"file", "heights", "generator"} & row.keys() for row in given)
+    ):
+        used = set().union(*map(used_by, kinds), {"heights"} if None in kinds else ())
     used -= set(_POINT_KEYS if geometry == "line" else ("assume_transverse",))
     return {f"roughness.{key}" for key in Roughness.model_fields if key not in used}
 

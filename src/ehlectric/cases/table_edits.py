@@ -31,7 +31,7 @@ def set_keys(table: dict[str, Any], flat: Mapping[str, Any]) -> None:
         if isinstance(target, list):
             raise InputError(key, "is a table", takes=f"one of its keys, as {key}.surface")
         # An empty value adds a missing table, but does not change an existing table.
-        if not (value == {} and isinstance(target.get(leaf), dict)):
+        if not (isinstance(value, dict) and not value and isinstance(target.get(leaf), dict)):
             target[leaf] = value
 
 

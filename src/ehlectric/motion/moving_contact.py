@@ -330,7 +330,7 @@ class TransientContact:
         travelled = travelled_case(case, schedule)
         domain = domain_of(travelled, conditions)
         surfaces: list[Any] = [
-            kind.contact.rough([table], domain)[0] if surface is None or table.file is None else surface
+            kind.contact.rough([table], domain)[0] if surface is None or not table.is_measured else surface
             for table, surface in zip_longest(travelled.roughness, rough)
         ]
         roughness = MovingRoughness(surfaces, schedule, conditions.half_width)

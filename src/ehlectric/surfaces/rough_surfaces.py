@@ -27,7 +27,7 @@ from ehlectric.surfaces.generated_profiles import Domain, turned
 from ehlectric.surfaces.maps import Map, processed_map
 from ehlectric.surfaces.maps import statistics as map_statistics
 from ehlectric.surfaces.profiles import TAPER, Points, Processing, Profile, processed, rms, statistics
-from ehlectric.surfaces.surface_files import Surface, read_surface
+from ehlectric.surfaces.surface_files import Surface, read_surface, surface_of
 
 # Height of a map [m] as a function of positions x and y [m] whose shapes broadcast, and height of a profile
 # [m] as a function of position x [m].
@@ -123,7 +123,7 @@ def processing_of(table: Roughness) -> Processing:
     For a file without form removal the mean is removed.
     """
     steps = Processing(**{step.name: getattr(table, step.name) for step in fields(Processing)})
-    return replace(steps, form="mean") if table.file is not None and steps.form == "none" else steps
+    return replace(steps, form="mean") if table.is_measured and steps.form == "none" else steps
 
 
 def step_warnings(
@@ -141,7 +141,7 @@ def step_warnings(
             "voids-filled", percent=100 * voids, part=whose, surface=table.surface, method=how
         )
     rq = rms(steps[-1][1].heights)
-    if table.file is not None and rq > _ROUGHEST:
+    if table.is_measured and rq > _ROUGHEST:
         yield ResultWarning.of("heights-large", surface=table.surface, rq=rq * 1e3)
     if table.truncate is not None:
         share = float(np.mean(np.abs(steps[-2][1].heights) > table.truncate))
@@ -203,7 +203,7 @@ def _rough_surface(table: Roughness, domain: Domain) -> RoughSurface:
     if table.generator in SHAPES:
         shape = _exact_shape(table, generators.SHAPES, ("the domain", domain.length))
         return RoughSurface(surface=table.surface, height=_shifted(shape, table.shift))
-    if table.file is not None:
+    if table.is_measured:
         return measured(table)
     reach = max(abs(end - table.shift) for end in (domain.inlet, domain.outlet))
     return _of_profile(table, _random(table, domain.length, reach), None)
@@ -217,17 +217,23 @@ def measured(table: Roughness, surface: Surface | None = None) -> RoughSurface:
 
     Raises InputError if the file cannot be used.
     """
-    assert table.file is not None
     if surface is None:
         surface = read_of(table)
     return _of_profile(table, surface.line(table.line or 0, along=table.along), surface)
 
 
 def read_of(table: Roughness) -> Surface:
-    """Content of the file of a table. Raises InputError if the file cannot be used."""
+    """Measured surface of a table, from its file or heights. Raises InputError if these cannot be used."""
+    if table.heights is not None:
+        assert table.spacing is not None
+        return surface_of(table.heights.values, table.spacing, table.spacing_y)
     assert table.file is not None
     return read_surface(
-        table.file, x_unit=table.x_unit, z_unit=table.z_unit, spacing=table.spacing, spacing_y=table.spacing_y
+        table.file,
+        x_unit=table.x_unit,
+        z_unit=table.z_unit,
+        spacing=table.spacing,
+        spacing_y=table.spacing_y,
     )
 
 
@@ -345,7 +351,7 @@ def rough_maps(tables: Sequence[Roughness], domain: Domain) -> list[RoughMap]:
 
 
 def _rough_map(table: Roughness, domain: Domain) -> RoughMap:
-    if table.file is not None:
+    if table.is_measured:
         return measured_map(table)
     if table.generator in SHAPES:
         side = "the shorter side of the domain", domain.shorter
@@ -361,7 +367,6 @@ def measured_map(table: Roughness) -> RoughMap:
 
     Raises InputError if the file cannot be used.
     """
-    assert table.file is not None
     read = read_of(table)
     if read.spacing_y is None or table.line is not None:
         return _extended(table, read)
@@ -375,7 +380,6 @@ def whole_map(table: Roughness, read: Surface | None = None) -> RoughMap:
 
     Raises InputError if the file has no map, or the table asks for one line of it.
     """
-    assert table.file is not None
     if table.line is not None:
         raise InputError("line", got=f"{table.line} for a whole map", takes="one or the other")
     if table.direction == "y":

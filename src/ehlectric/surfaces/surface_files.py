@@ -692,6 +692,18 @@ def read_surface(
     return surface
 
 
+def surface_of(heights: Array, spacing: float, spacing_y: float | None = None) -> Surface:
+    """Surface of an array of heights (n,) or (rows, columns) [m], NaN at points without data.
+
+    ``spacing_y``, distance between rows, equals ``spacing`` [m] by default. Raises an InputError if the
+    heights are not credible for a surface.
+    """
+    rows = heights.reshape(1, -1) if heights.ndim == 1 else heights
+    surface = Surface(rows, spacing, None if rows.shape[0] == 1 else spacing_y or spacing, "heights")
+    _check_scale(surface)
+    return surface
+
+
 def _is_x3p(content: bytes) -> bool:
     """Whether a content is a ZIP archive with an XML description. Other formats are also ZIP archives."""
     if not content.startswith(_ZIP):
