@@ -74,7 +74,7 @@ class Heights:
 
     @classmethod
     def parse(cls, entry: object) -> Self:
-        """Heights of an array, of lists of numbers, or of the text of ``text``."""
+        """Heights from an array, lists of numbers, or the text of ``text``."""
         if isinstance(entry, cls):
             return entry
         values: Any = _of_text(entry) if isinstance(entry, str) else entry
