@@ -52,6 +52,9 @@ _COMPARED = 6
 # steps; and number of steps to which predictions are interpolated.
 _STEPS, _LEAST_STEPS, _BETWEEN = (0.02, 20.0, 24), 3, 2001
 
+# Largest step of a temperature beyond its range [K] (engineering judgement: an error of a thermometer).
+_WARMER = 60.0
+
 # Largest number of quantities to measure next, and least margin of which the logarithm counts.
 _NEXT, _LEAST_MARGIN = 3, 0.05
 
@@ -392,6 +395,8 @@ class _Compared:
         ends = 0.5 + sign * (0.5 + steps)
         # An input keeps its sign.
         inside = np.sign(self.model.values(place, ends)) == np.sign(self.model.values(place, np.array([0.5])))
+        if self.model.names()[place].key.endswith("temperature"):
+            inside &= np.abs(self.model.values(place, ends) - self.model.values(place, ends[:1])) <= _WARMER
         at = np.tile(start, (int(np.count_nonzero(inside)), 1))
         at[:, place] = ends[inside]
         predictions = self._on_line(at)
