@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.colors import Colormap, ListedColormap, Normalize
+from matplotlib.colors import Colormap, Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
@@ -20,14 +20,15 @@ from ehlectric.figures.duty_panels import cycle_lines, gear_duty_panels, time_ax
 from ehlectric.figures.figure_names import GEAR_DUTY_FIGURE, GEAR_FIGURE_FILES, in_formats
 from ehlectric.figures.gear_panels import (
     ENDS_OF_FLANK,
-    LAST_COLOUR,
     PHASE_AXIS,
     case_lines,
+    continued_films,
     film_finding,
     film_panels,
     flank_finding,
     flank_lines,
     flank_map,
+    last_colour,
     mesh_finding,
     mesh_panels,
     named_points,
@@ -61,16 +62,14 @@ def flank(result: GearResult, ax: Axes) -> None:
     at one phase.
     """
     solution = result.solution
-    g, y, films = flank_map(result)
-    most = LAST_COLOUR * float(np.nanmin(films))
-    capped = bool(np.nanmax(films) > most)
-    films = np.minimum(films, most)
-    factor, unit = unit_for(float(np.nanmax(films)), "m", least=1.0)
-    known = films[~np.isnan(films)]
-    levels = levels_of(factor * known, log=False)
+    g, y, continued, inside = continued_films(result)
+    films = np.where(inside < 0.0, np.nan, continued)
+    known, most = films[~np.isnan(films)], last_colour(films)
+    factor, unit = unit_for(most, "m", least=1.0)
+    levels = levels_of(factor * np.minimum(known, most), log=False)
     norm = norm_of(levels, log=False)
     ends = (0.0, 1e3 * solution.pair.face_width, 1e3 * solution.path.start, 1e3 * solution.path.end)
-    _image(ax, factor * films, ends, COLOURS, norm)
+    _image(ax, factor * continued, ends, COLOURS, norm)
     handles: list[Line2D | Patch] = []
     level = factor * solution.summits
     if np.min(factor * known) < level < np.max(factor * known):
@@ -79,8 +78,10 @@ def flank(result: GearResult, ax: Axes) -> None:
         lines.set_path_effects(outlined(2.6, ON_MAP))
         handles.append(Line2D([], [], color=BLACK, ls="--", lw=1.2, label=f"film of {summit_text(result)}"))
     handles += _draw_discharges(result, ax, (1e3 * y, 1e3 * g, films))
-    if np.any(np.isnan(films)):
-        _image(ax, np.where(np.isnan(films), 1.0, np.nan), ends, ListedColormap([OUT_OF_RANGE]), None)
+    if np.any(inside < 0.0):
+        # The edge of the load is a line between the places of the map, up to both ends of the face.
+        across = 1e3 * np.array([0.0, *y[1:-1], solution.pair.face_width])
+        ax.contourf(across, 1e3 * g, inside, [float(np.min(inside)), 0.0], colors=[OUT_OF_RANGE])
         handles.append(Patch(color=OUT_OF_RANGE, label="no load"))
     ax.set(xlim=ends[:2], ylim=ends[2:])
     ax.set_xlabel("place $y$ on the face width [mm]")
@@ -88,23 +89,33 @@ def flank(result: GearResult, ax: Axes) -> None:
     handles = [*_draw_lines(result, ax), *handles]
     _name_points(result, ax)
     legend_above(ax, handles, columns=3)
-    label = with_unit("minimum film", unit)
-    colour_bar(ax, norm, f"{label},\nthicker films have the last colour" if capped else label, levels)
+    thicker = bool(factor * np.max(known) > levels[-1])
+    colour_bar(ax, norm, with_unit("minimum film", unit), levels, extend="max" if thicker else "neither")
 
 
 def _draw_discharges(result: GearResult, ax: Axes, map_: tuple[Array, Array, Array]) -> Iterator[Line2D]:
     """Draw the line around the places of 90 % of the breakdowns; yields its entry of the legend, none where
-    the mesh has no breakdown voltage.
+    ``without_discharges`` is a reason.
     """
-    where = discharge_places(result.solution) if result.solution.strength is not None else None
-    if where is None:
+    where = discharge_places(result.solution)
+    if where is None or without_discharges(result) is not None:
         return
-    film = where.film_around(_MOST)
-    if not np.nanmin(map_[2]) < film < np.nanmax(map_[2]):
-        return
-    lines = ax.contour(*map_, [film], linestyles="-", linewidths=1.6, colors=ORANGE)
+    lines = ax.contour(*map_, [where.film_around(_MOST)], linestyles="-", linewidths=1.6, colors=ORANGE)
     lines.set_path_effects(outlined(2.8, ON_MAP))
     yield Line2D([], [], color=ORANGE, lw=1.6, label=f"around {100.0 * _MOST:g} % of the breakdowns")
+
+
+def without_discharges(result: GearResult) -> str | None:
+    """Why the map of a flank has no line around the places of 90 % of the breakdowns; None if it has it."""
+    where, films = discharge_places(result.solution), flank_map(result)[2]
+    if where is None:
+        return "no places of breakdowns: the highest summits touch"
+    if result.solution.strength is None:
+        return "no places of breakdowns: no dielectric strength is given"
+    film, share = where.film_around(_MOST), f"{100.0 * _MOST:g} % of the breakdowns"
+    if film <= np.nanmin(films):
+        return f"{share} are at the minimum film"
+    return f"{share} are on the whole flank with load" if film >= np.nanmax(films) else None
 
 
 # Share of the breakdowns within the line on the map of a flank.
@@ -219,11 +230,27 @@ def duty_finding(result: GearResult) -> str:
 def _lines_below(result: GearResult, name: str) -> Sequence[str]:
     """Lines below a figure: the case, or the file of the cycle with the number of its operating points."""
     if name != GEAR_DUTY_FIGURE:
-        return case_lines(result)
+        return [*case_lines(result), *(_NOTES[name](result) if name in _NOTES else ())]
     duty = result.duty
     assert duty is not None
     text = f"{duty.points} operating points, contacts {HOW[duty.contacts]}"
     return cycle_lines(result.case.title, duty.source, text)
+
+
+def _notes_of_flank(result: GearResult) -> list[str]:
+    return list(filter(None, [without_discharges(result)]))
+
+
+def _notes_of_film(result: GearResult) -> list[str]:
+    unloaded = bool(np.any(np.isnan(result.solution.films.minimum)))
+    return ["films end at the last computed place with load"] if unloaded else []
+
+
+# Lines below figures that explain what a figure lacks.
+_NOTES: Mapping[str, Callable[[GearResult], list[str]]] = {
+    GEAR_FIGURE_FILES[1]: _notes_of_film,
+    GEAR_FIGURE_FILES[2]: _notes_of_flank,
+}
 
 
 def _draw_flank(result: GearResult) -> Axes:

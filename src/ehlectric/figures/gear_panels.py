@@ -10,7 +10,7 @@ from functools import partial
 
 import numpy as np
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, IntArray
 from ehlectric.cases.defaults import HOW
 from ehlectric.figures import contact_findings
 from ehlectric.figures.data import Along, Area, Curve, Panel, Upright
@@ -49,10 +49,18 @@ _STRAIGHT = 0.1
 
 def over_flank(result: GearResult, values: Array) -> tuple[Array, Array, Array]:
     """Map values at nodes of lines of contact, shape (nodes,), on the flank. Returns places g, shape
-    (m,), places y on the face, shape (n,), and values there, shape (m, n).
+    (m,), places y on the face, shape (n,), and values there, shape (m, n); NaN outside of all values.
+    """
+    g, y, between, inside = _extended(result, values)
+    return g, y, np.where(inside < 0.0, np.nan, between)
+
+
+def _extended(result: GearResult, values: Array) -> tuple[Array, Array, Array, Array]:
+    """Values on the flank as ``over_flank``, continued beyond their ends; and distances [m] from the edge of
+    the places with values, shape (m, n), negative outside of them.
 
     A line of contact passes each place of the flank at one phase, so that the value there is one number. It
-    is interpolated along the two nearest lines, and between them.
+    is interpolated along the two nearest lines, and between them, and so are the ends of the values.
     """
     path, width, loads = result.solution.path, result.solution.pair.face_width, result.solution.loads
     g = np.linspace(path.start, path.end, _ROWS)
@@ -60,33 +68,73 @@ def over_flank(result: GearResult, values: Array) -> tuple[Array, Array, Array]:
     straight = result.solution.plane.overlap_ratio < _STRAIGHT
     along, nodes = (y, loads.across) if straight else (g, loads.places)
     slope = math.tan(path.base_helix_angle)
-    begins, rows = [], []
+    begins, rows, gaps, ends = [], [], [], []
     for line in loads.lines():
         begins.append(float(loads.places[line][0] - slope * loads.across[line][0]))
         rows.append(_smooth(along, nodes[line], values[line]))
+        gaps.append(np.isnan(np.interp(along, nodes[line], values[line])))
+        known = nodes[line][~np.isnan(values[line])]
+        ends.append([nodes[line][0], known[0], known[-1], nodes[line][-1]] if known.size else [np.nan] * 4)
     order = np.argsort(begins)
-    begin, of_lines = np.array(begins)[order], np.array(rows)[order]
+    begin, of_lines, without = np.array(begins)[order], np.array(rows)[order], np.array(gaps)[order]
     target = g[:, np.newaxis] - slope * y
     after = np.clip(np.searchsorted(begin, target), 1, begin.size - 1)
     part = np.clip((target - begin[after - 1]) / (begin[after] - begin[after - 1]), 0.0, 1.0)
     k = np.arange(_COLUMNS) if straight else np.arange(_ROWS)[:, np.newaxis]
     before, behind = of_lines[after - 1, k], of_lines[after, k]
     # Outside of all lines, and next to a single one, the nearest line has the value.
-    between = np.where(part == 0.0, before, np.where(part == 1.0, behind, before + part * (behind - before)))
-    return g, y, between
+    between = np.where(
+        (part == 0.0) | np.isnan(behind),
+        before,
+        np.where((part == 1.0) | np.isnan(before), behind, before + part * (behind - before)),
+    )
+
+    first, low, high, last = np.array(ends)[order].T
+    begun = 0.0 if straight else np.maximum(path.start, target)
+    ended = width if straight else np.minimum(path.end, target + slope * width)
+    at = along if straight else g[:, np.newaxis]
+    inside = np.minimum(
+        at - _edge(low, low - first, after, part, begun),
+        _edge(high, high - last, after, part, ended) - at,
+    )
+    some = np.flatnonzero(~np.isnan(low))
+    if some[0] > 0:
+        inside = np.fmin(inside, target - begin[some[0]])
+    if some[-1] < begin.size - 1:
+        inside = np.fmin(inside, begin[some[-1]] - target)
+    inside = np.where(np.abs(inside) < _ROUNDING, 0.0, inside)
+    lacking = np.isnan(inside) | (without[after - 1, k] & without[after, k])
+    return g, y, between, np.where(lacking, np.fmin(-np.abs(inside), -_ROUNDING), inside)
+
+
+# Distance [m] from an edge of values that is due to rounding.
+_ROUNDING = 1e-9
+
+
+def _edge(ends: Array, inset: Array, after: IntArray, part: Array, whole: Array | float) -> Array:
+    """Ends of the values between two lines, from the ends on each line and their distances ``inset`` from the
+    end of the line; ``whole``, ends of the lines at each place.
+    """
+
+    def mean(at_lines: Array) -> Array:
+        return np.asarray((1.0 - part) * at_lines[after - 1] + part * at_lines[after])
+
+    both = (inset[after - 1] != 0.0) & (inset[after] != 0.0)
+    return np.where(both, mean(ends), whole + mean(inset))
 
 
 def _smooth(along: Array, nodes: Array, values: Array) -> Array:
-    """Values of a line at places along it, from values at its nodes by a monotone cubic curve; NaN between
-    nodes of which one has none.
+    """Values of a line at places along it, from values at its nodes by a monotone cubic curve, and constant
+    beyond the first and the last one; NaN without any value.
     """
     known = ~np.isnan(values)
     places, first = np.unique(nodes[known], return_index=True)
-    linear = np.interp(along, nodes, values)
+    if places.size == 0:
+        return np.full(along.size, np.nan)
     if places.size < _FEW:
-        return linear
+        return np.interp(along, places, values[known][first])
     curve = MonotoneCubic(places, values[known][first][np.newaxis])
-    return np.where(np.isnan(linear), np.nan, curve(np.clip(along, places[0], places[-1]))[0])
+    return np.asarray(curve(np.clip(along, places[0], places[-1]))[0])
 
 
 @dataclass(frozen=True)
@@ -165,7 +213,12 @@ def path_panels(result: GearResult) -> list[Panel]:
             [Curve("", 1e3 * g, np.asarray(v), c) for v, c in zip(speeds, colours, strict=True)],
         ),
         _of_lines(result, "line load $w$", "N/m", solution.loads.load),
-        _of_lines(result, "Hertzian\npressure $p_H$", "Pa", films.max_pressure),
+        _of_lines(
+            result,
+            "Hertzian\npressure $p_H$",
+            "Pa",
+            np.where(solution.loads.load > 0.0, films.max_pressure, 0.0),
+        ),
     ]
 
 
@@ -291,9 +344,24 @@ def _over_phase(title: str, unit: str, curves: Sequence[Curve]) -> Panel:
 PHASE_AXIS = Along("phase of the mesh, 1 for each tooth", "", (0.0, 1.0))
 
 
-# Films above this multiple of the thinnest one have the last colour of the map: where the load begins, films
-# are as thick as in a gap, and would take all colours.
-LAST_COLOUR = 3.0
+# Part of the places with a film whose films differ in colour, and ratio of the thickest film to their
+# thickest one up to which all films differ: where the load begins, films are as thick as in a gap, and would
+# take all colours.
+_IN_COLOUR, _SLIGHTLY = 0.95, 1.1
+
+
+def last_colour(films: Array) -> float:
+    """Film [m] from which on all films of a map have the last colour; the thickest film, where it differs
+    little from almost all others.
+
+    Examples
+    --------
+    >>> last_colour(np.array([2e-7, np.nan, 3e-7]))
+    3e-07
+    """
+    most = float(np.nanmax(films))
+    limit = float(np.nanquantile(films, _IN_COLOUR))
+    return limit if most > _SLIGHTLY * limit else most
 
 
 def flank_map(result: GearResult) -> tuple[Array, Array, Array]:
@@ -303,9 +371,16 @@ def flank_map(result: GearResult) -> tuple[Array, Array, Array]:
     return over_flank(result, result.solution.films.minimum)
 
 
+def continued_films(result: GearResult) -> tuple[Array, Array, Array, Array]:
+    """Places g and y as ``flank_map``, films [m] continued beyond the loaded places, and distances [m] from
+    the edge of the loaded places, shape (m, n), negative where the flanks carry no load.
+    """
+    return _extended(result, result.solution.films.minimum)
+
+
 def flank_lines(result: GearResult) -> Iterator[tuple[Array, Array]]:
     """Lines of contact at the phase with the minimum film: places y on the face and g on the path [m], each
-    of shape (n,); g is NaN where a line carries no load.
+    of shape (n,); g is NaN where a line has no film.
     """
     solution = result.solution
     loads = solution.loads
@@ -315,7 +390,7 @@ def flank_lines(result: GearResult) -> Iterator[tuple[Array, Array]]:
     for line in loads.lines():
         if loads.phase[line][0] == phase:
             places, nodes = loads.places[line], loads.across[line]
-            without = np.interp(y, nodes, loads.load[line] == 0.0) > 0.5
+            without = np.isnan(np.interp(y, nodes, solution.films.minimum[line]))
             yield y, np.where(without, np.nan, places[0] + slope * (y - nodes[0]))
 
 
@@ -431,10 +506,11 @@ def _part_text(part: float) -> str:
     return "less than 1 %" if part < 0.01 else f"{readable(100.0 * part, 2)} %"
 
 
-def flank_capped(result: GearResult) -> bool:
-    """Whether the map of a flank has films above the film of the last colour."""
-    films = result.solution.films.minimum
-    return bool(np.nanmax(films) > LAST_COLOUR * np.nanmin(films))
+def last_colour_text(result: GearResult) -> str:
+    """Sentence for films of the map of a flank that have the last colour; empty if all films differ."""
+    films = flank_map(result)[2]
+    last = last_colour(films)
+    return f" Films above {_prefixed(last, 'm')} have one colour." if np.nanmax(films) > last else ""
 
 
 def _range(values: Array, unit: str) -> str:

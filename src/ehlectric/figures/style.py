@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from io import BytesIO
 from pathlib import Path
-from typing import Any, Protocol, TypeVar, cast
+from typing import Any, Literal, Protocol, TypeVar, cast
 
 import matplotlib as mpl
 import numpy as np
@@ -520,7 +520,7 @@ def scale_axis(axis: Axis, text: str, *, values: Array, log: bool) -> None:
         return
     (ax.set_xscale if along else ax.set_yscale)("log")
     ticks = _ticks(np.unique(values[np.isfinite(values) & (values > 0.0)]))
-    axis.set_major_locator(_ApartLocator(list(ticks)) if along else FixedLocator(list(ticks)))
+    axis.set_major_locator(_ApartLocator(list(ticks)))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_minor_locator(NullLocator())
     axis.set_minor_formatter(NullFormatter())
@@ -546,27 +546,31 @@ def fitted_label(ax: Axes, text: str, *, along: bool) -> str:
 
 
 class _ApartLocator(FixedLocator):
-    """Ticks of a logarithmic x axis whose labels do not touch on the page; the largest ones stay."""
+    """Ticks of a logarithmic axis whose labels do not touch on the page; the largest ones stay."""
 
     def __call__(self) -> Sequence[float]:
-        """Ticks whose labels are at least as far apart as a letter is wide."""
+        """Ticks whose labels are at least as far apart as a letter is wide, or a part of a line is high."""
         ticks = [float(tick) for tick in super().__call__()]
         axis = cast("Axis", self.axis)
         assert axis.axes is not None
-        size, (low, high) = _size_of("xtick.labelsize"), axis.get_view_interval()
-        scale = 72.0 / figure_of(axis.axes).dpi * axis.axes.bbox.width / math.log(high / low)
+        along = axis is axis.axes.xaxis
+        size, (low, high) = _size_of(f"{'x' if along else 'y'}tick.labelsize"), axis.get_view_interval()
+        box = axis.axes.bbox
+        length = box.width if along else box.height
+        scale = 72.0 / figure_of(axis.axes).dpi * length / math.log(high / low)
         kept: list[tuple[float, float]] = []  # places of ticks and half of the room of their labels [pt]
         shown = []
         for tick in ticks[::-1]:
-            at, half = scale * math.log(tick), 0.5 * (_width(f"{tick:g}", size) + _LETTER * size)
+            room = _width(f"{tick:g}", size) + _LETTER * size if along else _LINE * size
+            at, half = scale * math.log(tick), 0.5 * room
             if not kept or kept[-1][0] - at >= kept[-1][1] + half:
                 kept.append((at, half))
                 shown.append(tick)
         return shown[::-1]
 
 
-# Width of a digit, in sizes of its letters.
-_LETTER = 0.64
+# Width of a digit, and distance of lines, in sizes of their letters.
+_LETTER, _LINE = 0.64, 1.3
 
 
 def _ticks(values: Array) -> Array:
@@ -630,12 +634,25 @@ def norm_of(levels: Array, *, log: bool) -> Normalize:
     return LogNorm(levels[0], levels[-1]) if log else Normalize(levels[0], levels[-1])
 
 
-def colour_bar(ax: Axes, norm: Normalize, text: str, levels: Array, colours: Colormap = COLOURS) -> None:
-    """Add a colour bar with ticks at round levels, at every second or third one where there are many."""
+def colour_bar(
+    ax: Axes,
+    norm: Normalize,
+    text: str,
+    levels: Array,
+    colours: Colormap = COLOURS,
+    *,
+    extend: Literal["neither", "max"] = "neither",
+) -> None:
+    """Add a colour bar with ticks at round levels, at every second or third one where there are many; with an
+    arrow at its upper end for values above it where ``extend`` is max.
+    """
     # Next to the axes themselves, a wide legend above them does not push the bar away.
     bar_axes = ax.inset_axes(BAR)
     bar = figure_of(ax).colorbar(
-        ScalarMappable(norm, colours), cax=bar_axes, label=fitted_label(ax, text, along=False)
+        ScalarMappable(norm, colours),
+        cax=bar_axes,
+        label=fitted_label(ax, text, along=False),
+        extend=extend,
     )
     ticks = levels if levels.size <= 9 else levels[:: 2 if levels.size <= 18 else 3]
     bar.set_ticks(list(ticks), labels=[readable(level, 6) for level in ticks])

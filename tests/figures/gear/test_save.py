@@ -7,13 +7,21 @@ import numpy as np
 import pytest
 
 from ehlectric import GearResult, InputError, figure, figure_names, save_figures, solve_gear
+from ehlectric.cases.gear_case import GearCase
 from ehlectric.figures.figure_names import FORMATS, GEAR_FIGURE_FILES, STYLES, in_formats
 from ehlectric.figures.gear_figures import FIGURES
-from ehlectric.figures.gear_panels import flank_finding, flank_map, mesh_finding
+from ehlectric.figures.gear_panels import (
+    flank_finding,
+    flank_lines,
+    flank_map,
+    last_colour,
+    mesh_finding,
+)
 from ehlectric.figures.result_figures import default_figure
 from ehlectric.runtime.display import ResultKind
 from tests.helpers.each import each
 from tests.helpers.gears import RELIEVED, helical_case, spur_case
+from tests.helpers.places import EXAMPLES
 from tests.helpers.titles import title_of
 
 WITHOUT_CYCLE = GEAR_FIGURE_FILES[:-1]
@@ -187,6 +195,40 @@ def test_flanks_without_a_load_have_no_film(relieved):
     )
     known = line.get_xdata()[~np.isnan(line.get_ydata())]
     assert 0.5 < known[0] < known[-1] < 13.5
+    assert "films end at the last computed place with load" in " ".join(title_of(figure(relieved, FILM)))
+    # The Hertzian pressure decreases to zero with the load.
+    load, pressure = (panel.get_lines()[0].get_ydata() for panel in figure(relieved, PATH).axes[2:])
+    assert pressure[load == 0.0] == pytest.approx(0.0)
+
+
+def test_lines_of_contact_lie_within_the_loaded_part_of_the_map():
+    """Each place of a line of a relieved helical pair is loaded, or next to a loaded place of the map."""
+    result = solve_gear(GearCase.from_toml(EXAMPLES / "gear_pair.toml"), probable=False)
+    g, y, films = flank_map(result)
+    for across, places in flank_lines(result):
+        drawn = ~np.isnan(places)
+        rows = np.clip(np.searchsorted(g, places[drawn]), 1, g.size - 2)
+        columns = np.clip(np.searchsorted(y, across[drawn]), 1, y.size - 2)
+        for row, column in zip(rows, columns, strict=True):
+            assert np.isfinite(films[row - 1 : row + 2, column - 1 : column + 2]).any()
+
+
+def test_the_subtitle_states_why_the_line_of_breakdowns_is_absent(spur, helical):
+    drawn = figure(spur, FLANK)
+    assert "around 90 % of the breakdowns" in [
+        text.get_text() for text in drawn.axes[0].get_legend().get_texts()
+    ]
+    assert "no places of breakdowns" not in " ".join(title_of(drawn))
+    assert "no places of breakdowns: the highest summits touch" in " ".join(title_of(figure(helical, FLANK)))
+    without = solve_gear(spur_case(**{"discharge.dielectric_strength": None}), probable=False)
+    assert "no dielectric strength is given" in " ".join(title_of(figure(without, FLANK)))
+
+
+def test_thick_films_at_the_edge_of_the_load_share_a_colour():
+    """A twentieth of the places has the last colour; nearly equal films all differ."""
+    most = np.concatenate([np.linspace(1e-7, 2e-7, 100), np.full(4, 5e-6)])
+    assert last_colour(most) == pytest.approx(2e-7, rel=0.02)
+    assert last_colour(np.array([1e-7, np.nan, 1.05e-7])) == 1.05e-7
 
 
 def test_almost_all_and_almost_none_are_not_rounded_to_all_and_none(helical):

@@ -21,11 +21,11 @@ from ehlectric.app.charts.plotly_panels import (
 from ehlectric.arrays import Array
 from ehlectric.figures.data import Area, Curve, Panel, with_unit
 from ehlectric.figures.gear_panels import (
-    LAST_COLOUR,
     PHASE_AXIS,
     film_panels,
     flank_lines,
     flank_map,
+    last_colour,
     mesh_panels,
     named_points,
     path_axis,
@@ -154,8 +154,7 @@ class _Flank:
     def of(cls, result: GearResult) -> _Flank:
         """Map of a gear pair, with about every fourth of its places, and with the root and the tip."""
         g, y, films = flank_map(result)
-        least, highest = float(np.nanmin(films)), float(np.nanmax(films))
-        last = min(LAST_COLOUR * least, highest)
+        least, last = float(np.nanmin(films)), last_colour(films)
         factor, unit = unit_for(last, "m", least=1.0)
         rows, columns = (kept_nodes(at.size, most) for at, most in ((g, _ROWS), (y, _COLUMNS)))
         at = {"x": values(1e3 * y[columns], 5), "y": values(1e3 * g[rows], 5)}

@@ -35,11 +35,10 @@ from ehlectric.cases.gear_case import GearCase
 from ehlectric.errors import InputError
 from ehlectric.figures.data import with_unit
 from ehlectric.figures.gear_panels import (
-    LAST_COLOUR,
     film_finding,
-    flank_capped,
     flank_finding,
     has_voltage,
+    last_colour_text,
     mesh_finding,
     path_finding,
 )
@@ -273,15 +272,13 @@ def _drawn(result: GearResult, summary: Summary) -> Iterator[tuple[str, Figure]]
         ),
     )
     finding = flank_finding(result)
-    capped = f" Films above {LAST_COLOUR:g} times the minimum film have one colour."
     yield (
         "flank",
         Figure(
             "Minimum film on the flank of gear 1",
             finding,
             flank_figure(result),
-            caption=f"{finding}. The root is at A, and the tip is at E."
-            f"{capped if flank_capped(result) else ''}",
+            caption=f"{finding}. The root is at A, and the tip is at E.{last_colour_text(result)}",
         ),
     )
     finding = mesh_finding(result)
