@@ -11,6 +11,7 @@ from tests.helpers.places import EXAMPLES
 
 import ehlectric
 from ehlectric import BearingCase, DriveCase, GearCase, InputError
+from ehlectric.calibration import given_points
 from ehlectric.calibration.models import model_of
 from ehlectric.calibration.range_update import given_values
 from ehlectric.cases.measured_inputs import Measured, measured_points
@@ -34,7 +35,7 @@ def bearing():
 
 
 def test_empty_cells_are_not_measured():
-    given = measured_points(POINTS, BEARING_POINTS)
+    given = measured_points(None, BEARING_POINTS, POINTS)
     assert [(value.quantity, value.point) for value in given.values] == [
         ("capacitance", 0),
         ("shaft_voltage", 0),
@@ -54,10 +55,21 @@ def test_values_of_a_table_and_of_its_file_belong_to_their_points(tmp_path):
     assert given.values[0].uncertainty == pytest.approx(20e-9)
 
 
+def test_a_given_file_replaces_the_file_of_the_table_and_keeps_its_values(bearing):
+    case = bearing.replace({"measured.film": "200 nm +- 10 %", "measured.file": "missing.csv"})
+    given = given_points(case, POINTS)
+    assert [(value.quantity, value.point) for value in given.values] == [
+        ("film", 0),
+        ("capacitance", 1),
+        ("shaft_voltage", 1),
+        ("capacitance", 2),
+    ]
+
+
 def test_a_value_without_an_uncertainty_in_its_row_is_refused():
     table = POINTS.assign(**{"uncertainty of shaft voltage [V]": ["", ""]})
     with pytest.raises(InputError, match="uncertainty of shaft voltage"):
-        measured_points(table, BEARING_POINTS)
+        measured_points(None, BEARING_POINTS, table)
 
 
 @pytest.mark.parametrize(

@@ -75,10 +75,11 @@ def calibrate(
     Parameters
     ----------
     case : BearingCase, DriveCase or GearCase
-        Case with its ranges, and with the table ``measured`` unless ``measured`` is given.
+        Case with its ranges, and with the table ``measured`` unless a file or a table is given.
     measured : str, Path or pandas.DataFrame, optional
         File or table of measured operating points, such as the columns ``speed [rpm]``, ``capacitance [pF]``
-        and ``uncertainty of capacitance [%]``. An uncertainty is one standard deviation.
+        and ``uncertainty of capacitance [%]``. An uncertainty is one standard deviation. It replaces the file
+        that the table ``measured`` names; the values of this table are used in addition.
     samples : int
         Number of points of the Sobol design, a power of 2.
     seed : int
@@ -126,13 +127,11 @@ def calibrate(
 
 
 def given_points(case: Any, measured: str | Path | pd.DataFrame | None = None) -> MeasuredPoints:
-    """Measured values of a case, or of a file or a table instead. Raises InputError as ``calibrate`` does."""
+    """Measured values of a case, and of a file or a table. Raises InputError as ``calibrate`` does."""
     table: Measured | None = case.measured
     if measured is None and table is None:
         raise InputError.missing("measured", "a table [measured], or a file of measured operating points")
-    source = table if measured is None else measured
-    assert source is not None
-    return measured_points(source, POINTS[type(case)])
+    return measured_points(table, POINTS[type(case)], measured)
 
 
 def _check(model: Model, given: MeasuredPoints) -> None:

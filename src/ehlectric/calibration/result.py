@@ -11,7 +11,6 @@ from ehlectric.discharge.breakdown_rule import Chance
 from ehlectric.errors import printable
 from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
 from ehlectric.quantities.verdict import Verdict
-from ehlectric.readable import readable
 from ehlectric.runtime.display import ResultKind, Shown, headline
 from ehlectric.runtime.files import Content, column_head, csv_of, json_of, plain
 from ehlectric.runtime.result_names import CALIBRATED, COMPARED, SUMMARY
@@ -206,8 +205,8 @@ class Calibration(Shown):
             return headline(self.title, count, "not explained")
         if self.before is None or self.after is None:
             return headline(self.title, count)
-        pair = (readable(100.0 * chance.probability, 2) for chance in (self.before, self.after))
-        return headline(self.title, count, "probability of breakdown {} to {} %".format(*pair))
+        change = f"probability of breakdown {self.before.brief} before, {self.after.brief} after"
+        return headline(self.title, count, change)
 
 
 def _chance(chance: Chance | None) -> Mapping[str, Any] | None:

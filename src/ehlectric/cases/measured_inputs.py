@@ -70,17 +70,21 @@ class MeasuredPoints:
     read: Measurement | None = None  # rows of the file
 
 
-def measured_points(measured: Measured | str | Path | pd.DataFrame, book: ColumnBook) -> MeasuredPoints:
-    """Measured values of a table [measured], a file, or a table of pandas, with the columns in ``book``.
-    Raises InputError if the file cannot be read, or has a value without an uncertainty.
+def measured_points(
+    measured: Measured | None, book: ColumnBook, file: str | Path | pd.DataFrame | None = None
+) -> MeasuredPoints:
+    """Measured values of a table [measured], and of a file or a table of pandas with the columns in ``book``.
+
+    ``file`` replaces the file that the table [measured] names; the other values of the table stay. Raises
+    InputError if the file cannot be read, or has a value without an uncertainty.
     """
     points: list[dict[str, float]] = []
     values: list[MeasuredValue] = []
-    source: Any = measured
-    if isinstance(measured, Measured):
+    source: Any = file
+    if measured is not None:
         points += [{}] if measured.values() else []
         values += [MeasuredValue(name, *pair, 0) for name, pair in measured.values().items()]
-        source = measured.file
+        source = measured.file if file is None else file
     read = None
     if source is not None:
         read = read_measurement(source, book)

@@ -30,7 +30,8 @@ def calibrate(
 ) -> None:
     """Update the ranges of uncertain inputs by measured values; write calibrated.toml and a figure.
 
-    The measured values are in the table [measured] of the file, or in a file of operating points. The files
+    The measured values are in the table [measured] of the file, and in a file of operating points, which
+    --measured replaces. The files
     are summary.json, compared.csv with measured next to computed values, and calibrated.toml, the case with
     the updated [ranges], which all commands take.
 

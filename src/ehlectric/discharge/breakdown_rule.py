@@ -221,6 +221,11 @@ class Chance:
         return statement_text(self.stated)
 
     @property
+    def brief(self) -> str:
+        """Probability as text without its sampling error."""
+        return self.text.partition(" (")[0]
+
+    @property
     def stated(self) -> Statement:
         """Clause with the probability: with its sampling error, or between its bounds."""
         if self.failed:

@@ -11,7 +11,6 @@ from ehlectric.calibration import Calibration, Compared
 from ehlectric.figures.figure_names import CALIBRATION_FIGURE, in_formats
 from ehlectric.figures.style import drawing_of, figure_of, legend_above, name_over, new_panels, style
 from ehlectric.quantities.palette import BLUE, GREY, LIGHT_GREY, ORANGE
-from ehlectric.readable import readable
 
 # Width of the figure and height of a bar with its label [inches], and heights of the bars in rows.
 _WIDTH, _ROW, _WIDE, _NARROW = 9.0, 0.34, 0.62, 0.3
@@ -41,8 +40,8 @@ def _title(result: Calibration) -> list[str]:
     if result.explained:
         first = "Ranges after the measurement"
         if result.before is not None and result.after is not None:
-            pair = (readable(100.0 * chance.probability, 2) for chance in (result.before, result.after))
-            first = "Probability of breakdown {} % before and {} % after the measurement".format(*pair)
+            before, after = result.before.brief, result.after.brief
+            first = f"Probability of breakdown {before} before and {after} after the measurement"
     return [first, result.title]
 
 
