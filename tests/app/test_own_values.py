@@ -4,9 +4,9 @@ import tomllib
 
 import pytest
 
-from ehlectric.app.form_fields import BEARING_GROUPS
+from ehlectric.app.form_fields import BEARING_GROUPS, GEAR_GROUPS
 from ehlectric.app.form_fields.contact_fields import groups_of
-from ehlectric.app.form_fields.field_defaults import default_of
+from ehlectric.app.form_fields.field_defaults import default_of, field_at
 from ehlectric.app.form_fields.field_rules import Memory, changed
 from ehlectric.app.form_fields.oil_fields import EXPANSION, assumed, oil
 from ehlectric.app.page_inputs import Inputs
@@ -126,6 +126,21 @@ def test_a_way_comes_back_with_its_last_values():
     assert field.alternative(other) == grade
     memory.note(other)
     assert changed(other, memory.alternative(field, viscosity, other)) == typed
+
+
+def test_a_composite_roughness_of_flanks_begins_with_the_present_roughness():
+    """By hand: sqrt(0.3^2 + 0.4^2) um times 1.1; on the page of a pair, and in a mesh of an axle."""
+    memory = Memory(GEAR_GROUPS)
+    field = next(
+        field for group in GEAR_GROUPS for field in group.fields if field.key.endswith("way_roughness")
+    )
+    pair = {"gear": {"flank_ra": ["0.3 um", "0.4 um"], "rq_over_ra": 1.1}}
+    after = changed(Inputs(pair), memory.alternative(field, 1, Inputs(pair)))
+    assert after.value("gear.composite_rq") == "0.55 um"
+    assert after.value("gear.flank_ra") is None
+    in_axle = field_at(field, "mesh.1.pair")
+    changes = memory.alternative(in_axle, 1, Inputs({"mesh": [{"pair": pair}]}))
+    assert changes["mesh.1.pair.gear.composite_rq"] == "0.55 um"
 
 
 @each("field", [field for field in FIELDS.values() if field.alternatives], ids=lambda one: one.key)

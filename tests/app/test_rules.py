@@ -305,6 +305,9 @@ def test_the_other_kind_of_gears_keeps_oil_strength_and_operating_point():
     spur = of_gears("spur", helical)
     assert gears_of(spur) == "spur"
     assert spur.value("gear.teeth") == [16, 24]
+    assert spur.value("title") == example_inputs("gear_spur").value("title")
+    # A new drawing is not the example.
+    assert changed(spur, {"gear.teeth.1": 23}).value("title") is None
     assert spur.value("gear.contact.voltage") == "5 V"
     assert spur.value("lubricant") == helical.value("lubricant")
     assert GearCase.from_dict(spur.table).gear.helix_angle == 0.0

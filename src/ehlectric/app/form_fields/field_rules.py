@@ -15,7 +15,7 @@ from ehlectric.app.form_fields.axle_fields import fitted_axle, without_first_val
 from ehlectric.app.form_fields.drive_fields import DRIVE_ALTERNATIVES, fitted_to_source, with_fitted_remedies
 from ehlectric.app.form_fields.field import Field, Group, first_of_kind, fitted_to_kind, form_data, kind_of
 from ehlectric.app.form_fields.field_defaults import at_end, bearing_at, end_and_key, with_bearing_at
-from ehlectric.app.form_fields.gear_fields import of_the_example, with_lists
+from ehlectric.app.form_fields.gear_fields import of_the_example, rq_of_flanks, with_lists
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.defaults import DEFAULT_FILM, FILM_FACTORS
 from ehlectric.quantities import alternatives
@@ -85,9 +85,9 @@ class Memory:
 
     def alternative(self, field: Field, place: int, inputs: Inputs) -> dict[str, Any]:
         """Changes to an alternative with its last values, or with its first ones."""
-        alternative = field.alternatives[place]
-        last = {**alternative.changes, **deepcopy(self._alternatives.get((field.key, place), {}))}
-        return last if field.alternative(changed(inputs, last)) == place else dict(alternative.changes)
+        first = _first_of_alternative(field.alternatives[place].changes, inputs)
+        last = {**first, **deepcopy(self._alternatives.get((field.key, place), {}))}
+        return last if field.alternative(changed(inputs, last)) == place else first
 
     def _note_field(self, field: Field, inputs: Inputs) -> None:
         if field.kind == "alternatives":
@@ -98,6 +98,16 @@ class Memory:
             }
         elif field.custom_label and is_custom(inputs, field.key):
             self._custom[field.key] = _custom_changes(inputs, field.key)
+
+
+def _first_of_alternative(changes: Mapping[str, Any], inputs: Inputs) -> dict[str, Any]:
+    """First values of an alternative; a composite roughness of flanks begins with the present roughness."""
+    first = dict(changes)
+    for key in changes:
+        end, inner = end_and_key(key)
+        if inner == "gear.composite_rq" and (rq := rq_of_flanks(bearing_at(inputs, end))) is not None:
+            first[key] = rq
+    return first
 
 
 def _custom_changes(inputs: Inputs, key: str) -> dict[str, Any]:

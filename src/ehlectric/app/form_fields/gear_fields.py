@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Iterator, Mapping
 from typing import Any, Literal
 
 from ehlectric.app.form_fields.field import equal, given, group_of, unequal
 from ehlectric.app.form_fields.oil_fields import oil
 from ehlectric.app.page_inputs import Inputs, example_inputs
+from ehlectric.cases.mean_heights import rq_of
 from ehlectric.quantities.inputs import form, key_of_list
-from ehlectric.quantities.units import split
+from ehlectric.quantities.units import in_unit, rounded, split
 
 _BULK = "gear.operation.bulk_temperature"
 _sheet = given("lubricant.temperature")
@@ -88,16 +90,34 @@ def of_gears(kind: Gears, inputs: Inputs) -> Inputs:
     return result.changed({_SHARING: None}) if result.value(_SHARING) == "tip-relief" else result
 
 
+def rq_of_flanks(inputs: Inputs) -> str | None:
+    """Composite Rq of both flanks from Ra of each; None if the inputs do not contain heights without a range.
+
+    Examples
+    --------
+    >>> rq_of_flanks(Inputs({"gear": {"flank_ra": ["0.3 um", "0.4 um"], "rq_over_ra": 1.2}}))
+    '0.6 um'
+    """
+    ra, factor = inputs.value("gear.flank_ra"), inputs.value("gear.rq_over_ra")
+    listed = [ra] if isinstance(ra, str) else ra if isinstance(ra, list) else []
+    heights = [in_unit(str(height), "um") for height in listed]
+    known = [height for height in heights if height is not None]
+    ratio = None if factor is None else split(str(factor))
+    if not known or known != heights or len(known) > 2 or (factor is not None and ratio is None):
+        return None
+    return f"{rounded(float(rq_of(math.hypot(known[0], known[-1]), ratio and ratio[0])))} um"
+
+
 _SHARING = "gear.operation.load_sharing"
 _HELIX = "gear.helix_angle"
 
-# Inputs that a new drawing changes first, and inputs that follow from the others if they are not given.
+# Inputs that a new drawing changes first, and inputs of the example that do not hold for a new drawing.
 _NEW = ("gear.normal_module", "gear.teeth", "gear.normal_pressure_angle", _HELIX)
-_FOLLOWING = ("gear.centre_distance", "gear.profile_shift", "gear.tip_diameter")
+_FOLLOWING = ("gear.centre_distance", "gear.profile_shift", "gear.tip_diameter", "title")
 
 
 def of_the_example(before: Inputs, changes: Mapping[str, Any], set_by_user: Collection[str]) -> Iterator[str]:
-    """Keys of the drawing of an example that a new drawing does not have, so that their values follow.
+    """Title and keys of the drawing of an example that a new drawing does not have, so that values follow.
 
     ``changes``, new values by dotted key; ``set_by_user``, keys that the user has set, whose values stay.
 
@@ -105,7 +125,7 @@ def of_the_example(before: Inputs, changes: Mapping[str, Any], set_by_user: Coll
     --------
     >>> spur = example_inputs("gear_spur")
     >>> list(of_the_example(spur, {"gear.normal_module": "2 mm"}, {"gear.tip_diameter.1"}))
-    ['gear.centre_distance', 'gear.profile_shift']
+    ['gear.centre_distance', 'gear.profile_shift', 'title']
     """
     new = {key: value for key, value in changes.items() if key in _NEW and _is_drawn(key, value)}
     for example in map(example_inputs, GEAR_EXAMPLES.values()):

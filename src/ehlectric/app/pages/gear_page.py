@@ -15,6 +15,7 @@ from ehlectric.app.pages.answer_page import ProbableView
 from ehlectric.app.pages.cycle_page import CyclePage
 from ehlectric.app.pages.duty_box import DUTY_FILE, DutyView
 from ehlectric.app.pages.frame import GEAR, PATHS
+from ehlectric.app.pages.page_parts import page_texts
 from ehlectric.app.pages.result_parts import behind, table_html
 from ehlectric.app.session import Session
 from ehlectric.app.view_models import WITHOUT_PROBABILITY, GearAnswer
@@ -69,6 +70,7 @@ class GearPage(CyclePage[GearAnswer]):
         """Build the choice of the kind of gear pair, and the form."""
         self._kind = ui.radio(_KINDS, value=gears_of(self.session.inputs), on_change=self._switch)
         self._kind.props('inline aria-label="Kind of gear pair" data-testid="gears"')
+        ui.label(page_texts("gear")["kinds"]).classes("field-note")
         super().build_form()
 
     async def _switch(self, event: Any) -> None:
