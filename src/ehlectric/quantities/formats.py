@@ -134,12 +134,14 @@ def suited(value: float, unit: str) -> tuple[float, str]:
 
     Examples
     --------
-    >>> suited(870.0, "kg/m**3"), suited(2.3e-10, "F")
-    ((1.0, 'kg/m³'), (1000000000000.0, 'pF'))
+    >>> suited(870.0, "kg/m**3"), suited(2.3e-10, "F"), suited(1.069e8, "V/m")
+    ((1.0, 'kg/m³'), (1000000000000.0, 'pF'), (1e-06, 'V/µm'))
     """
     if not unit or "**" in unit or unit.startswith(("kg", "1/", "K", "deg", "rad")):
         return 1.0, printed(unit)
-    factor, prefixed = unit_for(abs(value), unit, least=0.1 if unit in ("m", "V/m") else 1.0)
+    # Dielectric strengths above 100 V/µm stay in V/µm.
+    size = min(abs(value), 1e6) if unit == "V/m" else abs(value)
+    factor, prefixed = unit_for(size, unit, least=0.1 if unit in ("m", "V/m") else 1.0)
     return round(factor, 12), printed(prefixed)
 
 
