@@ -2,6 +2,7 @@
 
 import json
 import shutil
+import tomllib
 
 import pytest
 
@@ -37,6 +38,31 @@ def test_the_example_is_calibrated_and_its_file_is_a_case(ehlectric, case_file):
     check = ehlectric("check", "out/calibrated.toml")
     assert "3000 rpm" in check.stdout
     assert len((out / "compared.csv").read_text().splitlines()) == 1 + 2 + 4 + 3
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", ["bearing", "drive"])
+def test_the_calibrated_file_is_taken_by_other_commands(typed, case_file, kind):
+    """The file has another winding-rotor capacitance and no measured values."""
+    folder = case_file.parent
+    name, table, speed = CASE, "motor", "bearing.inner_speed"
+    if kind == "drive":
+        name, table, speed = "drive.toml", "circuit", "drive.speed"
+        text = (EXAMPLES / name).read_text().replace('duration = "0.2 s"', 'duration = "0.01 s"')
+        text = text[: text.index("[[remedies]]")] if "[[remedies]]" in text else text
+        (folder / name).write_text(f'{text}\n[measured]\nshaft_voltage = "30 V +- 5 %"\n')
+    assert typed("calibrate", name, "-o", "out", "--no-plots", "-q").returncode == 0
+    original = tomllib.loads((folder / name).read_text())
+    case = tomllib.loads((folder / "out" / "calibrated.toml").read_text())
+    assert "measured" not in case
+    assert typed("check", "out/calibrated.toml").returncode == 0
+    assert typed(kind, "out/calibrated.toml", "-o", "solved", "--no-plots", "-q").returncode == 0
+    assert case[table]["winding_rotor_capacitance"] != original[table]["winding_rotor_capacitance"]
+    vary = f'[vary]\n"{speed}" = ["2000 rpm", "3000 rpm"]\n'
+    (folder / "sweep.toml").write_text(f'case = "out/calibrated.toml"\n{vary}')
+    swept = typed("sweep", "sweep.toml", "-o", "swept", "--workers", "1", "-q")
+    assert swept.returncode == 0, swept.stderr
+    assert len((folder / "swept" / "sweep.csv").read_text().splitlines()) >= 3
 
 
 @pytest.mark.slow
