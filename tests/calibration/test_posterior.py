@@ -89,3 +89,39 @@ def test_true_inputs_lie_in_the_interval_of_90_per_cent():
         low, _, high = posterior.quantiles(ENDS).T
         inside += (low <= true) & (true <= high)
     assert np.all((inside >= 40) & (inside <= 49)), inside
+
+
+@pytest.mark.parametrize("sparing", [False, True])
+def test_an_input_without_effect_keeps_its_even_distribution(sparing):
+    """The input that the model exp(A u) ignores is even after a measurement that needs the Markov chain. The
+    other two are about normal with the covariance s^2 (A^T A)^-1, as the relative error s of exp(A u) is the
+    error of A u.
+    """
+    slopes, error = np.array([[1.0, 0.6], [0.2, 1.0]]), 0.02
+    values = np.exp(slopes @ np.array([0.5, 0.45]))
+
+    def predict(at):
+        return np.exp(at[:, [0, 2]] @ slopes.T)
+
+    posterior = infer(predict, 3, values, error * values, sparing=sparing)
+    widths = error * np.sqrt(np.diagonal(np.linalg.inv(slopes.T @ slopes)))
+    low, median, high = posterior.quantiles(ENDS).T
+    assert posterior.chain
+    assert posterior.active.tolist() == [True, False, True]
+    assert len(posterior.prior_at) == (256 if sparing else 512)
+    assert [low[1], median[1], high[1]] == pytest.approx(ENDS, abs=0.03)
+    assert 0.5 * (high - low)[[0, 2]] == pytest.approx(Z95 * widths, rel=0.12)
+
+
+def test_polynomials_of_many_inputs_get_the_whole_design():
+    """Degree 3 in seven inputs needs 3 * 10!/(7! 3!) = 360 points, more than half of 512."""
+    calls = []
+
+    def predict(at):
+        calls.append(len(at))
+        return np.sum(at, axis=1, keepdims=True)
+
+    posterior = infer(predict, 7, np.array([3.5]), np.array([0.5]), sparing=True)
+    assert len(posterior.prior_at) == 512
+    assert calls[0] == 256
+    assert 256 in calls[1:]

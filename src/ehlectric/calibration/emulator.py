@@ -22,6 +22,7 @@ class Emulator:
 
     low: Array  # smallest and largest input of the box, shape (k,)
     high: Array
+    active: Mask  # inputs of the polynomials; the other inputs have no effect, shape (k,)
     logs: Mask  # whether the polynomial is one for the logarithm, shape (m,)
     fit: LegendreFit
     # Standard deviations of predictions from values that the polynomial was not fitted to: of the logarithm
@@ -29,9 +30,10 @@ class Emulator:
     error: Array
 
     @classmethod
-    def of(cls, at: Array, predictions: Array, low: Array, high: Array) -> Emulator | None:
+    def of(cls, at: Array, predictions: Array, low: Array, high: Array, active: Mask) -> Emulator | None:
         """Polynomials for predictions at points, shape (n, k) and (n, m); None where too few points have a
-        prediction. ``low`` and ``high``, ends of the box of the points, shape (k,).
+        prediction. ``low`` and ``high``, ends of the box of the points, ``active``, inputs with an effect,
+        shape (k,).
         """
         known = np.all(np.isfinite(predictions), axis=1)
         if np.count_nonzero(known) < _LEAST:
@@ -39,12 +41,12 @@ class Emulator:
         values = predictions[known]
         logs = np.all(values > 0.0, axis=0)
         transformed = np.where(logs, np.log(np.where(logs, values, 1.0)), values)
-        fit = LegendreFit.of(_scaled(at[known], low, high), transformed)
-        return cls(low, high, logs, fit, np.sqrt(np.mean(np.square(fit.missed), axis=0)))
+        fit = LegendreFit.of(_scaled(at[known], low, high)[:, active], transformed)
+        return cls(low, high, active, logs, fit, np.sqrt(np.mean(np.square(fit.missed), axis=0)))
 
     def transformed(self, at: Array) -> Array:
         """Predictions or their logarithms at points, shape (n, k) -> (n, m)."""
-        return self.fit.at(_scaled(at, self.low, self.high))
+        return self.fit.at(_scaled(at, self.low, self.high)[:, self.active])
 
     def at(self, at: Array) -> Array:
         """Predictions at points, shape (n, k) -> (n, m)."""

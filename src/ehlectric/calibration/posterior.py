@@ -11,7 +11,8 @@ weights with the sum 1 (Kong, Liu and Wong, J. Am. Stat. Assoc. 89 (1994) 278,
 doi:10.1080/01621459.1994.10476469). If it is too small, a Markov chain (J. Goodman and J. Weare, Commun.
 Appl. Math. Comput. Sci. 5 (2010) 65, doi:10.2140/camcos.2010.5.65, by the library emcee) draws points for
 polynomials instead of the model. The model is computed at these points, and their weights are proportional
-to L of the model divided by L of the polynomials.
+to L of the model divided by L of the polynomials. The polynomials lack inputs that change no prediction at
+some points of the design: these inputs are distributed evenly in the box of the polynomials.
 """
 
 from __future__ import annotations
@@ -23,9 +24,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy
 
-from ehlectric.arrays import Array, IntArray
+from ehlectric.arrays import Array, IntArray, Mask
 from ehlectric.calibration.emulator import Emulator
 from ehlectric.errors import InputError
+from ehlectric.formulas.legendre_fit import points_of_full_degree
 from ehlectric.formulas.sobol import sobol_points
 
 # Predictions at points from 0 to 1, shape (n, k) -> (n, m); NaN where the model has none.
@@ -39,6 +41,12 @@ LEAST_EFFECTIVE = 50.0
 
 # Points at which polynomials are evaluated at once, and seed of all random numbers.
 _DENSE, SEED = 8192, 1
+
+# Points at which each input is changed to see whether it has an effect.
+_CHANGED = 4
+
+# Relative difference of two predictions that count as equal: the error of interpolated capacitances.
+_EQUAL = 1e-6
 
 # Walkers of the chain for each input, at least, and steps of which the first part is not used.
 _WALKERS, _LEAST_WALKERS, _STEPS, _BURN = 4, 32, 1200, 400
@@ -127,6 +135,7 @@ class Posterior:
     predictions: Array  # shape (n, m)
     prior_predictions: Array  # predictions at the points of the design, shape (samples, m)
     prior_at: Array  # points of the design, shape (samples, k)
+    active: Mask  # inputs with an effect on the predictions, shape (k,)
     emulator: Emulator | None
     nearest: Nearest
     # Standard uncertainties of the measured values together with the errors of predictions, shape (m,).
@@ -177,21 +186,29 @@ def infer(
     samples: int = 512,
     seed: int = SEED,
     errors: Errors | None = None,
+    sparing: bool = False,
 ) -> Posterior:
     """Update k inputs by m measured values.
 
     ``predict``, model; ``width``, k; ``values`` and ``uncertainties``, measured values and their standard
     uncertainties, > 0, shape (m,); ``samples``, points of the design, a power of 2; ``errors``, errors of the
-    predictions, whose mean squares over the posterior points widen the uncertainties. Raises InputError where
-    the model has no prediction at any point, or where the library of the Markov chain is missing.
+    predictions, whose mean squares over the posterior points widen the uncertainties; ``sparing``, whether
+    half of the points are sufficient if polynomials of the full degree can be fitted to them. Raises
+    InputError where the model has no prediction at any point, or where the library of the Markov chain is
+    missing.
     """
     at = sobol_points(width, samples, seed)
-    predictions = predict(at)
+    first = at[: samples // 2] if sparing else at
+    predictions = predict(first)
+    active = _active(predict, first, predictions)
+    if sparing and points_of_full_degree(int(np.count_nonzero(active))) > len(first):
+        predictions = np.concatenate([predictions, predict(at[len(first) :])])
+    at = at[: len(predictions)]
     uncertainties = _widened(uncertainties, at, predictions, values, errors)
     chi2 = chi_squares(predictions, values, uncertainties)
     if not np.any(np.isfinite(chi2)):
         raise InputError("measured", "has values that the model does not compute at any inputs")
-    emulator = Emulator.of(at, predictions, np.zeros(width), np.ones(width))
+    emulator = Emulator.of(at, predictions, np.zeros(width), np.ones(width), active)
     model = _Measured(predict, values, uncertainties, seed)
     nearest = model.nearest(at, predictions, emulator)
     residuals = (values - nearest.predictions) / uncertainties
@@ -202,6 +219,7 @@ def infer(
         predictions=predictions,
         prior_predictions=predictions,
         prior_at=at,
+        active=active,
         emulator=emulator,
         nearest=nearest,
         uncertainties=uncertainties,
@@ -212,7 +230,7 @@ def infer(
         return posterior
     best, box = posterior, emulator
     for number in range(_ROUNDS):
-        points, drawn = model.drawn(box, nearest, samples)
+        points, drawn = model.drawn(box, nearest, len(at))
         computed = predict(points)
         ratio = chi_squares(computed, values, uncertainties) - model.chi2_of(box, points)
         further = replace(
@@ -225,12 +243,33 @@ def infer(
         low, high = np.min(drawn, axis=0), np.max(drawn, axis=0)
         padding = _PADDING * (high - low) + 1e-6
         low, high = np.maximum(low - padding, 0.0), np.minimum(high + padding, 1.0)
+        low, high = np.where(active, low, 0.0), np.where(active, high, 1.0)
         inside = low + (high - low) * at
-        smaller = Emulator.of(inside, predict(inside), low, high)
+        smaller = Emulator.of(inside, predict(inside), low, high, active)
         if smaller is None:
             break
         box = smaller
     return best
+
+
+def _active(predict: Predict, at: Array, predictions: Array) -> Mask:
+    """Inputs with an effect on a prediction, shape (k,); the first input if none has.
+
+    At the first points of the design with predictions, each input is changed by half of its range.
+    """
+    known = np.flatnonzero(np.all(np.isfinite(predictions), axis=1))[:_CHANGED]
+    width = at.shape[1]
+    if not known.size:
+        return np.ones(width, dtype=bool)
+    # The points themselves are the first: all inputs unchanged.
+    points = np.repeat(at[known][np.newaxis], width + 1, axis=0)
+    inputs = np.arange(width)
+    points[inputs + 1, :, inputs] = (points[inputs + 1, :, inputs] + 0.5) % 1.0
+    values = predict(points.reshape(-1, width)).reshape(width + 1, known.size, -1)
+    equal = np.isclose(values[1:], values[0], rtol=_EQUAL, atol=0.0)
+    active: Mask = ~np.all(equal, axis=(1, 2))
+    active[0] |= not np.any(active)
+    return active
 
 
 def _widened(
@@ -251,12 +290,19 @@ def _widened(
 
 
 def nearest_of(
-    predict: Predict, at: Array, predictions: Array, values: Array, uncertainties: Array, seed: int
+    predict: Predict,
+    at: Array,
+    predictions: Array,
+    values: Array,
+    uncertainties: Array,
+    active: Mask,
+    seed: int,
 ) -> Nearest:
     """Prediction that is nearest to measured values; ``predictions`` at points ``at`` are known, shape (n, m)
-    and (n, k).
+    and (n, k); ``active``, inputs with an effect, shape (k,).
     """
-    emulator = Emulator.of(at, predictions, np.zeros(at.shape[1]), np.ones(at.shape[1]))
+    width = at.shape[1]
+    emulator = Emulator.of(at, predictions, np.zeros(width), np.ones(width), active)
     return _Measured(predict, values, uncertainties, seed).nearest(at, predictions, emulator)
 
 
@@ -359,7 +405,13 @@ class _Measured:
         sampler.random_state = np.random.RandomState(self.seed).get_state()
         sampler.run_mcmc(start, _STEPS, skip_initial_state_check=True)
         chain: Array = sampler.get_chain(discard=_BURN, flat=True)
-        return chain[random.choice(len(chain), size=number, replace=False)], chain
+        points = chain[random.choice(len(chain), size=number, replace=False)]
+        # Without an effect, an input is even in its box, which a design fills better than a chain.
+        idle = ~emulator.active
+        if np.any(idle):
+            design = sobol_points(int(np.count_nonzero(idle)), number, self.seed)
+            points[:, idle] = low[idle] + (high - low)[idle] * design
+        return points, chain
 
     def _tempered(
         self, emulator: Emulator, nearest: Nearest, walkers: int, random: np.random.Generator

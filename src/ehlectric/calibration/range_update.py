@@ -41,6 +41,9 @@ if TYPE_CHECKING:
 # Points of the design, of the posterior as a verdict takes it, and of polynomials.
 _SAMPLES, _DRAWN, _DENSE = 512, 512, 8192
 
+# Number of operating points above which half of the design is computed, if polynomials need no more points.
+_FEW_POINTS = 32
+
 # Share of the variance of an input above which a measured value decides it, and above which its range in the
 # calibrated file is the updated one.
 _DECIDES = 0.05
@@ -81,7 +84,8 @@ def calibrate(
         and ``uncertainty of capacitance [%]``. An uncertainty is one standard deviation. It replaces the file
         that the table ``measured`` names; the values of this table are used in addition.
     samples : int
-        Number of points of the Sobol design, a power of 2.
+        Number of points of the Sobol design, a power of 2. Half of them are computed for more than 32
+        operating points if at most six inputs have an effect.
     seed : int
         Seed of all random numbers.
     progress : callable, optional
@@ -122,6 +126,7 @@ def calibrate(
         samples=samples,
         seed=seed,
         errors=compared.errors,
+        sparing=len(given.points) > _FEW_POINTS,
     )
     return compared.calibration(case, posterior)
 
@@ -443,7 +448,7 @@ def infer_explained(
     from ehlectric.calibration.posterior import nearest_of
 
     predictions = posterior.prior_predictions[:, others]
-    nearest = nearest_of(predict, posterior.prior_at, predictions, values, errors, seed)
+    nearest = nearest_of(predict, posterior.prior_at, predictions, values, errors, posterior.active, seed)
     residuals = (values - nearest.predictions) / errors
     return replace(posterior, nearest=nearest, residuals=residuals).explained
 

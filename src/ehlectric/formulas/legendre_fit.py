@@ -8,6 +8,7 @@ B. Sudret, Reliab. Eng. Syst. Saf. 93 (2008) 964, doi:10.1016/j.ress.2007.04.002
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from itertools import combinations_with_replacement
 
@@ -55,6 +56,17 @@ class LegendreFit:
         """Polynomials at points from -1 to 1, shape (n, k) -> (n, m)."""
         values: Array = _matrix(points, self.terms) @ self.coefficients
         return values
+
+
+def points_of_full_degree(inputs: int) -> int:
+    """Least number of points to which polynomials of degree 3 in k inputs are fitted.
+
+    Examples
+    --------
+    >>> points_of_full_degree(6), points_of_full_degree(8)
+    (252, 495)
+    """
+    return _POINTS * math.comb(inputs + _DEGREE, _DEGREE)
 
 
 def _matrix(at: Array, terms: IntArray) -> Array:
