@@ -5,6 +5,7 @@ from .axle_duty import AxleDuty as AxleDuty
 from .axle_netlist_files import axle_netlist as axle_netlist
 from .axle_netlist_files import write_axle_netlist as write_axle_netlist
 from .many_axles import solve_axles as solve_axles
+from .measurable import AxleModel as AxleModel
 from .network import HOUSING as HOUSING
 from .network import WINDING as WINDING
 from .network import Film as Film

@@ -19,6 +19,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, fields
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -35,6 +36,7 @@ from ehlectric.bearing import (
     Names,
     UncertainInput,
     Uncertainty,
+    at_point,
     clearance_change,
     grade_changes,
     label_of,
@@ -58,10 +60,16 @@ from ehlectric.quantities.lubrication_states import CONDUCTS
 from ehlectric.runtime.files import plain
 
 # Keys of inputs that act on the scales of films and flanks.
-_SUMMITS, _AREA = "mesh.gear.summit_height", "mesh.gear.contact.reference_area"
+SUMMITS, AREA = "mesh.gear.summit_height", "mesh.gear.contact.reference_area"
+
+# Keys of the errors of the films of bearings and of meshes.
+FILMS_OF = {"bearings": f"{FILMS}.bearings", "meshes": f"{FILMS}.meshes"}
 
 _OF_MOTOR = "engineering judgement: data sheets do not have it, and few measure it"
 _OF_AREA = "engineering judgement: the area of the measurement is known to a factor of 3"
+
+# Operating point of the case: no other inputs.
+_HERE: Mapping[str, float] = MappingProxyType({})
 
 # Share of the variance of r/(1 + r) whose prediction ends the refinement.
 _PREDICTED = 0.5
@@ -75,11 +83,16 @@ _LEAST_SHARE = 0.03
 
 
 @dataclass(frozen=True)
-class _Uncertain:
+class UncertainKey:
     """Uncertain input of an axle: its range, and the keys of bearings that change by the same step."""
 
     change: Change
     bearings: Mapping[int, Mapping[str, float]] = field(default_factory=dict)  # values in the case
+
+    def value(self, part: float) -> float:
+        """Value at a part of the range; the logarithm of the reference area is evenly distributed."""
+        low, high = self.change.ends
+        return low * (high / low) ** part if self.change.key == AREA else low + (high - low) * part
 
     def values(self, value: float) -> dict[int, dict[str, float]]:
         """Values of the keys of bearings at a value of the input."""
@@ -161,7 +174,7 @@ class AxleDesign:
     """Uncertain inputs of an axle as numbers from 0 to 1, the errors of the films last of the computed."""
 
     case: AxleCase
-    computed: tuple[_Uncertain, ...]
+    computed: tuple[UncertainKey, ...]
     factors: tuple[Change, ...]  # inputs to which all breakdown voltages are proportional
     films: tuple[float, float]  # relative errors of the films of bearings and of meshes
     assumed: Mapping[str, str]  # reasons of usual ranges by their key
@@ -177,7 +190,7 @@ class AxleDesign:
             value = float(case.value_of(key))
             change = Change(key, label_of(key), value, (entry.low, entry.high))
             known = usual.get(key)
-            usual[key] = _Uncertain(change, {} if known is None else known.bearings)
+            usual[key] = UncertainKey(change, {} if known is None else known.bearings)
         changes = [*usual.values()]
         left_out = [each.change.key for each in changes if not is_quantity(each.change.key)]
         errors = tuple(
@@ -215,70 +228,96 @@ class AxleDesign:
     def names(self) -> Iterator[Names]:
         """Names of the uncertain inputs, in the order of the columns."""
         yield from (Names.of(each.change, self.assumed) for each in self.computed)
-        for label, error in zip(("films of bearings", "films of meshes"), self.films, strict=True):
-            reason = "largest stated error of the films"
-            yield Names(FILMS, label, 1.0 - error, 1.0 + error, assumed=True, reason=reason)
+        for (elements, key), error in zip(FILMS_OF.items(), self.films, strict=True):
+            label, reason = f"films of {elements}", "largest stated error of the films"
+            yield Names(key, label, 1.0 - error, 1.0 + error, assumed=True, reason=reason)
         yield from (Names.of(change, self.assumed) for change in self.factors)
 
-    def changed(self, row: Array) -> tuple[AxleCase, FilmScales]:
-        """Changed case and scales of its films at a point from 0 to 1, shape (width,)."""
+    def changed(self, row: Array, at: Mapping[str, float] = _HERE) -> tuple[AxleCase, FilmScales]:
+        """Changed case and scales of its films at a point from 0 to 1, shape (width,).
+
+        ``at``, inputs of an operating point by key, SI units, by default the point of the case.
+        """
         keys: dict[str, float] = {}
         bearings: dict[int, dict[str, float]] = {}
         summits, area = 0.0, 1.0
         for part, each in zip(row.tolist(), self.computed, strict=False):
-            low, high = each.change.ends
-            value = low + (high - low) * part
-            if each.change.key == _SUMMITS:
+            value = each.value(part)
+            if each.change.key == SUMMITS:
                 summits = value - each.change.value
-            elif each.change.key == _AREA:
-                area = low * (high / low) ** part / each.change.value
+            elif each.change.key == AREA:
+                area = value / each.change.value
             elif each.bearings:
                 for number, values in each.values(value).items():
                     bearings.setdefault(number, {}).update(values)
             else:
                 keys[each.change.key] = value
+        for key, given in at.items():
+            nominal = float(self.case.value_of(key))
+            keys[key] = float(at_point(key, given, keys[key], nominal)) if key in keys else given
         case = changed_axle(self.case, keys)
         if bearings:
             case = changed_bearings(case, bearings)
-        of_films = row[len(self.computed) : self.number].tolist()
-        factors = [1.0 + error * (2.0 * part - 1.0) for part, error in zip(of_films, self.films, strict=True)]
-        return case, FilmScales(factors[0], factors[1], summits, area)
+        of_bearings, of_meshes = self.factors_on_films(row).tolist()
+        return case, FilmScales(of_bearings, of_meshes, summits, area)
+
+    def factors_on_films(self, at: Array) -> Array:
+        """Factors on the films of bearings and of meshes at points from 0 to 1, shape (..., width) ->
+        (..., 2).
+        """
+        factors: Array = 1.0 + np.array(self.films) * (2.0 * at[..., len(self.computed) : self.number] - 1.0)
+        return factors
+
+    def solutions(self, at: Array, point: Mapping[str, float] = _HERE) -> list[AxleSolution | None]:
+        """Solutions of axles at points from 0 to 1, shape (n, width), with the inputs of an operating point;
+        None of an axle without a solution.
+        """
+        changed: dict[int, tuple[AxleCase, FilmScales]] = {}
+        for place, row in enumerate(at):
+            with suppress(InputError):
+                changed[place] = self.changed(row, point)
+        cases, scales = (
+            (list(column) for column in zip(*changed.values(), strict=True)) if changed else ([], [])
+        )
+        solved = dict(zip(changed, solve_axles(cases, scales=scales), strict=True))
+        outcomes = [solved.get(place) for place in range(len(at))]
+        return [outcome if isinstance(outcome, AxleSolution) else None for outcome in outcomes]
 
 
-def _usual(case: AxleCase) -> Iterator[_Uncertain]:
+def _usual(case: AxleCase) -> Iterator[UncertainKey]:
     """Usual changes: strength, temperature, grade of the oil, torque, clearances, summits, reference area of
     meshes, and capacitances of the machine.
     """
     for change in strength_changes(case.to_dict()):
-        yield _Uncertain(change)
-    yield _Uncertain(temperature_change("drive.temperature", case.drive.temperature))
+        yield UncertainKey(change)
+    yield UncertainKey(temperature_change("drive.temperature", case.drive.temperature))
     for change in grade_changes(case.lubricant):
-        yield _Uncertain(change)
+        yield UncertainKey(change)
     torque = load_change("drive.torque", abs(case.drive.torque))
     if case.drive.torque < 0.0:
         low, high = torque.ends
         torque = Change(torque.key, torque.label, case.drive.torque, (-high, -low), torque.reason)
-    yield _Uncertain(torque)
+    yield UncertainKey(torque)
     for shaft in case.shaft:
         yield from _clearances(case, shaft.name)
     yield from _summits(case)
     pairs = [mesh.pair.gear for mesh in case.mesh]
     heights = [gear.summit_height for gear in pairs]
     if heights and min(heights) > 0.0:
-        yield from (_Uncertain(change) for change in summit_changes(_SUMMITS, heights[0]))
+        yield from (UncertainKey(change) for change in summit_changes(SUMMITS, heights[0]))
     for mesh in case.mesh[:1]:
         if any(gear.contact.conduction == "by-film" for gear in pairs):
             area = reference_area_of(mesh.pair)
             ends = area / AREA_FACTOR, area * AREA_FACTOR
-            yield _Uncertain(Change(_AREA, "reference area of the share of time", area, ends, _OF_AREA))
+            yield UncertainKey(Change(AREA, "reference area of the share of time", area, ends, _OF_AREA))
     for name, value in case.circuit.capacitances.items():
         key = f"circuit.{name}"
         if name in ("winding_rotor_capacitance", "rotor_frame_capacitance") and value > 0.0:
             ends = ((1.0 - MOTOR) * value, (1.0 + MOTOR) * value)
-            yield _Uncertain(Change(key, label_of(key), value, ends, _OF_MOTOR))
+            yield UncertainKey(Change(key, label_of(key), value, ends, _OF_MOTOR))
 
 
-def _clearances(case: AxleCase, shaft: str) -> Iterator[_Uncertain]:
+def _clearances(case: AxleCase, shaft: str) -> Iterator[UncertainKey]:
     """Change of the clearances of both bearings of a shaft by one step."""
     changes = {
         number: change
@@ -294,15 +333,15 @@ def _clearances(case: AxleCase, shaft: str) -> Iterator[_Uncertain]:
     }
     key = f"bearing.{shaft}.{name}"
     label = f"{first.label.partition(' (')[0]}, bearings of {shaft}"
-    yield _Uncertain(Change(key, label, first.value, first.ends, first.reason), values)
+    yield UncertainKey(Change(key, label, first.value, first.ends, first.reason), values)
 
 
-def _summits(case: AxleCase) -> Iterator[_Uncertain]:
+def _summits(case: AxleCase) -> Iterator[UncertainKey]:
     """Change of the height of the summits of all bearings by one step."""
     heights = {number: table.summit_height for number, table in enumerate(case.tables_of_bearings)}
     values = {number: {"summit_height": height} for number, height in heights.items() if height > 0.0}
     for change in summit_changes("bearings.summit_height", min(heights.values(), default=0.0)):
-        yield _Uncertain(change, values)
+        yield UncertainKey(change, values)
 
 
 def has_chance(case: AxleCase) -> bool:
@@ -335,11 +374,17 @@ class _Rows:
 
     def margins(self) -> Array:
         """Margin of the first element at the points, shape (n,)."""
-        voltages, limits = np.array(self.voltages), np.array(self.limits)
-        ranked = np.isfinite(limits) & (voltages > 0.0)
-        least = np.min(np.divide(limits, voltages, out=np.full_like(limits, np.inf), where=ranked), axis=1)
-        margins = np.where(np.any(ranked, axis=1), least, MOST_MARGIN)
-        return np.where(np.any(np.isnan(voltages), axis=1), np.nan, margins)
+        return least_margins(np.array(self.voltages), np.array(self.limits))
+
+
+def least_margins(voltages: Array, limits: Array) -> Array:
+    """Margin of the first element, shape (n,), from voltages and breakdown voltages, shape (n, elements);
+    NaN without a voltage.
+    """
+    ranked = np.isfinite(limits) & (voltages > 0.0)
+    least = np.min(np.divide(limits, voltages, out=np.full_like(limits, np.inf), where=ranked), axis=1)
+    margins = np.where(np.any(ranked, axis=1), least, MOST_MARGIN)
+    return np.where(np.any(np.isnan(voltages), axis=1), np.nan, margins)
 
 
 def uncertainty_of(
@@ -400,15 +445,8 @@ def _quick(design: AxleDesign) -> AxleDesign:
 
 def _add(rows: _Rows, design: AxleDesign, at: Array) -> None:
     """Add the solutions of axles at points from 0 to 1, shape (n, width)."""
-    changed: dict[int, tuple[AxleCase, FilmScales]] = {}
-    for place, row in enumerate(at):
-        with suppress(InputError):
-            changed[place] = design.changed(row)
-    cases, scales = (list(column) for column in zip(*changed.values(), strict=True)) if changed else ([], [])
-    solved = dict(zip(changed, solve_axles(cases, scales=scales), strict=True))
-    for place in range(len(at)):
-        outcome = solved.get(place)
-        rows.add(outcome if isinstance(outcome, AxleSolution) else None)
+    for outcome in design.solutions(at):
+        rows.add(outcome)
 
 
 def _firsts(voltages: Array, limits: Array) -> IntArray:

@@ -56,6 +56,7 @@ from .many_points import TOGETHER as TOGETHER
 from .many_points import Columns as Columns
 from .many_points import SolvedPart as SolvedPart
 from .many_points import columns_of as columns_of
+from .many_points import gathered as gathered
 from .many_points import many_of as many_of
 from .many_points import single_tables as single_tables
 from .many_points import solved_parts as solved_parts
@@ -149,6 +150,7 @@ from .uncertainty import MarginBand as MarginBand
 from .uncertainty import Names as Names
 from .uncertainty import UncertainInput as UncertainInput
 from .uncertainty import Uncertainty as Uncertainty
+from .uncertainty import is_factor as is_factor
 from .uncertainty import logs_of_factors as logs_of_factors
 from .uncertainty import quick_chance as quick_chance
 from .uncertainty import refined as refined

@@ -219,7 +219,7 @@ def at_point(key: str, given: float, value: Numbers, nominal: float) -> Numbers:
     >>> at_point("bearing.temperature", 330.0, 353.0, 343.0)
     340.0
     """
-    if key.endswith(("_load", "_torque")) and nominal:
+    if key.endswith(("_load", "torque")) and nominal:
         return given * value / nominal
     return given + value - nominal
 

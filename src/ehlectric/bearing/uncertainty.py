@@ -16,7 +16,7 @@ from ehlectric.bearing.margin import ONLY_SOLVED, QuickMargins, film_factors, ma
 from ehlectric.bearing.perturbed_bearings import LEAST, MOST
 from ehlectric.bearing.solution import BearingSolution, conducts, film_error
 from ehlectric.bearing.solving import NOT_IN_FILMS
-from ehlectric.bearing.uncertain_inputs import Change, changes_of, proportional_to_strength
+from ehlectric.bearing.uncertain_inputs import OF_TABLE, Change, changes_of, proportional_to_strength
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.input_keys import is_quantity
 from ehlectric.discharge.breakdown_rule import UNLIKELY, Chance
@@ -55,6 +55,17 @@ NO_MARGINS = "the margin has no value within the ranges of the inputs"
 
 # Names of uncertainties in addition to the inputs of a file.
 FILMS, SCATTER = "films", "scatter"
+
+
+def is_factor(key: str) -> bool:
+    """Whether the values of an uncertain input are factors on a table of strengths or on films.
+
+    Examples
+    --------
+    >>> is_factor("films"), is_factor("films.meshes"), is_factor("bearing.temperature")
+    (True, True, False)
+    """
+    return key == OF_TABLE or key.partition(".")[0] == FILMS
 
 
 @dataclass(frozen=True)

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, Protocol
 
 from ehlectric.arrays import Array
+from ehlectric.axle import AxleModel
 from ehlectric.bearing import BearingModel, Names
+from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.gear_case import GearCase
-from ehlectric.cases.measurements import BEARING_POINTS, GEAR_POINTS, ColumnBook
+from ehlectric.cases.measurements import BEARING_POINTS, GEAR_POINTS, ColumnBook, axle_points
 from ehlectric.discharge.breakdown_rule import Chance
 from ehlectric.drive import DriveModel
 from ehlectric.errors import InputError
@@ -56,14 +58,29 @@ class Model(Protocol):
 
 
 _MODELS: Mapping[type, Any] = MappingProxyType(
-    {BearingCase: BearingModel.of, DriveCase: DriveModel.of, GearCase: GearModel.of}
+    {
+        BearingCase: BearingModel.of,
+        DriveCase: DriveModel.of,
+        GearCase: GearModel.of,
+        AxleCase: AxleModel.of,
+    }
 )
 
 
-# Columns of a file of operating points, by the kind of the case.
-POINTS: Mapping[type, ColumnBook] = MappingProxyType(
-    {BearingCase: BEARING_POINTS, DriveCase: BEARING_POINTS, GearCase: GEAR_POINTS}
+# Columns of a file of operating points of a case, by its kind.
+_POINTS: Mapping[type, Callable[[Any], ColumnBook]] = MappingProxyType(
+    {
+        BearingCase: lambda _: BEARING_POINTS,
+        DriveCase: lambda _: BEARING_POINTS,
+        GearCase: lambda _: GEAR_POINTS,
+        AxleCase: lambda case: axle_points(case.keys_of_elements(), case.keys_of_shafts()),
+    }
 )
+
+
+def points_of(case: Any) -> ColumnBook:
+    """Columns of a file of operating points of a case that has a model."""
+    return _POINTS[type(case)](case)
 
 
 def model_of(case: Any) -> Model:
@@ -73,5 +90,7 @@ def model_of(case: Any) -> Model:
             model: Model = of(case)
             return model
     raise InputError(
-        "measured", got=f"a {type(case).__name__}", takes="the case of a bearing, a drive or a gear pair"
+        "measured",
+        got=f"a {type(case).__name__}",
+        takes="the case of a bearing, a drive, a gear pair or an axle",
     )

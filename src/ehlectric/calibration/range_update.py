@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.bearing import FILMS, MARGIN, OF_TABLE, Names
-from ehlectric.calibration.models import POINTS, Model, model_of
+from ehlectric.bearing import MARGIN, Names, is_factor
+from ehlectric.calibration.models import Model, model_of, points_of
 from ehlectric.calibration.posterior import (
     LEAST_EFFECTIVE,
     SEED,
@@ -25,8 +25,14 @@ from ehlectric.calibration.posterior import (
 )
 from ehlectric.calibration.result import CalibratedInput, Calibration, Compared, Quantiles, Unexplained
 from ehlectric.cases.input_keys import unit_of
-from ehlectric.cases.measured_inputs import Measured, MeasuredPoints, MeasuredValue, measured_points
-from ehlectric.cases.measurements import CALIBRATED, void_rows
+from ehlectric.cases.measured_inputs import (
+    AxleMeasured,
+    Measured,
+    MeasuredPoints,
+    MeasuredValue,
+    measured_points,
+)
+from ehlectric.cases.measurements import calibrated, quantity_text, void_rows
 from ehlectric.discharge.breakdown_rule import INTERVAL, Chance, sampling_error
 from ehlectric.errors import InputError
 from ehlectric.formulas.sobol import sobol_points
@@ -77,7 +83,7 @@ def calibrate(
 
     Parameters
     ----------
-    case : BearingCase, DriveCase or GearCase
+    case : BearingCase, DriveCase, GearCase or AxleCase
         Case with its ranges, and with the table ``measured`` unless a file or a table is given.
     measured : str, Path or pandas.DataFrame, optional
         File or table of measured operating points, such as the columns ``speed [rpm]``, ``capacitance [pF]``
@@ -133,10 +139,10 @@ def calibrate(
 
 def given_points(case: Any, measured: str | Path | pd.DataFrame | None = None) -> MeasuredPoints:
     """Measured values of a case, and of a file or a table. Raises InputError as ``calibrate`` does."""
-    table: Measured | None = case.measured
+    table: Measured | AxleMeasured | None = case.measured
     if measured is None and table is None:
         raise InputError.missing("measured", "a table [measured], or a file of measured operating points")
-    return measured_points(table, POINTS[type(case)], measured)
+    return measured_points(table, points_of(case), measured)
 
 
 def _check(model: Model, given: MeasuredPoints) -> None:
@@ -258,7 +264,7 @@ class _Compared:
             key, share = decided[place]
             yield Compared(
                 quantity=value.quantity,
-                unit=CALIBRATED[value.quantity].unit,
+                unit=calibrated(value.quantity).unit,
                 point=value.point,
                 line=value.line,
                 measured=value.value,
@@ -302,7 +308,8 @@ class _Compared:
             column, known = values[:, 0], np.isfinite(values[:, 0]) & np.isfinite(logs)
             if np.count_nonzero(known) < 0.5 * known.size or not np.ptp(column[known]) or not np.ptp(logs):
                 continue
-            error = CALIBRATED[name].relative * abs(float(np.mean(column[known]))) + CALIBRATED[name].absolute
+            usual = calibrated(name)
+            error = usual.relative * abs(float(np.mean(column[known]))) + usual.absolute
             variance = float(np.var(column[known]))
             r = float(np.corrcoef(column[known], logs[known])[0, 1])
             parts[name] = r**2 * variance / (variance + error**2)
@@ -335,7 +342,7 @@ class _Compared:
             reasons.append(Statement.of("before-measurement", probability=before.stated))
         if following:
             name, part = following[0]
-            reasons.append(Statement.of("measure-next", quantity=name.replace("_", " "), share=part))
+            reasons.append(Statement.of("measure-next", quantity=quantity_text(name), share=part))
         kept = (each for each in verdict.reasons if each.code != "measure-first")
         return replace(verdict, reasons=(*kept, *reasons))
 
@@ -467,7 +474,9 @@ def _without_prediction(value: MeasuredValue, given: MeasuredPoints) -> InputErr
     """Error of a measured value that the model does not compute at any inputs within their ranges."""
     where = "" if given.read is None else f" in line {value.line} of {given.read.source}"
     got = f"a value{where if value.line else ''} that the model does not compute"
-    takes = _NEEDS.get(value.quantity, "an operating point at which the model has a result")
+    takes = _NEEDS.get(
+        value.quantity.rpartition(".")[2], "an operating point at which the model has a result"
+    )
     return InputError(f"measured.{value.quantity}", got=got, takes=takes)
 
 
@@ -477,21 +486,21 @@ def _refused(rows: Sequence[Compared], unexplained: Unexplained) -> Verdict:
     row = rows[place]
     answer = Statement.of(
         "unexplained",
-        quantity=row.quantity.replace("_", " "),
+        quantity=quantity_text(row.quantity),
         measured=(row.measured, row.unit),
         nearest=(row.nearest, row.unit),
         off=abs(row.residual),
     )
     reasons = []
     if unexplained.key:
-        unit = "" if unexplained.key in (FILMS, OF_TABLE) else unit_of(unexplained.key)
+        unit = "" if is_factor(unexplained.key) else unit_of(unexplained.key)
         low, high = ((end, unit) for end in unexplained.range or ())
         needed = (unexplained.needed, unit)
         reasons.append(
             Statement.of("input-leaves-range", input=unexplained.label, low=low, high=high, needed=needed)
         )
     if unexplained.contradicting:
-        names = tuple(dict.fromkeys(rows[k].quantity.replace("_", " ") for k in unexplained.contradicting))
+        names = tuple(dict.fromkeys(quantity_text(rows[k].quantity) for k in unexplained.contradicting))
         reasons.append(Statement.of("measured-contradict", quantities=names))
     return Verdict("grey", "measurement-unexplained", answer, reasons=tuple(reasons))
 

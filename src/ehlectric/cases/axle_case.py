@@ -47,6 +47,7 @@ from ehlectric.cases.input_ranges import (
     table_of_ranges,
 )
 from ehlectric.cases.key_names import refuse_deep
+from ehlectric.cases.measured_inputs import AxleMeasured
 from ehlectric.cases.roughness_inputs import find_files
 from ehlectric.cases.stated_ranges import with_stated_ranges
 from ehlectric.cases.table import CaseFile, Table, Title, number_of
@@ -126,6 +127,8 @@ class AxleCase(CaseFile, book="axle_file"):
         Ranges of uncertain inputs by dotted key, each a list of two values.
     duty : mapping, optional
         Duty cycle: the path of its ``file``.
+    measured : mapping, optional
+        Measured values that correct the ranges of uncertain inputs.
     """
 
     if TYPE_CHECKING:
@@ -149,6 +152,7 @@ class AxleCase(CaseFile, book="axle_file"):
     remedies: tuple[Remedy, ...] = ()
     ranges: tuple[InputRange, ...] | None = None
     duty: Duty | None = None
+    measured: AxleMeasured | None = None
 
     @model_validator(mode="before")
     @classmethod
@@ -388,6 +392,7 @@ class AxleCase(CaseFile, book="axle_file"):
         for shaft in self.shaft:
             if self._check_adjusted(shaft) is None:
                 self._check_locating(shaft, helical=shaft.name in helical)
+        self._check_measured()
         for span in self.ranges or ():
             self.check_shared(span.key)
             check_range(span, self.value_of(span.key))
@@ -407,6 +412,18 @@ class AxleCase(CaseFile, book="axle_file"):
             elif kind == "mesh":
                 tables = table["pair"]
         return value_at(tables, inner)
+
+    def _check_measured(self) -> None:
+        """Check that measured values belong to elements and shafts of the axle."""
+        if self.measured is None:
+            return
+        known = {"elements": self.keys_of_elements(), "shafts": self.keys_of_shafts()}
+        for place, keys in known.items():
+            for key in getattr(self.measured, place):
+                if key not in keys:
+                    raise InputError(
+                        f"measured.{place}.{key}", got=shown(key), takes=f"one of {', '.join(keys)}"
+                    )
 
     def _check_names(self) -> None:
         names = [shaft.name for shaft in self.shaft]

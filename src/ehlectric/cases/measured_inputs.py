@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
-from ehlectric.cases.measurements import CALIBRATED, ColumnBook, Measurement, read_measurement
+from ehlectric.cases.measurements import (
+    CALIBRATED,
+    ColumnBook,
+    Measurement,
+    calibrated,
+    read_measurement,
+)
 from ehlectric.cases.stated_ranges import value_and_uncertainty
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
@@ -50,11 +56,50 @@ class Measured(Table, book="measured"):
         }
 
 
+class MeasuredElement(Table, book="axle.measured.elements"):
+    """Measured values of a bearing or a mesh of an axle, each with its standard uncertainty."""
+
+    capacitance: str | None = None
+    breakdown_voltage: str | None = None
+    conducting_share: str | None = None
+
+
+class MeasuredShaft(Table, book="axle.measured.shafts"):
+    """Measured values of a shaft of an axle, each with its standard uncertainty."""
+
+    voltage: str | None = None
+
+
+class AxleMeasured(Table, book="axle.measured"):
+    """Measured values of the elements and shafts of an axle, by the keys of elements and shafts."""
+
+    file: str | None = None
+    elements: dict[str, MeasuredElement] = Field(default_factory=dict)
+    shafts: dict[str, MeasuredShaft] = Field(default_factory=dict)
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if not self.values() and self.file is None:
+            raise InputError("file", "missing", takes="a file, or a measured value with its uncertainty")
+        return self
+
+    def values(self) -> dict[str, tuple[float, float]]:
+        """Measured values and their standard uncertainties at the operating point of the case, SI units."""
+        tables: Mapping[str, Mapping[str, Table]] = {"elements": self.elements, "shafts": self.shafts}
+        texts = {
+            f"{place}.{key}.{name}": text
+            for place, of_place in tables.items()
+            for key, table in of_place.items()
+            for name, text in table.model_dump(exclude_none=True).items()
+        }
+        return {name: value_and_uncertainty(name, text, calibrated(name)) for name, text in texts.items()}
+
+
 @dataclass(frozen=True)
 class MeasuredValue:
     """Measured value of a quantity at an operating point, SI units."""
 
-    quantity: str  # name in ``CALIBRATED``
+    quantity: str  # name that ``calibrated`` takes
     value: float
     uncertainty: float  # one standard deviation
     point: int  # place of the operating point
@@ -71,7 +116,9 @@ class MeasuredPoints:
 
 
 def measured_points(
-    measured: Measured | None, book: ColumnBook, file: str | Path | pd.DataFrame | None = None
+    measured: Measured | AxleMeasured | None,
+    book: ColumnBook,
+    file: str | Path | pd.DataFrame | None = None,
 ) -> MeasuredPoints:
     """Measured values of a table [measured], and of a file or a table of pandas with the columns in ``book``.
 
@@ -88,7 +135,7 @@ def measured_points(
     read = None
     if source is not None:
         read = read_measurement(source, book)
-        known = [name for name in CALIBRATED if name in read.values]
+        known = [name for name in book.columns if name in book.gaps and name in read.values]
         if not known:
             heads = f"headings such as {book.examples}"
             raise InputError(read.source, "has no column with a measured quantity", takes=heads)

@@ -6,9 +6,10 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
+from itertools import product
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING
@@ -104,6 +105,35 @@ GEAR_CYCLE = ColumnBook.of("gear_duty", "'time [s]', 'speed [rpm]' and 'torque [
 # Quantities that a calibration compares, and the columns of a file with quantities at operating points.
 CALIBRATED = ColumnBook.of("calibration", "", 0).columns
 
+# Quantities of an element and of a shaft of an axle, with their names in ``CALIBRATED``.
+OF_ELEMENTS = {name: name for name in ("capacitance", "breakdown_voltage", "conducting_share")}
+OF_SHAFTS = {"voltage": "shaft_voltage"}
+
+
+def calibrated(quantity: str) -> Measurable:
+    """Quantity that a calibration compares, by its name; in an axle with its element or shaft.
+
+    Examples
+    --------
+    >>> calibrated("elements.rotor_1.capacitance").usual, calibrated("shafts.rotor.voltage").usual
+    ('pF', 'V')
+    """
+    name = quantity.rpartition(".")[2]
+    return CALIBRATED[OF_SHAFTS.get(name, name)]
+
+
+def quantity_text(quantity: str) -> str:
+    """Name of a quantity that a calibration compares, in words.
+
+    Examples
+    --------
+    >>> quantity_text("breakdown_voltage"), quantity_text("elements.rotor_1.capacitance")
+    ('breakdown voltage', 'capacitance of rotor_1')
+    """
+    of, _, name = quantity.rpartition(".")
+    text = name.replace("_", " ")
+    return f"{text} of {of.partition('.')[2]}" if of else text
+
 
 def _points(cycle: ColumnBook, examples: str) -> ColumnBook:
     """Columns of a file of operating points: quantities, and the columns of a duty cycle except the time."""
@@ -117,6 +147,20 @@ MOST_POINTS = 1000
 
 BEARING_POINTS = _points(CYCLE, "'speed [rpm]', 'capacitance [pF]' and 'uncertainty of capacitance [%]'")
 GEAR_POINTS = _points(GEAR_CYCLE, "'torque [N m]', 'capacitance [pF]' and 'uncertainty of capacitance [%]'")
+
+
+def axle_points(elements: Iterable[str], shafts: Iterable[str]) -> ColumnBook:
+    """Columns of a file of operating points of an axle with the given keys of elements and shafts."""
+    quantities = {}
+    for place, keys, names in (("elements", elements, OF_ELEMENTS), ("shafts", shafts, OF_SHAFTS)):
+        for key, (name, known) in product(keys, names.items()):
+            written = f"{name} of {key}".replace("_", " ").lower(), f"{place}.{key}.{name}".lower()
+            quantities[f"{place}.{key}.{name}"] = replace(CALIBRATED[known], names=written)
+    inputs = {name: column for name, column in AXLE_CYCLE.columns.items() if column.key}
+    examples = "'torque [N m]', 'voltage of rotor [V]' and 'uncertainty of voltage of rotor [%]'"
+    columns = MappingProxyType({**inputs, **quantities})
+    return ColumnBook(columns, examples, MOST_POINTS, frozenset(quantities))
+
 
 _UNCERTAINTY = "uncertainty"
 

@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ehlectric.calibration import Calibration, Compared
+from ehlectric.cases.measurements import quantity_text
 from ehlectric.figures.figure_names import CALIBRATION_FIGURE, in_formats
 from ehlectric.figures.style import drawing_of, figure_of, legend_above, name_over, new_panels, style
 from ehlectric.quantities.palette import BLUE, GREY, LIGHT_GREY, ORANGE
@@ -72,7 +73,7 @@ def _compared(rows: tuple[Compared, ...], ax: Axes) -> None:
     labels = []
     for place, row in enumerate(rows):
         line = "" if row.line is None else f", line {row.line}"
-        labels.append(f"{row.quantity.replace('_', ' ')}{line}")
+        labels.append(f"{quantity_text(row.quantity)}{line}")
         if not row.measured:
             continue
         for ends, height, colour in ((row.prior, _WIDE, LIGHT_GREY), (row.posterior, _NARROW, BLUE)):

@@ -273,11 +273,11 @@ def run_axle(
 
 
 # Kinds of files that a measurement can correct.
-CALIBRATED_KINDS: tuple[FileKind, ...] = ("bearing", "drive", "gear")
+CALIBRATED_KINDS: tuple[FileKind, ...] = ("bearing", "drive", "gear", "axle")
 
 
 def run_calibration(
-    case: BearingCase | DriveCase | GearCase,
+    case: BearingCase | DriveCase | GearCase | AxleCase,
     folder: str | Path,
     progress: Progress = silent,
     *,

@@ -76,7 +76,7 @@ def expect(path: Path, *kinds: FileKind) -> InputFile:
     kind = kind_of_tables(table) or kinds[0]
     if kind not in kinds:
         name, command = _NAMES[kind]
-        expected = _NAMES[kinds[0]][0]
+        expected = " or ".join(dict.fromkeys(_NAMES[each][0] for each in kinds))
         raise InputError(path, f"is {name}", takes=f"{expected}; solve it with: {_typed(command, path)}")
     return InputFile(path, table, kind)
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from ehlectric.calibration import CalibratedInput, Calibration, Compared
+from ehlectric.cases.measurements import quantity_text
 from ehlectric.quantities.formats import amount_text
 from ehlectric.quantities.rows import Row
 from ehlectric.readable import readable
@@ -47,9 +48,7 @@ def calibration_rows(result: Calibration) -> Iterator[Row]:
     for row in result.rows[:_PRINTED]:
         computed = row.nearest if row.posterior is None else row.posterior[1]
         note = f", computed {amount_text(computed, row.unit)}, residual {row.residual:+.1f}"
-        yield Row(
-            f"measured {row.quantity.replace('_', ' ')}", amount_text(row.measured, row.unit), note=note
-        )
+        yield Row(f"measured {quantity_text(row.quantity)}", amount_text(row.measured, row.unit), note=note)
 
 
 def _correlated(result: Calibration, place: int) -> str:
@@ -92,7 +91,7 @@ def _row(row: Compared, labels: dict[str, str]) -> tuple[str, ...]:
     third = amount_text(row.nearest, unit) if row.posterior is None else _interval(row.posterior, unit)
     decided = f"{labels[row.decided]} ({100.0 * row.decided_share:.0f} %)" if row.decided else ""
     return (
-        f"{row.quantity.replace('_', ' ')}{place}",
+        f"{quantity_text(row.quantity)}{place}",
         amount_text(row.measured, unit),
         error,
         _interval(row.prior, unit),

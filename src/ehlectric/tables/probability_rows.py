@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
-from ehlectric.bearing import FILMS, OF_TABLE
+from ehlectric.bearing import FILMS, is_factor
 from ehlectric.cases.input_keys import unit_of
 from ehlectric.quantities.formats import UNITS, scale_for, scale_of
 from ehlectric.quantities.rows import Row, Summary, value_at
@@ -51,7 +51,9 @@ def shares_of_spread(summary: Summary) -> Iterator[Row]:
         if index["total"] >= _LEAST_SHARE:
             name, _, remark = index["label"].partition(" (")
             within = "" if index["low"] is None else f", {input_range(index)}"
-            assumed = ", a usual range" if index["assumed"] and index["key"] != FILMS else ""
+            assumed = (
+                ", a usual range" if index["assumed"] and index["key"].partition(".")[0] != FILMS else ""
+            )
             note = f"{', ' + remark.removesuffix(')') if remark else ''}{assumed}"
             share = f"{readable(100.0 * index['total'], 2)} % of the spread"
             yield Row(f"{name}{within}", share, note=note, key=f"uncertainty.indices.{index['key']}")
@@ -74,7 +76,7 @@ def input_range(effect: Mapping[str, Any]) -> str:
     '12 to 18 V/µm'
     """
     low, high = (effect.get(f"{end}_input", effect.get(end)) for end in ("low", "high"))
-    ends, unit = (low, high), "" if effect["key"] in (OF_TABLE, FILMS) else unit_of(effect["key"])
+    ends, unit = (low, high), "" if is_factor(effect["key"]) else unit_of(effect["key"])
     scale = _SCALES.get(unit) or scale_for(max(map(abs, ends)), unit)
     low, high = (readable(scale.of(end), 4) for end in ends)
     return f"{low} to {high} {scale.unit}".rstrip()

@@ -12,6 +12,7 @@ import numpy as np
 from ehlectric.app.charts.plotly_panels import INK, axis, plot, vertical
 from ehlectric.app.view_models import Figure
 from ehlectric.calibration import Calibration, Compared
+from ehlectric.cases.measurements import quantity_text
 from ehlectric.quantities.palette import BLUE, LIGHT_GREY, ORANGE
 
 # Height of a row, and of what surrounds the rows [px].
@@ -81,7 +82,7 @@ def compared_figure(result: Calibration) -> Figure:
 
 def _name(row: Compared) -> str:
     line = "" if row.line is None else f", line {row.line}"
-    return f"{row.quantity.replace('_', ' ')}{line}"
+    return f"{quantity_text(row.quantity)}{line}"
 
 
 def _ratios(row: Compared, ends: Iterable[float]) -> list[float]:
