@@ -259,9 +259,9 @@ def _margin(solution: AxleSolution, strength: float) -> float:
 
 
 def _steps(case: AxleCase, each: UncertainKey, value: float) -> dict[int, dict[str, float]]:
-    """Values of the keys of single bearings at a value of an input, by the number of the bearing.
+    """Values of the keys of single bearings by their number, at a value of an input.
 
-    Heights of summits are a key of all bearings, except of those with another height.
+    Heights of summits are a key of all bearings, except of bearings with another height.
     """
     stepped = each.values(value)
     if each.change.key != _OF_BEARINGS:

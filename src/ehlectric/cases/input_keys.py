@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import cache, lru_cache
-from typing import Any
+from typing import Any, get_args, get_origin
 
 from pydantic.fields import FieldInfo
 
@@ -51,8 +51,13 @@ _OF_AXLES = (("drive", "torque"),)
 def _tables_in(model: type[Table]) -> Iterator[type[Table]]:
     yield model
     for field in model.known_keys().values():
-        if inner := table_of(field.annotation):
+        if inner := table_of(_item_of(field.annotation)):
             yield from _tables_in(inner)
+
+
+def _item_of(annotation: Any) -> Any:
+    """Annotation of the values of tables by a name of the user; otherwise the given annotation."""
+    return get_args(annotation)[1] if get_origin(annotation) is dict else annotation
 
 
 def _files() -> Iterator[type[Table]]:

@@ -150,7 +150,7 @@ GEAR_POINTS = _points(GEAR_CYCLE, "'torque [N m]', 'capacitance [pF]' and 'uncer
 
 
 def axle_points(elements: Iterable[str], shafts: Iterable[str]) -> ColumnBook:
-    """Columns of a file of operating points of an axle with the given keys of elements and shafts."""
+    """Columns of a file of operating points of an axle; ``elements`` and ``shafts``, their keys."""
     quantities = {}
     for place, keys, names in (("elements", elements, OF_ELEMENTS), ("shafts", shafts, OF_SHAFTS)):
         for key, (name, known) in product(keys, names.items()):
