@@ -121,7 +121,7 @@ def test_a_file_of_operating_points_has_columns_of_elements_and_shafts():
             "uncertainty of capacitance of output_1 [pF]": ["", 15],
         }
     )
-    given = measured_points(table, points_of(two_stages(remedies=[])))
+    given = measured_points(None, points_of(two_stages(remedies=[])), table)
     assert [(value.quantity, value.point) for value in given.values] == [
         ("shafts.rotor.voltage", 0),
         ("elements.output_1.capacitance", 1),

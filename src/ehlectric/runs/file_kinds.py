@@ -76,7 +76,8 @@ def expect(path: Path, *kinds: FileKind) -> InputFile:
     kind = kind_of_tables(table) or kinds[0]
     if kind not in kinds:
         name, command = _NAMES[kind]
-        expected = " or ".join(dict.fromkeys(_NAMES[each][0] for each in kinds))
+        names = [*dict.fromkeys(_NAMES[each][0] for each in kinds)]
+        expected = " or ".join(filter(None, [", ".join(names[:-1]), names[-1]]))
         raise InputError(path, f"is {name}", takes=f"{expected}; solve it with: {_typed(command, path)}")
     return InputFile(path, table, kind)
 
