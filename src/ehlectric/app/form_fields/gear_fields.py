@@ -9,7 +9,6 @@ from typing import Any, Literal
 from ehlectric.app.form_fields.field import equal, given, group_of, unequal
 from ehlectric.app.form_fields.oil_fields import oil
 from ehlectric.app.page_inputs import Inputs, example_inputs
-from ehlectric.cases.mean_heights import rq_of
 from ehlectric.quantities.inputs import form, key_of_list
 from ehlectric.quantities.units import in_unit, rounded, split
 
@@ -98,6 +97,9 @@ def rq_of_flanks(inputs: Inputs) -> str | None:
     >>> rq_of_flanks(Inputs({"gear": {"flank_ra": ["0.3 um", "0.4 um"], "rq_over_ra": 1.2}}))
     '0.6 um'
     """
+    # The server loads no tables of cases before a roughness is changed.
+    from ehlectric.cases.mean_heights import rq_of
+
     ra, factor = inputs.value("gear.flank_ra"), inputs.value("gear.rq_over_ra")
     listed = [ra] if isinstance(ra, str) else ra if isinstance(ra, list) else []
     heights = [in_unit(str(height), "um") for height in listed]
