@@ -198,7 +198,7 @@ class AxleDesign:
             for kind in ("bearing", "mesh")
         )
         return cls(
-            case.model_copy(update={"ranges": None, "remedies": ()}),
+            case.model_copy(update={"ranges": None, "remedies": (), "measured": None}),
             tuple(
                 each
                 for each in changes
