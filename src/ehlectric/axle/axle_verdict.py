@@ -20,6 +20,9 @@ from ehlectric.quantities.statement import Fact, Statement
 from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import readable
 
+# Share of a variance whose prediction makes the shares of its inputs useful (engineering judgement).
+_PREDICTED = 0.5
+
 # Assumptions about all meshes, in words.
 _IF = {"always": "all meshes conduct", "never": "no mesh conducts"}
 
@@ -54,6 +57,10 @@ class _Probable(Protocol):
     @property
     def chance(self) -> Chance:
         """Probability and interval as a verdict says them."""
+
+    @property
+    def predicted(self) -> float:
+        """Share of the variance of the margin that is predicted."""
 
     @property
     def elements(self) -> Sequence[_Chance]:
@@ -93,7 +100,10 @@ def axle_verdict(
     if uncertainty is not None:
         chance = uncertainty.chance
         level, code = chance.level, chance.code
-        doubts = (*chance.statements(), *_firsts(uncertainty))
+        # Shares in a variance that is hardly predicted recommend no measurement.
+        useful = uncertainty.predicted >= _PREDICTED
+        stated = (each for each in chance.statements() if useful or not each.code.startswith("measure"))
+        doubts = (*stated, *_firsts(uncertainty))
         known = None if chance.failed or math.isinf(chance.high) else (chance.low, chance.high)
         facts = (
             Fact("first.breakdown_voltage", limits[first]),

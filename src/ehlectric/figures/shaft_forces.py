@@ -111,7 +111,7 @@ def shaft_forces(result: AxleResult) -> Axes:
         most = max(abs(part) for each in forces for force in each.forces for part in force[:2])
         for way, ax in enumerate(panels[2 * row : 2 * row + 2]):
             _draw(ax, forces, way, _HIGH * most)
-            what = "radial forces below" if way == 0 else "axial forces along z below"
+            what = "radial forces below" if way == 0 else "axial forces on the shaft below"
             note(ax, 0.01, 0.98, f"{printable(shaft)}, along {'xy'[way]}; {what}", va="top", color=GREY)
     torque = result.case.drive.torque
     handles = [

@@ -259,7 +259,7 @@ def axle_rows(summary: Summary) -> Iterator[Row]:
         )
         if row["radial_load"] is not None:
             yield Row("radial load", row["radial_load"], "N")
-            yield Row("axial force along z", row["axial_load"], "N")
+            yield Row("axial force on the bearing, along z", row["axial_load"], "N")
         yield Row("lambda ratio", row["lambda_ratio"])
         yield Row("capacitance", row["capacitance"], "pF")
         if row["breakdown_voltage"] is not None:

@@ -31,7 +31,7 @@ def test_names_are_those_of_the_files(result):
 
 
 def test_remedies_have_a_cell_for_each_element():
-    """Each cell has U/V_b of the ranking; a dash stands for an element without a rank."""
+    """Each cell contains U/V_b of the ranking; a hybrid bearing does not break down, and has a dash."""
     result = solve_axle(two_stages(), probable=False)
     (ax,) = figure(result, "axle_remedies").axes
     columns = 1 + len(result.remedies)
@@ -42,6 +42,18 @@ def test_remedies_have_a_cell_for_each_element():
         ratio = dict(solution.ranking()).get(first)
         assert text.get_text() == ("–" if ratio is None else readable(ratio, 3))
     assert title_of(ax.figure)[0].startswith("Ring on the rotor: ")
+
+
+def test_remedies_name_elements_that_touch_or_conduct():
+    """Ground flanks touch at any voltage, and a mesh that is set to conduct has no voltage."""
+    rough = two_stages().replace(
+        {"mesh.1.gear.flank_ra": "0.3 um", "mesh.2.gear.contact.conduction": "always", "remedies": []}
+    )
+    (ax,) = figure(solve_axle(rough, probable=False), "axle_remedies").axes
+    names = [label.get_text() for label in ax.get_yticklabels()]
+    words = dict(zip(names, (text.get_text() for text in ax.texts), strict=True))
+    assert words["mesh of rotor and intermediate"] == "touches"
+    assert words["mesh of intermediate and output"] == "conducts"
 
 
 @pytest.mark.parametrize("case", [two_stages, lambda: AxleCase.from_toml(DATA / "axles" / "e_axle.toml")])
