@@ -100,7 +100,7 @@ def axle_verdict(
     if uncertainty is not None:
         chance = uncertainty.chance
         level, code = chance.level, chance.code
-        # Shares in a variance that is hardly predicted recommend no measurement.
+        # Without a prediction, the shares of a variance recommend no measurement.
         useful = uncertainty.predicted >= _PREDICTED
         stated = (each for each in chance.statements() if useful or not each.code.startswith("measure"))
         doubts = (*stated, *_firsts(uncertainty))

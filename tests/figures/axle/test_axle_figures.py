@@ -31,7 +31,7 @@ def test_names_are_those_of_the_files(result):
 
 
 def test_remedies_have_a_cell_for_each_element():
-    """Each cell contains U/V_b of the ranking; a hybrid bearing does not break down, and has a dash."""
+    """Each cell contains U/V_b of the ranking, or a word."""
     result = solve_axle(two_stages(), probable=False)
     (ax,) = figure(result, "axle_remedies").axes
     columns = 1 + len(result.remedies)
@@ -40,18 +40,21 @@ def test_remedies_have_a_cell_for_each_element():
     assert first == result.solution.ranking()[0][0]
     for text, solution in zip(ax.texts[:columns], (result.solution, *result.remedies), strict=True):
         ratio = dict(solution.ranking()).get(first)
-        assert text.get_text() == ("–" if ratio is None else readable(ratio, 3))
+        assert (
+            text.get_text() == readable(ratio, 3) if ratio is not None else not text.get_text()[:1].isdigit()
+        )
     assert title_of(ax.figure)[0].startswith("Ring on the rotor: ")
 
 
 def test_remedies_name_elements_that_touch_or_conduct():
     """Ground flanks touch at any voltage, and a mesh that is set to conduct has no voltage."""
     rough = two_stages().replace(
-        {"mesh.1.gear.flank_ra": "0.3 um", "mesh.2.gear.contact.conduction": "always", "remedies": []}
+        {"mesh.1.gear.flank_ra": "0.3 um", "mesh.2.gear.contact.conduction": "always"}
     )
     (ax,) = figure(solve_axle(rough, probable=False), "axle_remedies").axes
     names = [label.get_text() for label in ax.get_yticklabels()]
-    words = dict(zip(names, (text.get_text() for text in ax.texts), strict=True))
+    first_column = ax.texts[:: len(ax.texts) // len(names)]
+    words = dict(zip(names, (text.get_text() for text in first_column), strict=True))
     assert words["mesh of rotor and intermediate"] == "touches"
     assert words["mesh of intermediate and output"] == "conducts"
 
