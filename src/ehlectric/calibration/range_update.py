@@ -382,11 +382,13 @@ class _Compared:
         explains the measurement.
 
         The other inputs stay at the nearest prediction, or at the point of the design that is nearest without
-        one of the ``contradicting`` values.
+        one of the ``contradicting`` values. If no value contradicts the others, this is the value with the
+        largest residual.
         """
         values, errors = given_values(self.given), posterior.uncertainties
         starts = [posterior.nearest.at]
-        for place in contradicting:
+        largest = int(np.argmax(np.abs(posterior.residuals)))
+        for place in contradicting or ([largest] if values.size > 1 else []):
             others = np.arange(values.size) != place
             chi2 = chi_squares(posterior.prior_predictions[:, others], values[others], errors[others])
             starts.append(posterior.prior_at[int(np.argmin(chi2))])
