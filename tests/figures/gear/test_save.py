@@ -1,5 +1,6 @@
 """Figures of a gear pair: what they show, and what their titles state."""
 
+import itertools
 import math
 from typing import get_args
 
@@ -148,6 +149,18 @@ def test_films_far_below_the_summits_are_seen(helical):
     film, ratio = figure(helical, FILM).axes
     assert film.get_yscale() == ratio.get_yscale() == "log"
     assert "below the highest summits" in title_of(figure(helical, FILM))[0]
+
+
+def test_numbers_of_a_logarithmic_axis_do_not_touch():
+    """Films of a quarter to a half of the summits, which need about eight round numbers."""
+    case = spur_case(**{"gear.flank_ra": ["0.4 um"], "gear.contact.conduction": "never"})
+    drawn = figure(solve_gear(case, probable=False), FILM)
+    drawn.draw_without_rendering()
+    for ax in drawn.axes:
+        assert ax.get_yscale() == "log"
+        boxes = [label.get_window_extent() for label in ax.get_yticklabels() if label.get_text()]
+        assert len(boxes) > 2
+        assert all(low.y1 < high.y0 for low, high in itertools.pairwise(boxes))
 
 
 def test_the_map_of_a_flank_has_the_films_of_its_lines(helical):
