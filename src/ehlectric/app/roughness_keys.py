@@ -43,7 +43,7 @@ def value_of(key: RoughKey, text: str) -> str | int | float | bool | None:
 
     Examples
     --------
-    >>> value_of(FILE_KEYS[3], " 12 "), value_of(STEP_KEYS[1], "80 um"), value_of(STEP_KEYS[0], "none")
+    >>> value_of(FILE_KEYS[5], " 12 "), value_of(STEP_KEYS[1], "80 um"), value_of(STEP_KEYS[0], "none")
     (12, '80 um', None)
     """
     text = text.strip()

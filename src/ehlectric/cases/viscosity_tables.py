@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 from pydantic import model_validator
@@ -17,8 +17,10 @@ from ehlectric.cases.table import Table
 from ehlectric.errors import InputError, within
 from ehlectric.lubricant.law import is_many
 from ehlectric.lubricant.oil import RangeCheck
-from ehlectric.lubricant.viscosity_fit import ViscosityFit, fit_viscosity, fit_warnings
 from ehlectric.quantities.result_warnings import ResultWarning
+
+if TYPE_CHECKING:
+    from ehlectric.lubricant.viscosity_fit import ViscosityFit
 
 KEY = "viscosity_table"
 
@@ -51,6 +53,8 @@ class ViscosityTable(Table, book="lubricant.viscosity_table"):
         """Law of the table; ``law``, name of the viscosity law, None for any; ``reference``, reference
         temperature [K].
         """
+        from ehlectric.lubricant.viscosity_fit import fit_viscosity
+
         return fit_viscosity(self.pressure, self.temperature, self.viscosity, law, reference)
 
 
@@ -143,6 +147,8 @@ def table_check(
     """Check of the viscosity table of an oil with some parameters by name, SI units; None without a table."""
     if rows is None:
         return None
+    from ehlectric.lubricant.viscosity_fit import fit_warnings
+
     law = parameters["viscosity_law"] if fits_pressure(rows) else None
     reference = parameters.get("reference_temperature")
     fit = rows.fit(law, None if is_many(reference) else reference)
