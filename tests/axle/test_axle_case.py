@@ -251,3 +251,11 @@ def test_a_shaft_without_gears_needs_loads():
     with pytest.raises(InputError, match=r"bearing\.2\.radial_load"):
         AxleCase.from_dict(table)
     assert math.isclose(AxleCase.from_dict(ALONE).edge, 300.0)
+
+
+def test_faces_of_a_mesh_that_do_not_overlap_are_refused():
+    table = two_stages().to_dict()
+    table["mesh"][1]["at"] = [0.075, 0.125]
+    with pytest.raises(InputError, match=r"75 mm and 0.125 m.*one origin for all shafts") as refused:
+        AxleCase.from_dict(table)
+    assert refused.value.key == "mesh.2.at"

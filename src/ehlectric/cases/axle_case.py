@@ -545,7 +545,18 @@ class AxleCase(CaseFile, book="axle_file"):
         return self.adjustment_of(shaft)
 
     def _check_gears(self) -> None:
-        """Check that gears at one place of a shaft are one gear, which has two meshes."""
+        """Check that the faces of a mesh overlap, and that gears at one place of a shaft are one gear, which has
+        two meshes.
+        """
+        for place, mesh in enumerate(self.mesh, 1):
+            width = mesh.pair.gear.face_width
+            if abs(mesh.at[0] - mesh.at[1]) > 0.5 * width:
+                raise InputError(
+                    f"mesh.{place}.at",
+                    got=" and ".join(amount(at, "m") for at in mesh.at),
+                    takes=f"places at most half of the face width, {amount(width, 'm')}, apart, so that the "
+                    "faces overlap; z has one origin for all shafts",
+                )
         placed = [
             (name, at, mesh.pair.gear.face_width, _gear_of(mesh.pair.gear, number), place)
             for place, mesh in enumerate(self.mesh, 1)
