@@ -279,7 +279,7 @@ def test_a_lubricant_of_the_library_is_one_file(tmp_path, monkeypatch):
     monkeypatch.setattr(library, "_FOLDER", folder)
     case = Case.from_dict({"contact": PAPER_CONTACT, "lubricant": {"base": "thick"}})
     assert case.lubricant.viscosity == 0.4
-    with pytest.raises(InputError, match=r", thick; or no base"):
+    with pytest.raises(InputError, match=r", thick; for another grade"):
         Case.from_dict({"contact": PAPER_CONTACT, "lubricant": {"base": "tar"}})
 
 

@@ -131,7 +131,7 @@ def base_values(table: Any) -> dict[str, Any]:
     """
     if not isinstance(table, Mapping) or table.get("base") is None:
         return {}
-    otherwise = "; or no base: iso_vg and viscosity_index in [lubricant.temperature] describe another grade"
+    otherwise = "; for another grade of a base, add iso_vg and viscosity_index in [lubricant.temperature]"
     return library.lubricant(library_name(table["base"], library.lubricant_names(), otherwise=otherwise))
 
 
