@@ -545,7 +545,7 @@ class AxleCase(CaseFile, book="axle_file"):
         return self.adjustment_of(shaft)
 
     def _check_gears(self) -> None:
-        """Check that the faces of a mesh overlap, and that gears at one place of a shaft are one gear, which has
+        """Check that the faces of a mesh overlap, and that gears at one place of a shaft are one gear with
         two meshes.
         """
         for place, mesh in enumerate(self.mesh, 1):
