@@ -20,9 +20,6 @@ from ehlectric.quantities.statement import Fact, Statement
 from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import readable
 
-# Share of a variance whose prediction makes the shares of its inputs useful (engineering judgement).
-_PREDICTED = 0.5
-
 # Assumptions about all meshes, in words.
 _IF = {"always": "all meshes conduct", "never": "no mesh conducts"}
 
@@ -59,8 +56,8 @@ class _Probable(Protocol):
         """Probability and interval as a verdict says them."""
 
     @property
-    def predicted(self) -> float:
-        """Share of the variance of the margin that is predicted."""
+    def ranks_inputs(self) -> bool:
+        """Whether the shares of the inputs are good enough to recommend a measurement."""
 
     @property
     def elements(self) -> Sequence[_Chance]:
@@ -100,9 +97,8 @@ def axle_verdict(
     if uncertainty is not None:
         chance = uncertainty.chance
         level, code = chance.level, chance.code
-        # Without a prediction, the shares of a variance recommend no measurement.
-        useful = uncertainty.predicted >= _PREDICTED
-        stated = (each for each in chance.statements() if useful or not each.code.startswith("measure"))
+        ranked = uncertainty.ranks_inputs
+        stated = (each for each in chance.statements() if ranked or not each.code.startswith("measure"))
         doubts = (*stated, *_firsts(uncertainty))
         known = None if chance.failed or math.isinf(chance.high) else (chance.low, chance.high)
         facts = (

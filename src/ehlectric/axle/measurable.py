@@ -65,7 +65,7 @@ class _Probable:
     """Distribution of the margin of an axle, of which only the chance is known."""
 
     chance: Chance
-    predicted: float = 1.0  # the statements of the chance name no input by a polynomial
+    ranks_inputs: bool = True  # the calibration itself chooses the next measurement
     elements: tuple[ElementChance, ...] = ()
     deciding: None = None
 

@@ -71,7 +71,8 @@ _OF_AREA = "engineering judgement: the area of the measurement is known to a fac
 # Operating point of the case: no other inputs.
 _HERE: Mapping[str, float] = MappingProxyType({})
 
-# Share of the variance of r/(1 + r) whose prediction ends the refinement.
+# Share of the variance of r/(1 + r) whose prediction ends the refinement, and from which the shares of the
+# inputs recommend a measurement (engineering judgement).
 _PREDICTED = 0.5
 
 # Least share of the points at which both elements have a voltage and a breakdown voltage, so that their
@@ -136,6 +137,11 @@ class AxleUncertainty(Uncertainty):
 
     elements: tuple[ElementChance, ...] = field(kw_only=True)
     deciding: Deciding | None = field(kw_only=True)  # None if one element is the first at almost all points
+
+    @property
+    def ranks_inputs(self) -> bool:
+        """Whether the shares of the inputs are good enough to recommend a measurement."""
+        return self.predicted >= _PREDICTED
 
     def summary(self) -> dict[str, Any]:
         """Values as in the table ``uncertainty`` of summary.json, SI units."""

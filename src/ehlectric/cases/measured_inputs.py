@@ -43,8 +43,7 @@ class Measured(Table, book="measured"):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        if not self.values() and self.file is None:
-            raise InputError("file", "missing", takes="a file, or a measured value with its uncertainty")
+        _check_measured(self)
         return self
 
     def values(self) -> dict[str, tuple[float, float]]:
@@ -79,8 +78,7 @@ class AxleMeasured(Table, book="axle.measured"):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        if not self.values() and self.file is None:
-            raise InputError("file", "missing", takes="a file, or a measured value with its uncertainty")
+        _check_measured(self)
         return self
 
     def values(self) -> dict[str, tuple[float, float]]:
@@ -93,6 +91,12 @@ class AxleMeasured(Table, book="axle.measured"):
             for name, text in table.model_dump(exclude_none=True).items()
         }
         return {name: value_and_uncertainty(name, text, calibrated(name)) for name, text in texts.items()}
+
+
+def _check_measured(table: Measured | AxleMeasured) -> None:
+    """Refuse a table [measured] without a value and without a file."""
+    if not table.values() and table.file is None:
+        raise InputError("file", "missing", takes="a file, or a measured value with its uncertainty")
 
 
 @dataclass(frozen=True)
