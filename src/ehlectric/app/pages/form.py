@@ -258,10 +258,11 @@ class Form:
         """Sentence on the further inputs that changed."""
         fields = {field.key: field for field, _ in self._controls}
         labels = {key: field.label for key, field in fields.items()}
-        lists = {list_of(key) for key in fields} - labels.keys()
-        entries = {key: input_at(end_and_key(key)[1]) for key in lists}
-        labels |= {key: capital(entry.label) for key, entry in entries.items() if entry is not None}
         old, new = self._flat(before), self._flat(after)
+        # Lists of several fields, and inputs that only files contain.
+        others = {*(list_of(key) for key in fields), *(old.keys() ^ new.keys())} - labels.keys()
+        entries = {key: input_at(end_and_key(key)[1]) for key in others}
+        labels |= {key: capital(entry.label) for key, entry in entries.items() if entry is not None}
 
         def other(key: str) -> bool:
             return not any(
