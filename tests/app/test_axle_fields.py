@@ -13,9 +13,13 @@ from ehlectric.app.form_fields.axle_fields import (
     without_table,
 )
 from ehlectric.app.form_fields.field_rules import changed
+from ehlectric.app.form_fields.measured_fields import measured_fields
 from ehlectric.app.pages.frame import AXLE
 from ehlectric.cases.axle_case import AxleCase
 from tests.helpers.each import each
+
+# Keys of the elements of the example.
+ELEMENTS = [f"{name}_{n}" for name in names_of(AXLE) for n in (1, 2)] + ["mesh_1", "mesh_2"]
 
 
 def test_every_element_has_a_group_with_its_fields():
@@ -54,9 +58,35 @@ def test_numbers_in_remedies_follow_a_removed_mesh():
     assert after.value("remedies") == [{"title": "1", "changes": {"mesh.1.gear.flank_ra": "1 um"}}]
 
 
+def test_measured_values_stay_with_their_elements():
+    """Keys of elements and shafts follow from names and numbers, as ``AxleCase`` makes them."""
+    values = {f"elements.{key}.capacitance": f"{n} pF +- 5 %" for n, key in enumerate(ELEMENTS, 1)}
+    values["shafts.output.voltage"] = "9 V +- 3 %"
+    inputs = AXLE.changed({f"measured.{key}": value for key, value in values.items()})
+
+    def capacitances(after):
+        AxleCase.from_written(after.table)
+        elements = after.value("measured.elements").items()
+        return {key: int(each["capacitance"].split()[0]) for key, each in elements}
+
+    renamed = changed(inputs, {"shaft.3.name": "wheel"})
+    assert capacitances(renamed)["wheel_2"] == capacitances(inputs)["output_2"] == 6
+    assert renamed.value("measured.shafts") == {"wheel": {"voltage": "9 V +- 3 %"}}
+    without = without_table(inputs, "bearing", 3).changed({"bearing.3.locating": True})
+    values_of_bearings = without.value("measured.elements")
+    assert values_of_bearings["intermediate_1"] == {"capacitance": "4 pF +- 5 %"}
+    assert "intermediate_2" not in values_of_bearings
+    assert capacitances(with_bearing(without, "intermediate"))["mesh_2"] == 8
+    short = without_shaft(inputs, 3)
+    assert {"output_1", "mesh_2"}.isdisjoint(short.value("measured.elements"))
+    assert short.value("measured.shafts") is None
+
+
 @each(
     "changes",
     [
+        {"measured": "rotor"},
+        {"measured": {"elements": 1, "shafts": {"rotor": "9 V"}}},
         {"shaft": [1, "rotor"]},
         {"shaft": "rotor"},
         {"bearing": [{}, 3]},
@@ -70,6 +100,7 @@ def test_inputs_of_anybody_have_groups(changes):
     inputs = AXLE.changed(changes)
     for group in axle_groups(inputs):
         summary_of(inputs, group.title)
+    measured_fields("axle", inputs)
     other_inputs(inputs)
     remedy_presets(inputs)
     with_link(without_table(inputs, "mesh", 1))

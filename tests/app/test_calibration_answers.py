@@ -3,10 +3,13 @@
 import pytest
 
 import ehlectric
+from ehlectric.app.compute.answer_parts import run_case_of
 from ehlectric.app.compute.calibration_answers import calibrated, checked
-from ehlectric.app.form_fields.field import form_data
 from ehlectric.app.form_fields.measured_fields import measured_fields, with_uncertainty, with_value
-from ehlectric.app.page_inputs import Inputs, example_inputs
+from ehlectric.app.page_inputs import Inputs
+from ehlectric.app.pages.frame import AXLE, BEARING, DRIVE, GEAR
+from ehlectric.calibration.models import model_of
+from ehlectric.cases.axle_keys import name_of_quantity
 from ehlectric.cases.measurements import CALIBRATED
 from ehlectric.errors import InputError
 from ehlectric.quantities.rows import value_at
@@ -14,27 +17,19 @@ from ehlectric.quantities.units import in_unit
 from ehlectric.runtime.progress import silent
 from tests.helpers.each import each
 
-START = {"bearing": "bearing_6208", "drive": "drive", "gear": "gear_pair"}
+START = {"bearing": BEARING, "drive": DRIVE, "gear": GEAR, "axle": AXLE}
 
 
 def tables(kind, **measured):
-    return dict(example_inputs(START[kind]).changed({"measured": measured}).table)
+    return dict(START[kind].changed({"measured": measured}).table)
 
 
 @each("kind", START)
 def test_a_page_offers_quantities_that_the_model_of_its_kind_computes(kind):
-    offered = form_data("measured")[kind]
-    cases = {
-        "bearing": (ehlectric.BearingCase, "bearing"),
-        "drive": (ehlectric.DriveCase, "drive"),
-        "gear": (ehlectric.GearCase, "gear"),
-    }
-    case_type, _ = cases[kind]
-    case = case_type.from_toml(ehlectric.example(f"{START[kind]}.toml"))
-    from ehlectric.calibration.models import model_of
-
+    case = run_case_of(START[kind].table, None)
+    offered = measured_fields(kind, START[kind])
     assert set(offered) == set(model_of(case).quantities)
-    assert set(offered) <= set(CALIBRATED)
+    assert {*map(name_of_quantity, offered)} <= set(CALIBRATED)
 
 
 @each(
@@ -49,14 +44,35 @@ def test_a_page_offers_quantities_that_the_model_of_its_kind_computes(kind):
     ],
 )
 def test_a_typed_value_has_the_unit_of_its_field_and_the_usual_uncertainty(name, typed, expected):
-    field = measured_fields("bearing")[name]
+    field = measured_fields("bearing", Inputs())[name]
     text = with_value(Inputs(), name, field, typed)
     assert text == expected
     assert checked(tables("bearing", **{name: text})) == "1 measured value at 1 operating point."
 
 
+@each(
+    "name, typed, expected",
+    [
+        ("elements.rotor_1.capacitance", "250", "250 pF +- 5 %"),
+        ("elements.mesh_2.conducting_share", "0.1", "0.1 +- 0.02"),
+        ("shafts.output.voltage", "10", "10 V +- 3 %"),
+    ],
+)
+def test_a_measured_value_of_an_axle_belongs_to_an_element_or_a_shaft(name, typed, expected):
+    field = measured_fields("axle", AXLE)[name]
+    text = with_value(AXLE, name, field, typed)
+    assert text == expected
+    table = dict(AXLE.changed({field.key: text}).table)
+    assert checked(table) == "1 measured value at 1 operating point."
+
+
+def test_names_of_shafts_with_other_letters_make_keys_in_quotes():
+    inputs = AXLE.changed({"shaft.1.name": "größe 1"})
+    assert measured_fields("axle", inputs)['shafts."größe_1".voltage'].label == "Voltage of the shaft größe 1"
+
+
 def test_a_value_without_an_uncertainty_is_refused_by_its_key():
-    field = measured_fields("bearing")["capacitance"]
+    field = measured_fields("bearing", Inputs())["capacitance"]
     inputs = Inputs({"measured": {"capacitance": "250 pF +- 5 %"}})
     text = with_uncertainty(inputs, "capacitance", field, "")
     assert text == "250 pF"

@@ -94,3 +94,25 @@ def test_what_nothing_explains_and_what_is_wrong_is_stated(open_page, app_server
     assert page.get_by_test_id("calibrate").is_disabled()
     page.get_by_test_id("remove-measured-capacitance").click()
     page.get_by_test_id("calibration").wait_for(state="hidden")
+
+
+@pytest.mark.slow
+def test_measured_values_of_an_axle_name_their_element_and_update_its_inputs(open_page, app_server):
+    page = open_page(app_server, "/axle")
+    page.locator("[data-testid=answer][data-whole=true][aria-busy=false]").wait_for()
+    add(page, "shafts.rotor.voltage", "13")
+    assert page.get_by_label("Voltage of the shaft rotor", exact=True).input_value() == "13 V"
+    # A shaft with another name keeps its measured value.
+    page.get_by_test_id("group-shaft-rotor").locator("summary").first.click()
+    type_into(page, "shaft.1.name", "motor shaft")
+    wait_for_address(page, "measured.shafts.motor_shaft.voltage=13 V +- 3 %")
+    add(page, "elements.motor_shaft_1.capacitance", "240")
+    assert page.get_by_label("Capacitance of bearing 1 of motor shaft", exact=True).input_value() == "240 pF"
+    calibrate(page, explained=True)
+    tables = page.get_by_test_id("calibration-tables")
+    tables.locator("summary").first.click()
+    tables.get_by_text("Temperature of the oil").first.wait_for()
+    # The inputs with the updated ranges are a valid axle again.
+    page.get_by_test_id("use-calibrated").click()
+    page.locator("[data-testid=answer][data-whole=true][aria-busy=false]").wait_for()
+    assert not page.get_by_test_id("notice").is_visible()

@@ -83,14 +83,14 @@ class Inputs:
         import tomli_w
 
         # A range stands on one line: tables with headings would have to follow the lists of values.
-        lines = [f"{_dotted(names)} = {_toml(value)}" for names, value in _varied(self)]
+        lines = [f"{dotted_key(names)} = {_toml(value)}" for names, value in _varied(self)]
         rest = {key: value for key, value in self.table.items() if key != "vary" or not lines}
         text: str = tomli_w.dumps(rest)
         return text + "\n".join(["", "[vary]", *lines, ""]) if lines else text
 
     def flat(self) -> dict[str, Any]:
         """Values by dotted key; lists of tables are values, and names with dots stand in quotes."""
-        return {_dotted(names): value for names, value in _leaves(self.table)}
+        return {dotted_key(names): value for names, value in _leaves(self.table)}
 
     def address(self) -> str:
         """Query of an address that holds these inputs."""
@@ -323,7 +323,7 @@ def _leaves(table: Mapping[str, Any], whole: Collection[str] = ()) -> Iterator[t
             yield [name], value
 
 
-def _dotted(names: list[str]) -> str:
+def dotted_key(names: Iterable[str]) -> str:
     """Dotted key of names; a name with dots stands in quotes."""
     return ".".join(map(_name, names))
 

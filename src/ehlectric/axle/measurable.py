@@ -45,7 +45,7 @@ from ehlectric.bearing import (
     solved_parts,
 )
 from ehlectric.cases.axle_case import AxleCase, changed_bearings
-from ehlectric.cases.measurements import OF_ELEMENTS, OF_SHAFTS
+from ehlectric.cases.axle_keys import OF_ELEMENTS, OF_SHAFTS
 from ehlectric.discharge.breakdown_rule import Chance
 from ehlectric.gear import capacitances_over_films, reference_area_of
 from ehlectric.quantities.lubrication_states import CONDUCTS

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
@@ -28,6 +27,7 @@ from ehlectric.cases.axle_inputs import (
     Shaft,
     SharedKeys,
 )
+from ehlectric.cases.axle_keys import element_keys, shaft_keys
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.bearing_inputs import Bearing, base_of, typed_base
 from ehlectric.cases.bearing_kinds import KINDS_OF_BEARINGS
@@ -217,23 +217,13 @@ class AxleCase(CaseFile, book="axle_file"):
 
         A bearing has the key "SHAFT_NUMBER", and a mesh the key "mesh_NUMBER".
         """
-        names = [*self.names_of_bearings(), *self.names_of_meshes()]
-        keys = [
-            f"{_plain(bearing.shaft)}_{self.bearings_of(bearing.shaft).index(number) + 1}"
-            for number, bearing in enumerate(self.bearing)
-        ]
-        meshes = [f"mesh_{number}" for number, _ in enumerate(self.mesh, 1)]
-        if len({*keys, *meshes}) < len(names):
-            keys = [f"bearing_{number}" for number, _ in enumerate(self.bearing, 1)]
-        return dict(zip([*keys, *meshes], names, strict=True))
+        keys = element_keys([bearing.shaft for bearing in self.bearing], len(self.mesh))
+        return dict(zip(keys, [*self.names_of_bearings(), *self.names_of_meshes()], strict=True))
 
     def keys_of_shafts(self) -> dict[str, str]:
         """Return the names of shafts by their keys in the tables of a sweep."""
         names = [shaft.name for shaft in self.shaft]
-        keys = [*map(_plain, names)]
-        if len(set(keys)) < len(keys):
-            keys = [f"shaft_{number}" for number, _ in enumerate(names, 1)]
-        return dict(zip(keys, names, strict=True))
+        return dict(zip(shaft_keys(names), names, strict=True))
 
     def bearing_case(self, number: int, speed: float, radial: float, axial: float) -> BearingCase:
         """Case of a bearing at a speed [rad/s] and loads [N]."""
@@ -794,17 +784,6 @@ def _gear_of(gear: Gear, number: int) -> dict[str, float]:
         "normal_pressure_angle": gear.normal_pressure_angle,
         "helix_angle": -helix if mirrored else helix,
     }
-
-
-def _plain(name: str) -> str:
-    """Name with letters, digits and underscores only.
-
-    Examples
-    --------
-    >>> _plain("shaft 2, left")
-    'shaft_2_left'
-    """
-    return re.sub(r"\W+", "_", name)
 
 
 def _ratio(mesh: AxleMesh) -> float:

@@ -18,6 +18,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.cases.amounts import Amount
+from ehlectric.cases.axle_keys import OF_ELEMENTS, OF_SHAFTS, name_of_quantity
 from ehlectric.errors import InputError, printable, short, shown
 from ehlectric.quantities import units
 from ehlectric.quantities.grouped_digits import doubt_of_column, readings
@@ -105,10 +106,6 @@ GEAR_CYCLE = ColumnBook.of("gear_duty", "'time [s]', 'speed [rpm]' and 'torque [
 # Quantities that a calibration compares, and the columns of a file with quantities at operating points.
 CALIBRATED = ColumnBook.of("calibration", "", 0).columns
 
-# Quantities of an element and of a shaft of an axle, with their names in ``CALIBRATED``.
-OF_ELEMENTS = {name: name for name in ("capacitance", "breakdown_voltage", "conducting_share")}
-OF_SHAFTS = {"voltage": "shaft_voltage"}
-
 
 def calibrated(quantity: str) -> Measurable:
     """Quantity that a calibration compares, by its name; in an axle with its element or shaft.
@@ -118,8 +115,7 @@ def calibrated(quantity: str) -> Measurable:
     >>> calibrated("elements.rotor_1.capacitance").usual, calibrated("shafts.rotor.voltage").usual
     ('pF', 'V')
     """
-    name = quantity.rpartition(".")[2]
-    return CALIBRATED[OF_SHAFTS.get(name, name)]
+    return CALIBRATED[name_of_quantity(quantity)]
 
 
 def quantity_text(quantity: str) -> str:

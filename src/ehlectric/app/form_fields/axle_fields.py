@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from copy import deepcopy
 from dataclasses import replace
 from typing import Any
@@ -23,11 +23,15 @@ from ehlectric.app.form_fields.field import (
 from ehlectric.app.form_fields.field_defaults import field_at
 from ehlectric.app.form_fields.gear_fields import GEAR_GROUPS
 from ehlectric.app.page_inputs import Inputs
+from ehlectric.cases.axle_keys import element_keys, shaft_keys
 from ehlectric.quantities.inputs import form
 from ehlectric.quantities.units import in_unit, rounded
 
 # Name of the node whose potential is 0.
 HOUSING = "housing"
+
+# Table of the measured values.
+MEASURED = "measured"
 
 # Lists of tables of an axle.
 LISTS = ("shaft", "bearing", "mesh", "link")
@@ -99,7 +103,7 @@ def shape_of(inputs: Inputs) -> tuple[Any, ...]:
     """What the groups of an axle depend on: its shafts, and the places of its bearings, meshes and links."""
     return (
         tuple(names_of(inputs)),
-        tuple(str(bearing.get("shaft", "")) for bearing in _tables(inputs, "bearing")),
+        tuple(_shafts_of_bearings(inputs)),
         tuple(_pair_of(mesh, "gears") for mesh in _tables(inputs, "mesh")),
         len(_tables(inputs, "link")),
     )
@@ -121,6 +125,32 @@ def axle_groups(inputs: Inputs) -> tuple[Group, ...]:
     groups += [_mesh_group(n, names) for n in range(1, len(_tables(inputs, "mesh")) + 1)]
     groups += [_link_group(n, [*names, HOUSING]) for n in range(1, len(_tables(inputs, "link")) + 1)]
     return (*groups, *_OF_MACHINE)
+
+
+def measured_places(inputs: Inputs) -> dict[str, dict[str, str]]:
+    """Keys of elements and shafts in the table [measured], with words that follow the label of a quantity.
+
+    Examples
+    --------
+    >>> axle = Inputs({"shaft": [{"name": "hollow shaft"}], "bearing": [{"shaft": "hollow shaft"}]})
+    >>> measured_places(axle)["elements"]
+    {'hollow_shaft_1': 'of bearing 1 of hollow shaft'}
+    """
+    names, bearings = names_of(inputs), _shafts_of_bearings(inputs)
+    meshes = range(1, len(_tables(inputs, "mesh")) + 1)
+    elements = [
+        *(f"of bearing {bearings[: n + 1].count(name)} of {name}" for n, name in enumerate(bearings)),
+        *(f"of {mesh_title(number).lower()}" for number in meshes),
+    ]
+    return {
+        "elements": dict(zip(element_keys(bearings, len(meshes)), elements, strict=True)),
+        "shafts": dict(zip(shaft_keys(names), names, strict=True)),
+    }
+
+
+def _shafts_of_bearings(inputs: Inputs) -> list[str]:
+    """Name of the shaft of each bearing."""
+    return [str(bearing.get("shaft", "")) for bearing in _tables(inputs, "bearing")]
 
 
 def shaft_title(name: str) -> str:
@@ -291,8 +321,60 @@ def fitted_axle(before: Inputs, after: Inputs) -> Inputs:
         if len(changed) == 1 and changed[0][1] not in old and changed[0][1]:
             after = _renamed(after, *changed[0])
     after = _fitted_to_time(before, after)
+    if before.value(MEASURED) == after.value(MEASURED):
+        after = _with_measured(before, after)
     after = _single(before, after, "shaft", "rotor", lambda _: "")
     return _single(before, after, "bearing", "locating", lambda table: str(table.get("shaft", "")))
+
+
+def _with_measured(before: Inputs, after: Inputs, removed: Collection[tuple[str, int]] = ()) -> Inputs:
+    """Inputs whose measured values have the present keys of their elements and shafts.
+
+    ``removed`` contains the lists and numbers, from 1, of the tables that ``after`` lacks.
+
+    Examples
+    --------
+    >>> before = Inputs({"shaft": [{"name": "a"}], "bearing": [{"shaft": "a"}, {"shaft": "a"}]})
+    >>> before = before.changed({"measured.elements.a_2.capacitance": "90 pF +- 5 %"})
+    >>> without_table(before, "bearing", 1).value("measured")
+    {'elements': {'a_1': {'capacitance': '90 pF +- 5 %'}}}
+    """
+    measured = after.value(MEASURED)
+    if not isinstance(measured, Mapping):
+        return after
+    old, new = _keys_of_tables(before), _keys_of_tables(after)
+    table = dict(measured)
+    for place, keys in old.items():
+        given = measured.get(place)
+        if not isinstance(given, Mapping):
+            continue
+        now = {
+            key: new[place].get((name, n - sum(other == name and m < n for other, m in removed)), key)
+            for (name, n), key in keys.items()
+            if (name, n) not in removed
+        }
+        unknown = given.keys() - {*keys.values()}
+        table[place] = {
+            now.get(key, key): each for key, each in given.items() if key in now or key in unknown
+        }
+    table = {key: value for key, value in table.items() if value != {}}
+    return after if table == measured else after.changed({MEASURED: table or None})
+
+
+def _keys_of_tables(inputs: Inputs) -> dict[str, dict[tuple[str, int], str]]:
+    """Keys of elements and of shafts in the table of measured values, by list and number from 1."""
+    places = measured_places(inputs)
+    tables = {"elements": ("bearing", "mesh"), "shafts": ("shaft",)}
+    return {
+        place: dict(
+            zip(
+                [(name, n) for name in names for n in range(1, len(_tables(inputs, name)) + 1)],
+                places[place],
+                strict=True,
+            )
+        )
+        for place, names in tables.items()
+    }
 
 
 def _fitted_to_time(before: Inputs, after: Inputs) -> Inputs:
@@ -405,18 +487,19 @@ def _next_to(place: Any, mesh: Mapping[str, Any]) -> Any:
 
 def without_shaft(inputs: Inputs, number: int) -> Inputs:
     """Inputs without a shaft, by its number from 1, and without its bearings, meshes, links and remedies."""
-    name = names_of(inputs)[number - 1]
+    name, bearings = names_of(inputs)[number - 1], _shafts_of_bearings(inputs)
     meshes = _tables(inputs, "mesh")
     lost = [n for n, mesh in enumerate(meshes, 1) if name in _pair_of(mesh, "gears")]
     for n in reversed(lost):
         inputs = without_table(inputs, "mesh", n)
+    removed = [("shaft", number), *(("bearing", n) for n, shaft in enumerate(bearings, 1) if shaft == name)]
     changes: dict[str, Any] = {
         f"shaft.{number}": None,
         "bearing": [each for each in _tables(inputs, "bearing") if each.get("shaft") != name] or None,
         "link": [each for each in _tables(inputs, "link") if name not in _pair_of(each, "between")] or None,
         "remedies": [each for each in _tables(inputs, "remedies") if not _refers(each, name)] or None,
     }
-    return inputs.changed(changes)
+    return _with_measured(inputs, inputs.changed(changes), removed)
 
 
 def _refers(remedy: Mapping[str, Any], name: str) -> bool:
@@ -447,7 +530,8 @@ def without_table(inputs: Inputs, name: str, number: int) -> Inputs:
             changes[key] = value
         if changes:
             remedies.append({**remedy, "changes": changes})
-    return inputs.changed({f"{name}.{number}": None, "remedies": remedies or None})
+    after = inputs.changed({f"{name}.{number}": None, "remedies": remedies or None})
+    return _with_measured(inputs, after, [(name, number)])
 
 
 def with_bearing(inputs: Inputs, shaft: str) -> Inputs:

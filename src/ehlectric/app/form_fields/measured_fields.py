@@ -6,51 +6,75 @@ from collections.abc import Mapping
 from functools import cache
 from typing import Any
 
+from ehlectric.app.form_fields.axle_fields import MEASURED, measured_places
 from ehlectric.app.form_fields.field import Field, form_data
-from ehlectric.app.page_inputs import Inputs
+from ehlectric.app.page_inputs import Inputs, dotted_key
+from ehlectric.cases.axle_keys import name_of_quantity
 from ehlectric.quantities.field_help import help_text
 from ehlectric.quantities.inputs import input_at
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.units import rounded, split
 from ehlectric.readable import capital
 
-# Table of the measured values, and key of a file of operating points.
-MEASURED, MEASURED_FILE = "measured", "measured.file"
+# Key of a file of operating points.
+MEASURED_FILE = f"{MEASURED}.file"
 
 _SIGNS = ("+-", "±")
 
 
-@cache
-def measured_fields(kind: str) -> Mapping[str, Field]:
+def has_measured(kind: str) -> bool:
+    """Whether a page of a ``kind`` offers fields of measured values."""
+    return kind in form_data("measured")
+
+
+def measured_fields(kind: str, inputs: Inputs) -> Mapping[str, Field]:
     """Fields of the measured values of a page of a ``kind`` by their names; none for a page without them.
+
+    The fields of an axle depend on its shafts, bearings and meshes.
 
     Examples
     --------
-    >>> list(measured_fields("gear")), measured_fields("gear")["capacitance"].unit
+    >>> list(measured_fields("gear", Inputs())), measured_fields("gear", Inputs())["capacitance"].unit
     (['capacitance', 'breakdown_voltage', 'conducting_share'], 'pF')
+    >>> axle = Inputs({"shaft": [{"name": "rotor"}], "bearing": [{"shaft": "rotor"}]})
+    >>> list(measured_fields("axle", axle))[::3], measured_fields("axle", axle)["shafts.rotor.voltage"].label
+    (['elements.rotor_1.capacitance', 'shafts.rotor.voltage'], 'Voltage of the shaft rotor')
     """
-    return {name: _field(name) for name in form_data("measured").get(kind, ())}
+    offered = form_data("measured").get(kind, ())
+    if not isinstance(offered, Mapping):
+        return {name: _field(name) for name in offered}
+    fields = (
+        _field(dotted_key([place, key, name]), f"axle.{MEASURED}.{place}.{name}", text)
+        for place, named in measured_places(inputs).items()
+        for key, text in named.items()
+        for name in offered[place]
+    )
+    return {field.key.removeprefix(f"{MEASURED}."): field for field in fields}
 
 
-def _field(name: str) -> Field:
-    key, entry = f"{MEASURED}.{name}", input_at(f"{MEASURED}.{name}")
+@cache
+def _field(name: str, of_book: str = "", element: str = "") -> Field:
+    """Field of a measured value; ``of_book``, key of its entry in the book if it differs from its own key."""
+    known = of_book or f"{MEASURED}.{name}"
+    entry = input_at(known)
     assert entry is not None
     about = _column(name)
     unit = about["usual"] if about["unit"] else ""
-    return Field(key, capital(entry.label), unit, help=help_text(key))
+    label = capital(" ".join(filter(None, [entry.label, element])))
+    return Field(f"{MEASURED}.{name}", label, unit, help=help_text(known))
 
 
 def _column(name: str) -> Mapping[str, Any]:
     columns: Mapping[str, Mapping[str, Any]] = data_file("ehlectric.quantities", "measured_columns.toml")[
         "calibration"
     ]
-    return columns[name]
+    return columns[name_of_quantity(name)]
 
 
-def measured_keys(kind: str) -> tuple[str, ...]:
+def measured_keys(kind: str, inputs: Inputs) -> tuple[str, ...]:
     """Keys of the measured values of a page of a ``kind``; none for a page without them."""
-    fields = measured_fields(kind)
-    return (*(field.key for field in fields.values()), MEASURED_FILE) if fields else ()
+    fields = measured_fields(kind, inputs)
+    return (*(field.key for field in fields.values()), MEASURED_FILE) if has_measured(kind) else ()
 
 
 def measured_text(inputs: Inputs, name: str) -> tuple[str, str]:
@@ -72,7 +96,7 @@ def with_value(inputs: Inputs, name: str, field: Field, text: str) -> str | None
 
     Examples
     --------
-    >>> field = measured_fields("bearing")["capacitance"]
+    >>> field = measured_fields("bearing", Inputs())["capacitance"]
     >>> with_value(Inputs(), "capacitance", field, "250")
     '250 pF +- 5 %'
     """
@@ -89,7 +113,7 @@ def with_uncertainty(inputs: Inputs, name: str, field: Field, text: str) -> str:
     Examples
     --------
     >>> inputs = Inputs({"measured": {"outer_ring_temperature": "74 degC +- 1 K"}})
-    >>> field = measured_fields("bearing")["outer_ring_temperature"]
+    >>> field = measured_fields("bearing", Inputs())["outer_ring_temperature"]
     >>> with_uncertainty(inputs, "outer_ring_temperature", field, "2")
     '74 degC +- 2 K'
     """

@@ -14,7 +14,7 @@ from nicegui import ui
 
 from ehlectric.app.calls import Call
 from ehlectric.app.form_fields.field import Group
-from ehlectric.app.form_fields.measured_fields import measured_fields, measured_keys
+from ehlectric.app.form_fields.measured_fields import has_measured, measured_keys
 from ehlectric.app.latest_answer import LatestAnswer
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.downloads import Downloads
@@ -119,10 +119,8 @@ class AnswerPage(Generic[A]):
             with ui.element("div").classes("inputs"):
                 self.build_form()
                 self.build_boxes()
-                if measured_fields(self.kind):
-                    self._measured = MeasuredBox(
-                        self.session, self.kind, self.form.take, self._show_calibration
-                    )
+                if has_measured(self.kind):
+                    self._measured = MeasuredBox(self.session, self.kind, self._take, self._show_calibration)
             with ui.element("section").classes("answer").props('aria-label="Answer"'):
                 self._build_answer()
 
@@ -145,7 +143,8 @@ class AnswerPage(Generic[A]):
 
     def build_form(self) -> None:
         """Build the form."""
-        inputs, elsewhere = self.session.inputs, (*self.elsewhere, *measured_keys(self.kind))
+        inputs = self.session.inputs
+        elsewhere = (*self.elsewhere, *measured_keys(self.kind, inputs))
         self.form = Form(self.groups, inputs, self.change, elsewhere=elsewhere, first=self.first)
 
     def folder(self) -> Path | None:
@@ -176,6 +175,10 @@ class AnswerPage(Generic[A]):
         """Show the present inputs in the form and in the address, and answer them."""
         self.form.set(self.session.inputs)
         self._answer_again()
+
+    async def _take(self, changes: dict[str, Any]) -> None:
+        """Take over changed inputs through the present form, which a page may build again."""
+        await self.form.take(changes)
 
     def _show_calibration(self, answer: CalibrationAnswer | None, state: str) -> None:
         self._calibration.show(answer, state)

@@ -31,6 +31,7 @@ from ehlectric.app.form_fields.axle_fields import (
 )
 from ehlectric.app.form_fields.drive_fields import remedies_of, with_remedy, without_remedy
 from ehlectric.app.form_fields.field import form_data
+from ehlectric.app.form_fields.measured_fields import measured_keys
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.answer_page import AnswerPage, ProbableView
 from ehlectric.app.pages.file_field import UploadField
@@ -278,7 +279,14 @@ class AxlePage(AnswerPage[AxleAnswer]):
         self._shape = shape_of(inputs)
         self._place.clear()
         with self._place:
-            self.form = Form(axle_groups(inputs), inputs, self.change, first=self.first, listed=other_inputs)
+            self.form = Form(
+                axle_groups(inputs),
+                inputs,
+                self.change,
+                elsewhere=measured_keys(self.kind, inputs),
+                first=self.first,
+                listed=other_inputs,
+            )
         self._build_buttons()
         self._show_summaries()
 

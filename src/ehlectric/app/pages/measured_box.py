@@ -9,9 +9,9 @@ from typing import Any
 from nicegui import ui
 
 from ehlectric.app.calls import CALIBRATED, CALIBRATION_CHECKED
-from ehlectric.app.form_fields.field import in_field_unit, shown_text, written_text
+from ehlectric.app.form_fields.axle_fields import MEASURED
+from ehlectric.app.form_fields.field import Field, in_field_unit, shown_text, written_text
 from ehlectric.app.form_fields.measured_fields import (
-    MEASURED,
     MEASURED_FILE,
     measured_fields,
     measured_text,
@@ -69,10 +69,11 @@ class MeasuredBox:
         show: Callable[[CalibrationAnswer | None, str], None],
     ) -> None:
         self._session, self._change, self._show = session, change, show
-        self._fields = measured_fields(kind)
+        self._kind, self._fields = kind, measured_fields(kind, session.inputs)
         self._had = self._given  # whether the inputs that were shown last had measured values
         self._begun: list[str] = []  # quantities whose value is still to be typed
         self._rows: dict[str, tuple[Control, Control]] = {}
+        self._built: list[Field] = []  # fields of the rows
         self._results: dict[str, CalibrationAnswer] = {}
         self._running: Inputs | None = None
         self._checked: LatestAnswer[Inputs, str] = LatestAnswer(
@@ -131,10 +132,13 @@ class MeasuredBox:
         if self._given and not self._had:
             self._group.turn(opened=True)
         self._had = self._given
+        self._fields = measured_fields(self._kind, inputs)
         given = [name for name in self._fields if inputs.value(f"{MEASURED}.{name}") is not None]
         self._begun = [name for name in self._begun if name not in given]
         names = [name for name in self._fields if name in given or name in self._begun]
-        if names != [*self._rows]:
+        fields = [self._fields[name] for name in names]
+        if fields != self._built:
+            self._built = fields
             self._place.clear()
             with self._place:
                 self._rows = {name: self._row(name) for name in names}
@@ -226,7 +230,9 @@ class MeasuredBox:
         say(self._used, "")
         self._start.set_enabled(False)
         key = getattr(error, "key", None) or ""
-        name = key.removeprefix(f"{MEASURED}.")
+        # A name of the inputs may have quotes, which the key of an error has not.
+        keys = {field.key.replace('"', ""): name for name, field in self._fields.items()}
+        name = keys.get(key, "")
         pair = self._rows.get(name)
         of_file = self._file is not None and str(self._session.path_of(self._file)) in str(error)
         if pair is not None and isinstance(error, InputError):
