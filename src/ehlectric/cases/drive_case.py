@@ -20,7 +20,7 @@ from ehlectric.cases.roughness_inputs import find_files
 from ehlectric.cases.table import CaseFile, Table, Title
 from ehlectric.cases.table_edits import displace, flattened, set_keys
 from ehlectric.errors import InputError, shown, within
-from ehlectric.quantities.alternatives import ALTERNATIVES
+from ehlectric.quantities.alternatives import ALTERNATIVES, DESCRIBED
 from ehlectric.quantities.formats import operating_point
 from ehlectric.quantities.inputs import BOTH as BOTH
 from ehlectric.quantities.inputs import ENDS as ENDS
@@ -140,9 +140,28 @@ class DriveCase(CaseFile, book="drive_file"):
             self.running_source  # noqa: B018
         return self
 
+    @property
+    def numbered_remedies(self) -> tuple[tuple[int, Remedy], ...]:
+        """Remedies that apply to the source and are computed, with their numbers in the file, from 1."""
+        return tuple(
+            (number, remedy)
+            for number, remedy in enumerate(self.remedies, 1)
+            if not self.described_changes(remedy)
+        )
+
+    def described_changes(self, remedy: Remedy) -> tuple[str, ...]:
+        """Dotted keys by which a remedy changes a described source, if the source of the drive is measured.
+
+        A remedy that also changes ``source.file`` has none: it replaces the source.
+        """
+        changes = flattened(remedy.changes)
+        if not self.source.measured or "source.file" in changes:
+            return ()
+        return tuple(key for name in DESCRIBED if (key := f"source.{name}") in changes)
+
     def variants(self) -> tuple[Self, ...]:
-        """Return changed copies of the drive, one for each of its remedies."""
-        return tuple(self._changed(number, remedy) for number, remedy in enumerate(self.remedies, 1))
+        """Return changed copies of the drive, one for each of ``numbered_remedies``."""
+        return tuple(self._changed(number, remedy) for number, remedy in self.numbered_remedies)
 
     def _changed(self, number: int, remedy: Remedy) -> Self:
         with within(f"remedies.{number}.changes"):

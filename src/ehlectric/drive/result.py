@@ -244,12 +244,16 @@ def solve_drive(
     solution = solve(case, next(parts), workers=workers)
     remedies = tuple(
         (remedy.title, dict(remedy.changes), solve(variant, next(parts), workers=workers))
-        for remedy, variant in zip(case.remedies, variants, strict=True)
+        for (_, remedy), variant in zip(case.numbered_remedies, variants, strict=True)
     )
+    numbers = (number for number, _ in case.numbered_remedies)
     duty, *others = _duties(
         [
-            (case, solution),
-            *((remedy, solved) for remedy, (*_, solved) in zip(variants, remedies, strict=True)),
+            (0, case, solution),
+            *(
+                (number, variant, solved)
+                for number, variant, (*_, solved) in zip(numbers, variants, remedies, strict=True)
+            ),
         ],
         partial(solve, workers=workers),
         parts,
@@ -259,12 +263,14 @@ def solve_drive(
 
 
 def _duties(
-    drives: Sequence[tuple[DriveCase, DriveSolution]],
+    drives: Sequence[tuple[int, DriveCase, DriveSolution]],
     solve: Callable[[DriveCase], DriveSolution],
     parts: Iterator[Progress],
 ) -> Iterator[DriveDuty | None]:
-    """Duty cycle of a drive, and of each remedy; None without one."""
-    for number, (case, solution) in enumerate(drives):
+    """Duty cycle of a drive with the number 0, and of each remedy with its number in the file; None without a
+    cycle.
+    """
+    for number, case, solution in drives:
         if case.duty is None:
             yield None
             continue

@@ -179,7 +179,7 @@ def parts_of(dataset: xr.Dataset) -> tuple[DriveSolution, Remedies, float, str]:
     ]
     remedies = tuple(
         (remedy.title, dict(remedy.changes), solved)
-        for remedy, solved in zip(case.remedies, solutions[1:], strict=True)
+        for (_, remedy), solved in zip(case.numbered_remedies, solutions[1:], strict=True)
     )
     return solutions[0], remedies, number_of(attributes, "seconds"), text_of(attributes, "version")
 

@@ -168,7 +168,7 @@ def checked_summary(ready: PreparedDrive) -> dict[str, Any]:
             ENDS, ready.elements, ready.divider, ready.bearings, strict=True
         )
     }
-    drive = {"duration": ready.duration, "remedies": len(case.remedies)}
+    drive = {"duration": ready.duration, "remedies": len(case.numbered_remedies)}
     return {**_tables(case, highest, drive, ends), "inputs": case.all_inputs()}
 
 

@@ -67,7 +67,10 @@ def _of_bearing(result: BearingResult) -> Iterator[ResultWarning]:
 
 
 def machine_warnings(case: DriveCase, bearings: Sequence[BearingElement]) -> Iterator[ResultWarning]:
-    """Note of capacitances that follow from the geometry of the machine, and warning of its oscillations."""
+    """Notes about remedies that are not computed, and about capacitances that follow from the geometry of the
+    machine; warning about its oscillations.
+    """
+    yield from _of_remedies(case)
     circuit = case.circuit
     if circuit.estimated:
         values = ", ".join(
@@ -79,6 +82,13 @@ def machine_warnings(case: DriveCase, bearings: Sequence[BearingElement]) -> Ite
     yield from _of_ring(case)
     yield from _of_oscillations(case, bearings)
     yield from _of_conduction(case, bearings)
+
+
+def _of_remedies(case: DriveCase) -> Iterator[ResultWarning]:
+    """Note of each remedy that changes a described source, while the source is measured."""
+    for remedy in case.remedies:
+        if keys := case.described_changes(remedy):
+            yield ResultWarning.of("remedy-not-applicable", title=remedy.title, keys=", ".join(keys))
 
 
 def _of_ring(case: DriveCase) -> Iterator[ResultWarning]:

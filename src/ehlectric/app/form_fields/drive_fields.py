@@ -137,6 +137,18 @@ def changes_of(inputs: Inputs, title: str) -> Mapping[str, Any] | None:
     return None if half is None else {SWITCHING: half}
 
 
+def is_applicable(inputs: Inputs, changes: Mapping[str, Any]) -> bool:
+    """Whether a remedy applies to the source: a measured one has no input that describes it.
+
+    Examples
+    --------
+    >>> is_applicable(Inputs({"source": {"file": "scope.csv"}}), {"source.switching_frequency": "5 kHz"})
+    False
+    """
+    measured = inputs.value("source.file") is not None and "source.file" not in changes
+    return not (measured and any(f"source.{key}" in changes for key in DESCRIBED))
+
+
 def with_remedy(inputs: Inputs, title: str, changes: Mapping[str, Any]) -> list[Any]:
     """List of the remedies with a further one."""
     return [*_remedies(inputs), {"title": title, "changes": dict(changes)}]
@@ -155,7 +167,8 @@ def with_fitted_remedies(before: Inputs, after: Inputs) -> Inputs:
     """Inputs whose remedy with half the switching frequency follows a new frequency."""
     old, new = before.value(SWITCHING), after.value(SWITCHING)
     remedies = _remedies(after)
-    if old == new or not remedies:
+    # A measured source has no frequency, and the remedy then keeps the frequency of the described one.
+    if old == new or new is None or not remedies:
         return after
     return after.changed(
         {"remedies": [_fitted(remedy, times(old, 0.5), times(new, 0.5)) for remedy in remedies]}

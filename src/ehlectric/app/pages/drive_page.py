@@ -13,6 +13,7 @@ from ehlectric.app.form_fields.drive_fields import (
     DRIVE_GROUPS,
     PRESETS,
     changes_of,
+    is_applicable,
     remedies_of,
     with_remedy,
     without_remedy,
@@ -41,6 +42,8 @@ _SUMMARY = "Further figures: voltages over time, spectrum, and what discharges a
 
 # Keys of the inputs that other parts of the page than its form show.
 REMEDIES, _FILE = "remedies", "source.file"
+
+NOT_APPLICABLE = "not applicable: the source is measured"
 
 
 class DriveView(AnswerView[DriveAnswer]):
@@ -117,16 +120,20 @@ class RemedyBox:
             changes = changes_of(self._session.inputs, title) if applied is None else applied
             place.set_visibility(changes is not None)
             box.set_value(applied is not None)
-            note.text = _text(changes or {})
+            note.text = _text(changes or {}) + self._remark(changes or {})
         self._others.clear()
         with self._others:
             for title, changes in given.items():
                 if title not in PRESETS:
                     removable(
-                        f"{title}: {_text(changes)}",
+                        f"{title}: {_text(changes)}{self._remark(changes)}",
                         f"the mitigation measure {title}",
                         partial(self._remove, title),
                     )
+
+    def _remark(self, changes: Mapping[str, Any]) -> str:
+        """Text behind the changes of a remedy that does not apply to the source."""
+        return "" if is_applicable(self._session.inputs, changes) else f" ({NOT_APPLICABLE})"
 
     def _preset(self, title: str) -> None:
         with ui.element("div").classes("remedy") as place:
