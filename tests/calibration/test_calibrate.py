@@ -15,7 +15,7 @@ from ehlectric.calibration import given_points
 from ehlectric.calibration.models import model_of
 from ehlectric.calibration.range_update import given_values
 from ehlectric.cases.measured_inputs import Measured, measured_points
-from ehlectric.cases.measurements import BEARING_POINTS
+from ehlectric.cases.measurements import BEARING_POINTS, CALIBRATED
 
 POINTS = pd.DataFrame(
     {
@@ -144,12 +144,108 @@ def test_what_nothing_explains_is_reported(bearing, measured, key, contradicting
     assert not calibration.explained
     assert calibration.case is None
     assert calibration.verdict.level == "grey"
-    assert calibration.unexplained.key == key
+    causes = {cause.key: cause for cause in calibration.unexplained.causes}
+    assert (key in causes) == bool(key)
     assert list(calibration.unexplained.contradicting) == contradicting
     if key:
         # The ring has the temperature of the oil.
-        assert calibration.unexplained.needed == pytest.approx(383.15, abs=0.5)
+        assert causes[key].needed == pytest.approx(383.15, abs=0.5)
+        assert causes[key].residual < 0.1
         assert calibration.rows[0].nearest == pytest.approx(353.15, abs=0.5)
+
+
+def _log(case, speeds, factor=1.0, parallel=0.0):
+    """Simulated log of an LCR meter: computed capacitances times a factor, in addition to others [F]."""
+    model = model_of(case)
+    middle = np.full((1, len(model.names())), 0.5)
+    points = [{"bearing.inner_speed": speed} for speed in speeds]
+    computed = model.numbers(middle, points, ("capacitance",))["capacitance"][0]
+    return pd.DataFrame(
+        {
+            "speed [rad/s]": speeds,
+            "capacitance [pF]": [f"{1e12 * (factor * c + parallel):.2f}" for c in computed],
+            "uncertainty of capacitance [%]": [2.0] * len(speeds),
+        }
+    )
+
+
+SPEEDS = [100.0, 200.0, 300.0, 400.0, 600.0]
+
+
+@pytest.mark.slow
+@pytest.mark.gate
+def test_a_capacitance_in_parallel_is_the_cause_of_too_large_capacitances(bearing):
+    """Simulated capacitances with 150 pF in parallel, which no input and no factor explains at all speeds;
+    without these 150 pF, and with them as an input, the measurement is explained.
+    """
+    log = _log(bearing, SPEEDS, parallel=150e-12)
+    calibration = ehlectric.calibrate(bearing, log)
+    (cause,) = calibration.unexplained.causes
+    assert (cause.kind, cause.key) == ("parallel", "capacitance")
+    low, high = cause.range
+    assert low < 150e-12 < high
+    assert cause.needed == pytest.approx(150e-12, rel=0.1)
+    assert cause.residual < 1.0
+    assert ehlectric.calibrate(bearing, log, background="150 pF").explained
+    stated = bearing.to_dict() | {"ranges": {"bearing.parallel_capacitance": ["100 pF", "200 pF"]}}
+    stated["bearing"]["parallel_capacitance"] = "150 pF"
+    updated = ehlectric.calibrate(BearingCase.from_dict(stated), log)
+    (entry,) = (each for each in updated.inputs if each.key.endswith("parallel_capacitance"))
+    assert entry.posterior[0] < 150e-12 < entry.posterior[2]
+    assert entry.reduction > 0.3
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("factor", "meaning"),
+    [(2.0, "factor-two-bearings"), (10.0, "factor-decimal-point"), (1e-3, "factor-wrong-prefix")],
+)
+def test_a_factor_on_all_capacitances_is_a_cause(bearing, factor, meaning):
+    """Simulated capacitances of two equal bearings in parallel, or in a wrong unit."""
+    unexplained = ehlectric.calibrate(bearing, _log(bearing, SPEEDS, factor)).unexplained
+    cause = unexplained.causes[0]
+    assert (cause.kind, cause.needed, cause.meaning) == ("factor", factor, meaning)
+    assert cause.residual < 1.0
+
+
+@pytest.mark.slow
+def test_without_a_cause_the_verdict_reports_that_none_was_found(bearing):
+    """Capacitances that grow with the speed, as no film does."""
+    log = _log(bearing, SPEEDS)
+    log["capacitance [pF]"] = log["capacitance [pF]"].to_numpy()[::-1]
+    calibration = ehlectric.calibrate(bearing, log)
+    assert calibration.unexplained.causes == ()
+    assert [reason.code for reason in calibration.verdict.reasons] == ["cause-unknown"]
+
+
+def test_every_cause_has_its_text():
+    from ehlectric.calibration.causes import FACTORS
+    from ehlectric.quantities.statement import Statement
+    from ehlectric.quantities.verdict_texts import statement_text
+
+    assert set(FACTORS) >= {name for name, column in CALIBRATED.items() if column.unit != "K"}
+    for quantity, factors in FACTORS.items():
+        assert len({factor for factor, _ in factors}) == len(factors), quantity
+        for _, meaning in factors:
+            assert statement_text(Statement.of(meaning))
+
+
+def test_a_background_is_taken_off_all_capacitances(bearing):
+    case = bearing.replace({"measured.capacitance": "300 pF +- 9 pF", "measured.shaft_voltage": "4 V +- 1 V"})
+    given = given_points(case, POINTS, background="100 pF")
+    assert given_values(given) == pytest.approx([200e-12, 4.0, 251e-12, 4.04, 158.5e-12])
+    assert given.values[0].uncertainty == pytest.approx(9e-12)
+    with pytest.raises(InputError, match=r"line 2.*above the background"):
+        given_points(bearing, POINTS, background="300 pF")
+    with pytest.raises(InputError, match="parallel_capacitance"):
+        given_points(bearing.replace({"bearing.parallel_capacitance": "9 pF"}), POINTS, background="9 pF")
+
+
+def test_an_uncertainty_belongs_to_columns_without_a_column_of_it(bearing):
+    table = POINTS.drop(columns="uncertainty of capacitance [%]")
+    given = given_points(bearing, table, uncertainty="2 %")
+    errors = [value.uncertainty for value in given.values]
+    assert errors == pytest.approx([0.02 * 351e-12, 0.2, 0.02 * 258.5e-12])
 
 
 @pytest.mark.slow
@@ -260,8 +356,9 @@ def test_measured_discharges_that_need_a_larger_strength_are_reported():
         case.replace({f"measured.{key}": text for key, text in measured.items()})
     )
     assert not calibration.explained
-    assert calibration.unexplained.key.endswith("dielectric_strength")
-    assert calibration.unexplained.needed > 30e6
+    causes = calibration.unexplained.causes
+    (strength,) = (cause for cause in causes if cause.key.endswith("dielectric_strength"))
+    assert strength.needed > 30e6
 
 
 @pytest.mark.slow

@@ -72,7 +72,11 @@ def test_a_measurement_beyond_the_ranges_is_reported(ehlectric, case_file):
     done = ehlectric("calibrate", case_file.name, "-o", "out", "--no-plots")
     assert done.returncode == 3
     assert "not explained" in done.stdout
-    assert "would have to leave its range" in done.stdout
+    summary = json.loads((case_file.parent / "out" / "summary.json").read_text())
+    # Ten times the value of the example is explained by a probe.
+    causes = {cause["key"]: cause for cause in summary["unexplained"]["causes"]}
+    assert causes["first_breakdown_voltage"]["needed"] == 10.0
+    assert "cause" in done.stdout
     assert not (case_file.parent / "out" / "calibrated.toml").exists()
 
 
@@ -115,3 +119,17 @@ def test_a_case_without_a_measurement_is_refused(typed, case_file):
     done = typed("calibrate", case_file.name)
     assert done.returncode == 2
     assert "measured: missing" in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("options", "named"),
+    [
+        (("--background", "400 pF"), "above the background"),
+        (("--background", "12 V"), "background"),
+        (("--uncertainty", "300 %"), "uncertainty"),
+    ],
+)
+def test_a_wrong_option_is_refused(typed, case_file, options, named):
+    done = typed("calibrate", case_file.name, *options)
+    assert done.returncode == 2
+    assert named in done.stderr

@@ -4,26 +4,33 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.bearing import MARGIN, Names, is_factor
+from ehlectric.bearing import MARGIN, is_factor
+from ehlectric.calibration.causes import CauseSearch
 from ehlectric.calibration.models import Model, model_of, points_of
 from ehlectric.calibration.posterior import (
     LEAST_EFFECTIVE,
     SEED,
     Posterior,
-    chi_squares,
     equal_points,
     infer,
     weighted_quantiles,
     weights_of,
 )
-from ehlectric.calibration.result import CalibratedInput, Calibration, Compared, Quantiles, Unexplained
+from ehlectric.calibration.result import (
+    CalibratedInput,
+    Calibration,
+    Cause,
+    Compared,
+    Quantiles,
+    Unexplained,
+    row_text,
+)
 from ehlectric.cases.input_keys import unit_of
 from ehlectric.cases.measured_inputs import (
     AxleMeasured,
@@ -32,7 +39,15 @@ from ehlectric.cases.measured_inputs import (
     MeasuredValue,
     measured_points,
 )
-from ehlectric.cases.measurements import calibrated, quantity_text, void_rows
+from ehlectric.cases.measurements import (
+    BACKGROUND,
+    UNCERTAINTY,
+    calibrated,
+    parsed_option,
+    quantity_text,
+    void_rows,
+)
+from ehlectric.cases.table_edits import flattened
 from ehlectric.discharge.breakdown_rule import INTERVAL, Chance, sampling_error
 from ehlectric.errors import InputError
 from ehlectric.formulas.sobol import sobol_points
@@ -54,15 +69,11 @@ _FEW_POINTS = 32
 # calibrated file is the updated one.
 _DECIDES = 0.05
 
-# Largest number of measured values that may contradict the others.
-_COMPARED = 6
+# End of the keys of a capacitance in parallel to a bearing.
+_PARALLEL = "parallel_capacitance"
 
-# Steps of an input beyond its range, in parts of its width: least, largest and number; least number of these
-# steps; and number of steps to which predictions are interpolated.
-_STEPS, _LEAST_STEPS, _BETWEEN = (0.02, 20.0, 24), 3, 2001
-
-# Largest step of a temperature beyond its range [K] (engineering judgement: an error of a thermometer).
-_WARMER = 60.0
+# Measured divided by computed value above which a deviation is stated as a factor.
+_AS_FACTOR = 3.0
 
 # Largest number of quantities to measure next, and least margin of which the logarithm counts.
 _NEXT, _LEAST_MARGIN = 3, 0.05
@@ -72,6 +83,8 @@ def calibrate(
     case: Any,
     measured: str | Path | pd.DataFrame | None = None,
     *,
+    background: str | float | None = None,
+    uncertainty: str | float | None = None,
     samples: int = _SAMPLES,
     seed: int = SEED,
     progress: Progress = silent,
@@ -89,6 +102,11 @@ def calibrate(
         File or table of measured operating points, such as the columns ``speed [rpm]``, ``capacitance [pF]``
         and ``uncertainty of capacitance [%]``. An uncertainty is one standard deviation. It replaces the file
         that the table ``measured`` names; the values of this table are used in addition.
+    background : str or float, optional
+        Capacitance of leads and fixture in parallel, such as "130 pF" or a number in farads, which is taken
+        off each measured capacitance; not together with a ``parallel_capacitance`` of a bearing.
+    uncertainty : str or float, optional
+        Relative standard uncertainty, such as "5 %", of columns of the file without one.
     samples : int
         Number of points of the Sobol design, a power of 2. Half of them are computed for more than 32
         operating points if at most six inputs have an effect.
@@ -121,7 +139,7 @@ def calibrate(
     (True, 2)
     """
     model = model_of(case)
-    given = given_points(case, measured)
+    given = given_points(case, measured, background=background, uncertainty=uncertainty)
     _check(model, given)
     compared = _Compared(model, given, seed, progress)
     posterior = infer(
@@ -137,12 +155,28 @@ def calibrate(
     return compared.calibration(case, posterior)
 
 
-def given_points(case: Any, measured: str | Path | pd.DataFrame | None = None) -> MeasuredPoints:
-    """Measured values of a case, and of a file or a table. Raises InputError as ``calibrate`` does."""
+def given_points(
+    case: Any,
+    measured: str | Path | pd.DataFrame | None = None,
+    *,
+    background: str | float | None = None,
+    uncertainty: str | float | None = None,
+) -> MeasuredPoints:
+    """Measured values of a case, and of a file or a table, with the arguments and errors of ``calibrate``."""
     table: Measured | AxleMeasured | None = case.measured
     if measured is None and table is None:
         raise InputError.missing("measured", "a table [measured], or a file of measured operating points")
-    return measured_points(table, points_of(case), measured)
+    off, part = 0.0, None
+    if background is not None:
+        stated = [
+            key for key, value in flattened(case.to_dict()).items() if key.endswith(_PARALLEL) and value
+        ]
+        if stated:
+            raise InputError("background", got=f"it together with {stated[0]}", takes="one of the two")
+        off = parsed_option(BACKGROUND, "background", background)
+    if uncertainty is not None:
+        part = parsed_option(UNCERTAINTY, "uncertainty", uncertainty, takes='a part in per cent, as "2 %"')
+    return measured_points(table, points_of(case), measured, background=off, uncertainty=part)
 
 
 def _check(model: Model, given: MeasuredPoints) -> None:
@@ -353,91 +387,10 @@ class _Compared:
         alone = np.min(np.abs(posterior.prior_predictions - values) / errors, axis=0)
         rows = tuple(far or [int(np.argmax(np.abs(posterior.residuals)))])
         unreachable = [place for place in rows if alone[place] > posterior.limit]
-        contradicting = () if unreachable or values.size < 2 else tuple(self._contradicting(posterior))
-        name, needed = self._leaving(posterior, contradicting)
-        key, label = ("", "") if name is None else (name.key, name.label)
-        ends = None if name is None else (_end(name.low), _end(name.high))
-        return Unexplained(rows, posterior.limit, nearest.p_value, key, label, needed, ends, contradicting)
-
-    def _contradicting(self, posterior: Posterior) -> Iterator[int]:
-        """Places of measured values without which inputs within the ranges explain the others. Only the
-        values with the largest residuals are examined.
-        """
-        values, errors = given_values(self.given), posterior.uncertainties
-        farthest = np.argsort(-np.abs(posterior.residuals))[:_COMPARED]
-        for place in sorted(farthest.tolist()):
-            others = np.arange(values.size) != place
-
-            def predict(at: Array, others: Array = others) -> Array:
-                return self.predict(at)[:, others]
-
-            if infer_explained(predict, posterior, values[others], errors[others], others, self.seed):
-                yield place
-
-    def _leaving(
-        self, posterior: Posterior, contradicting: Sequence[int]
-    ) -> tuple[Names | None, float | None]:
-        """Names of the input that explains the measurement outside of its range, and its value with the
-        smallest chi2. If several inputs do, the smallest step counts, in parts of the range; None if no input
-        explains the measurement.
-
-        The other inputs stay at the nearest prediction, or at the point of the design that is nearest without
-        one of the ``contradicting`` values. If no value contradicts the others, this is the value with the
-        largest residual.
-        """
-        values, errors = given_values(self.given), posterior.uncertainties
-        starts = [posterior.nearest.at]
-        largest = int(np.argmax(np.abs(posterior.residuals)))
-        for place in contradicting or ([largest] if values.size > 1 else []):
-            others = np.arange(values.size) != place
-            chi2 = chi_squares(posterior.prior_predictions[:, others], values[others], errors[others])
-            starts.append(posterior.prior_at[int(np.argmin(chi2))])
-        best: tuple[float, Names | None, float | None] = np.inf, None, None
-        for start, (place, name), sign in product(starts, enumerate(self.model.names()), (1.0, -1.0)):
-            step = self._step(posterior, start, place, sign)
-            if step < best[0]:
-                needed = self.model.values(place, np.array([0.5 + sign * (0.5 + step)]))
-                best = step, name, float(needed[0])
-        return best[1], best[2]
-
-    def _step(self, posterior: Posterior, start: Array, place: int, sign: float) -> float:
-        """Step of an input beyond an end of its range with the smallest chi2, in parts of the range; infinite
-        if this step does not explain the measurement.
-        """
-        steps = np.concatenate([[0.0], np.geomspace(*_STEPS)])
-        ends = 0.5 + sign * (0.5 + steps)
-        # An input keeps its sign.
-        inside = np.sign(self.model.values(place, ends)) == np.sign(self.model.values(place, np.array([0.5])))
-        if self.model.names()[place].key.endswith("temperature"):
-            inside &= np.abs(self.model.values(place, ends) - self.model.values(place, ends[:1])) <= _WARMER
-        at = np.tile(start, (int(np.count_nonzero(inside)), 1))
-        at[:, place] = ends[inside]
-        predictions = self._on_line(at)
-        steps = steps[: len(predictions)]
-        if len(steps) < _LEAST_STEPS:
-            return np.inf
-        values, errors = given_values(self.given), posterior.uncertainties
-        fine = np.linspace(0.0, steps[-1], _BETWEEN)
-        line = np.stack([np.interp(fine, steps, column) for column in predictions.T], axis=-1)
-        chi2 = chi_squares(line, values, errors)
-        least = int(np.argmin(chi2))
-        nearest = replace(posterior.nearest, predictions=line[least], chi2=float(chi2[least]))
-        residuals = (values - line[least]) / errors
-        explained = replace(posterior, nearest=nearest, residuals=residuals).explained
-        return float(fine[least]) if explained and np.isfinite(chi2[least]) else np.inf
-
-    def _on_line(self, at: Array) -> Array:
-        """Predictions at the first points of a line, before a point that is refused or has none, shape
-        (n, k) -> (<= n, m).
-        """
-        for count in range(len(at), 0, -1):
-            try:
-                predictions = self.predict(at[:count])
-            except InputError:
-                continue
-            known = np.all(np.isfinite(predictions), axis=1)
-            return predictions[: count if np.all(known) else int(np.argmin(known))]
-        return np.empty((0, len(self.given.values)))
+        search = CauseSearch(self.model, self.given.values, self.predict, posterior, self.seed, self.progress)
+        contradicting = () if unreachable or values.size < 2 else tuple(search.contradicting())
+        causes = search.causes(contradicting)
+        return Unexplained(rows, posterior.limit, nearest.p_value, causes, contradicting)
 
     def _warnings(self, posterior: Posterior) -> Iterator[ResultWarning]:
         """Warnings about the file, and about too few points."""
@@ -448,18 +401,6 @@ class _Compared:
                 yield ResultWarning.of("columns-ignored", file=read.source, columns=", ".join(read.ignored))
         if posterior.explained and posterior.effective < LEAST_EFFECTIVE:
             yield ResultWarning.of("effective-samples-few", effective=posterior.effective)
-
-
-def infer_explained(
-    predict: Any, posterior: Posterior, values: Array, errors: Array, others: Array, seed: int
-) -> bool:
-    """Whether inputs within the ranges explain some of the measured values."""
-    from ehlectric.calibration.posterior import nearest_of
-
-    predictions = posterior.prior_predictions[:, others]
-    nearest = nearest_of(predict, posterior.prior_at, predictions, values, errors, posterior.active, seed)
-    residuals = (values - nearest.predictions) / errors
-    return replace(posterior, nearest=nearest, residuals=residuals).explained
 
 
 # What a case needs for its quantities.
@@ -483,28 +424,41 @@ def _without_prediction(value: MeasuredValue, given: MeasuredPoints) -> InputErr
 
 
 def _refused(rows: Sequence[Compared], unexplained: Unexplained) -> Verdict:
-    """Verdict that nothing within the ranges explains the measurement."""
+    """Verdict that nothing within the ranges explains the measurement, with its causes."""
     place = max(unexplained.rows, key=lambda k: abs(rows[k].residual))
     row = rows[place]
-    answer = Statement.of(
-        "unexplained",
-        quantity=quantity_text(row.quantity),
-        measured=(row.measured, row.unit),
-        nearest=(row.nearest, row.unit),
-        off=abs(row.residual),
-    )
-    reasons = []
-    if unexplained.key:
-        unit = "" if is_factor(unexplained.key) else unit_of(unexplained.key)
-        low, high = ((end, unit) for end in unexplained.range or ())
-        needed = (unexplained.needed, unit)
-        reasons.append(
-            Statement.of("input-leaves-range", input=unexplained.label, low=low, high=high, needed=needed)
-        )
+    values: dict[str, Any] = {
+        "quantity": row_text(row),
+        "measured": (row.measured, row.unit),
+        "nearest": (row.nearest, row.unit),
+    }
+    factor = row.measured / row.nearest if row.nearest and row.unit != "K" else 1.0
+    if factor > _AS_FACTOR or 0.0 < factor < 1.0 / _AS_FACTOR:
+        answer = Statement.of("unexplained-factor", factor=factor, **values)
+    else:
+        answer = Statement.of("unexplained", off=abs(row.residual), **values)
+    reasons = [_cause(cause) for cause in unexplained.causes]
     if unexplained.contradicting:
-        names = tuple(dict.fromkeys(quantity_text(rows[k].quantity) for k in unexplained.contradicting))
+        names = tuple(row_text(rows[k]) for k in unexplained.contradicting)
         reasons.append(Statement.of("measured-contradict", quantities=names))
+    elif not reasons:
+        reasons.append(Statement.of("cause-unknown"))
     return Verdict("grey", "measurement-unexplained", answer, reasons=tuple(reasons))
+
+
+def _cause(cause: Cause) -> Statement:
+    """Statement on a cause, with the largest deviation after its change."""
+    values: dict[str, Any] = {"residual": cause.residual}
+    if cause.kind == "factor":
+        meaning = Statement.of(cause.meaning)
+        values |= {"quantity": cause.label, "factor": cause.needed, "meaning": meaning}
+        return Statement.of("cause-factor", **values)
+    unit = "" if is_factor(cause.key) else unit_of(cause.key) if cause.kind == "input" else "F"
+    low, high = ((end, unit) for end in cause.range or ())
+    values |= {"needed": (cause.needed, unit), "low": low, "high": high}
+    if cause.kind == "parallel":
+        return Statement.of("cause-parallel", quantity=cause.label, **values)
+    return Statement.of("input-leaves-range", input=cause.label, **values)
 
 
 def _chance(margins: Array, effective: float | None = None) -> Chance | None:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from ehlectric.arrays import Array
+from ehlectric.cases.measurements import quantity_text
 from ehlectric.discharge.breakdown_rule import Chance
 from ehlectric.errors import printable
 from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
@@ -61,18 +62,32 @@ class Compared:
 
 
 @dataclass(frozen=True)
+class Cause:
+    """Change that explains all measured values, with inputs within their ranges."""
+
+    # "input", an input outside of its range; "parallel", a capacitance in parallel that a meter reads in
+    # addition; "factor", a factor on all values of a quantity.
+    kind: Literal["input", "parallel", "factor"]
+    key: str  # of the input, or name of the measured quantity
+    label: str
+    # Value of the input or parallel capacitance, SI units; measured divided by true values for a factor.
+    needed: float
+    # Range of the input in the file, or 90 % interval of the parallel capacitance, SI units; None for a
+    # factor.
+    range: tuple[float, float] | None
+    residual: float  # largest deviation after the change, in standard uncertainties
+    p_value: float  # probability of a larger sum of squared deviations after the change
+    meaning: str = ""  # usual mistake that causes the factor, by its code
+
+
+@dataclass(frozen=True)
 class Unexplained:
     """Measured values that nothing within the ranges explains."""
 
     rows: tuple[int, ...]  # places of the measured values that are further away than the limit
     limit: float  # largest deviation that is explained, in standard uncertainties
     p_value: float  # probability of a larger sum of squared deviations if the model is right
-    # Input that would have to leave its range, with the value that it would need, SI units; empty and None
-    # where the measured values contradict each other.
-    key: str
-    label: str
-    needed: float | None
-    range: tuple[float, float] | None  # its range, SI units
+    causes: tuple[Cause, ...]  # changes that explain all measured values, the most probable first
     contradicting: tuple[int, ...]  # places of measured values without which the others are explained
 
 
@@ -207,6 +222,11 @@ class Calibration(Shown):
             return headline(self.title, count)
         change = f"probability of breakdown {self.before.brief} before, {self.after.brief} after"
         return headline(self.title, count, change)
+
+
+def row_text(row: Compared) -> str:
+    """Name of a measured value in words, with its line in the file."""
+    return quantity_text(row.quantity) + ("" if row.line is None else f" in line {row.line}")
 
 
 def _chance(chance: Chance | None) -> Mapping[str, Any] | None:

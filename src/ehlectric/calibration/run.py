@@ -22,6 +22,8 @@ def calibrate_to_folder(
     progress: Progress = silent,
     *,
     measured: Path | None = None,
+    background: str | None = None,
+    uncertainty: str | None = None,
     others: Sequence[str] = (),
 ) -> RunOutcome[Calibration]:
     """Calibrate a case, and write summary.json, compared.csv and calibrated.toml.
@@ -31,7 +33,7 @@ def calibrate_to_folder(
     """
     names = (*FILES, *others)
     with alone_in(folder, names) as folder:
-        result = calibrate(case, measured, progress=progress)
+        result = calibrate(case, measured, background=background, uncertainty=uncertainty, progress=progress)
         files = write_together(folder, result.contents(), names)
     failure = None if result.explained else UNEXPLAINED
     return RunOutcome(result, result.summary(), tuple(files), result.warnings, failure)

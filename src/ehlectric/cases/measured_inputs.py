@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
@@ -20,6 +20,7 @@ from ehlectric.cases.measurements import (
 from ehlectric.cases.stated_ranges import value_and_uncertainty
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
+from ehlectric.readable import readable
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -123,11 +124,16 @@ def measured_points(
     measured: Measured | AxleMeasured | None,
     book: ColumnBook,
     file: str | Path | pd.DataFrame | None = None,
+    *,
+    background: float = 0.0,
+    uncertainty: float | None = None,
 ) -> MeasuredPoints:
     """Measured values of a table [measured], and of a file or a table of pandas with the columns in ``book``.
 
-    ``file`` replaces the file that the table [measured] names; the other values of the table stay. Raises
-    InputError if the file cannot be read, or has a value without an uncertainty.
+    ``file`` replaces the file that the table [measured] names; the other values of the table stay.
+    ``background``, capacitance [F] that is taken off each measured capacitance; ``uncertainty``, relative
+    standard uncertainty of columns of the file without one. Raises InputError if the file cannot be read, has
+    a value without an uncertainty, or a capacitance that is not above the background.
     """
     points: list[dict[str, float]] = []
     values: list[MeasuredValue] = []
@@ -143,6 +149,9 @@ def measured_points(
         if not known:
             heads = f"headings such as {book.examples}"
             raise InputError(read.source, "has no column with a measured quantity", takes=heads)
+        if uncertainty is not None:
+            usual = {name: uncertainty * np.abs(read.values[name]) for name in known}
+            read = replace(read, uncertainties={**usual, **read.uncertainties})
         for name in known:
             if name not in read.uncertainties:
                 text = f"a column 'uncertainty of {name.replace('_', ' ')} [%]'"
@@ -151,7 +160,19 @@ def measured_points(
         for row, line in enumerate(read.lines):
             points.append({key: float(read.values[name][row]) for name, key in keys.items()})
             values += _row(read, row, line, known, len(points) - 1)
-    return MeasuredPoints(tuple(points), tuple(values), read)
+    return MeasuredPoints(tuple(points), tuple(_without(background, value) for value in values), read)
+
+
+def _without(background: float, value: MeasuredValue) -> MeasuredValue:
+    """Measured value, a capacitance without its background [F]."""
+    if not background or calibrated(value.quantity).unit != "F":
+        return value
+    if value.value <= background:
+        line = "" if value.line is None else f" in line {value.line}"
+        got = f"{readable(1e12 * value.value, 4)} pF{line}"
+        takes = f"a capacitance above the background of {readable(1e12 * background, 4)} pF"
+        raise InputError(f"measured.{value.quantity}", got=got, takes=takes)
+    return replace(value, value=value.value - background)
 
 
 def _row(read: Measurement, row: int, line: int, known: list[str], point: int) -> Iterator[MeasuredValue]:

@@ -158,6 +158,22 @@ def axle_points(elements: Iterable[str], shafts: Iterable[str]) -> ColumnBook:
     return ColumnBook(columns, examples, MOST_POINTS, frozenset(quantities))
 
 
+# Options of a measurement: capacitance that is taken off each measured one, and uncertainty of columns that
+# have none.
+BACKGROUND = Amount("F", least=0.0, most=1e-3, reason="in parallel with the bearing")
+UNCERTAINTY = Amount("", above=0.0, below=1.0, fraction=True, reason="relative, one standard deviation")
+
+
+def parsed_option(quantity: Amount, name: str, value: str | float, takes: str = "") -> float:
+    """Option in SI units; a text has its unit. ``takes`` says what the option of a command takes."""
+    try:
+        return quantity.parse(value)
+    except InputError as error:
+        if takes:
+            raise InputError(name, got=shown(value), takes=f"{takes}, above 0 and below 100 %") from None
+        raise error.under(name) from None
+
+
 _UNCERTAINTY = "uncertainty"
 
 # Name of the speed of a vehicle, from which a duty cycle computes the speed of its shaft.

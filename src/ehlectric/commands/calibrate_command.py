@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 def calibrate(
     case_file: Path,
     measured: Path | None = None,
+    background: str | None = None,
+    uncertainty: str | None = None,
     output: Path = Path("calibration"),
     plots: bool = True,
     formats: list[str] | None = None,
@@ -31,12 +33,11 @@ def calibrate(
     """Update the ranges of uncertain inputs by measured values; write calibrated.toml and a figure.
 
     The measured values are in the table [measured] of the file, and in a file of operating points, which
-    --measured replaces. The files
-    are summary.json, compared.csv with measured next to computed values, and calibrated.toml, the case with
-    the updated [ranges], which all commands take.
+    --measured replaces. The files are summary.json, compared.csv with measured next to computed values, and
+    calibrated.toml, the case with the updated [ranges], which all commands take.
 
     If nothing within the ranges explains the measurement, the output names the nearest prediction and the
-    input that would have to leave its range, and there is no calibrated.toml.
+    causes that explain it, such as a parallel capacitance, and there is no calibrated.toml.
 
     Exit status 0: calibrated. 2: the input is wrong. 3: nothing within the ranges explains the measurement.
     """
@@ -48,7 +49,7 @@ def calibrate(
         output,
         progress=progress_line,
         run=lambda _, case, folder, progress: by_kind.run_calibration(
-            case, folder, progress, measured=measured
+            case, folder, progress, measured=measured, background=background, uncertainty=uncertainty
         ),
         plots=plots,
         formats=formats,

@@ -31,6 +31,7 @@ def _three_digits(unit: str) -> Callable[[float], str]:
 _WAYS: Mapping[str, Callable[[Any], str]] = {
     "number": readable,
     "number2": lambda value: readable(value, 2),
+    ".1": lambda value: f"{value:.1f}",
     "ratio": ratio_text,
     "V": lambda value: f"{readable(value)} V",
     "V2": lambda value: f"{readable(value, 2)} V",

@@ -282,13 +282,23 @@ def run_calibration(
     progress: Progress = silent,
     *,
     measured: Path | None = None,
+    background: str | None = None,
+    uncertainty: str | None = None,
 ) -> RunOutcome[Calibration]:
     """Update the uncertain inputs of a case by measured values, and write the results."""
     from ehlectric.calibration import calibrate_to_folder
 
     with alone_in(folder, locks=[RESULT_LOCK]) as folder:
         protect(folder)
-        return calibrate_to_folder(case, folder, progress, measured=measured, others=files_of_results(folder))
+        return calibrate_to_folder(
+            case,
+            folder,
+            progress,
+            measured=measured,
+            background=background,
+            uncertainty=uncertainty,
+            others=files_of_results(folder),
+        )
 
 
 def _with_factors(outcome: RunOutcome[R], factors: FilmFactors | None) -> RunOutcome[R]:

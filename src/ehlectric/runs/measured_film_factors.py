@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ehlectric.cases.amounts import Amount
 from ehlectric.cases.defaults import QUICK, Contacts
+from ehlectric.cases.measurements import BACKGROUND, UNCERTAINTY, parsed_option
 from ehlectric.errors import InputError, shown
 from ehlectric.runtime.progress import Progress, silent
 
@@ -18,9 +18,6 @@ if TYPE_CHECKING:
     from ehlectric.cases.case import Case
     from ehlectric.cases.film_factors import FilmFactors
     from ehlectric.cases.measurements import Measurement
-
-_BACKGROUND = Amount("F", least=0.0, most=1e-3, reason="in parallel with the bearing")
-_UNCERTAINTY = Amount("", above=0.0, below=1.0, fraction=True, reason="relative, one standard deviation")
 
 
 @dataclass(frozen=True)
@@ -48,9 +45,9 @@ class MeasuredFile:
         from ehlectric.cases.measurements import read_measurement
 
         if background is not None:
-            _parsed(_BACKGROUND, "--background", background)
+            parsed_option(BACKGROUND, "--background", background)
         if uncertainty is not None:
-            _parsed(_UNCERTAINTY, "--uncertainty", uncertainty, takes='a part in per cent, as "2 %"')
+            parsed_option(UNCERTAINTY, "--uncertainty", uncertainty, takes='a part in per cent, as "2 %"')
         return cls(read_measurement(path), background, uncertainty)
 
     def factors(
@@ -135,24 +132,14 @@ def film_factors(
         raise InputError("contacts", got=shown(contacts), takes="'atlas', 'formula' or 'solved'")
     options: dict[str, Any] = {"progress": progress}
     if uncertainty is not None:
-        options["uncertainty"] = _parsed(_UNCERTAINTY, "uncertainty", uncertainty)
+        options["uncertainty"] = parsed_option(UNCERTAINTY, "uncertainty", uncertainty)
     rows = measured if isinstance(measured, Measurement) else read_measurement(measured)
     if isinstance(case, BearingCase):
         if background is not None:
-            options["background"] = _parsed(_BACKGROUND, "background", background)
+            options["background"] = parsed_option(BACKGROUND, "background", background)
         case = case if contacts is None else case.replace({"contacts": contacts})
         return bearing_factors(case, rows, workers=workers, **options)
     if background is not None:
         raise InputError.worded("background", "is taken off a capacitance, and a film has none")
     way: Contacts = next((quick for quick in QUICK if quick == contacts), "solved")
     return contact_factors(case, rows, contacts=way, **options)
-
-
-def _parsed(quantity: Amount, name: str, value: str | float, takes: str = "") -> float:
-    """Option in SI units; a text has its unit. ``takes`` says what the option of a command takes."""
-    try:
-        return quantity.parse(value)
-    except InputError as error:
-        if takes:
-            raise InputError(name, got=shown(value), takes=f"{takes}, above 0 and below 100 %") from None
-        raise error.under(name) from None
