@@ -180,8 +180,17 @@ def test_the_table_of_a_long_cycle_is_short(session):
 
 
 def test_a_file_is_looked_at_before_it_is_used(session):
-    text = look(f"{SURFACES}/surface-1.csv", session)
-    assert text == "6 rows over 100 s: speed, radial load, temperature. Ignored: gear."
+    found = look(f"{SURFACES}/surface-1.csv", session)
+    assert found.text == "6 rows over 100 s: speed, radial load, temperature. Ignored: gear."
+    assert not found.of_vehicle
+
+
+@pytest.mark.parametrize("kind", ["bearing", "drive", "gear"])
+def test_a_file_with_the_speed_of_a_vehicle_needs_its_wheels(tmp_path, kind):
+    file = stored(tmp_path, "time [s],vehicle speed [km/h]\n0,0\n1,36\n")
+    found = look(file, tmp_path, kind)
+    assert found.of_vehicle
+    assert found.text.startswith("2 rows over 1 s: vehicle speed.")
 
 
 @each(

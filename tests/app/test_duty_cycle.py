@@ -8,7 +8,7 @@ import pytest
 from ehlectric.cases.duty_inputs import Duty, read_cycle
 from ehlectric.errors import InputError
 from ehlectric.runtime.memory import MOST_MEASURED
-from tests.app.driving import complete, seen, type_into, wait_for_address
+from tests.app.driving import complete, field, seen, type_into, wait_for_address
 from tests.app.outputs import downloaded, fits
 from tests.helpers.cycles import HEADS, ROWS
 from tests.helpers.processes import wait_until
@@ -85,6 +85,36 @@ def test_a_cycle_is_uploaded_and_its_result_follows_the_inputs(page, tmp_path):
     page.get_by_test_id("duty-remove").click()
     page.get_by_test_id("duty").wait_for(state="hidden")
     assert "duty" not in page.url
+
+
+@pytest.mark.slow
+def test_a_driving_cycle_has_fields_for_wheels_and_ratio(page, tmp_path):
+    opened(page)
+    radius = page.get_by_test_id("group-vehicle")
+    assert not radius.is_visible()
+    driven = tmp_path / "driven.csv"
+    rows = "".join(f"{time},{speed}\n" for time, speed in ((0, 0), (10, 36), (20, 72), (30, 72), (40, 36)))
+    driven.write_text(f"time [s],vehicle speed [km/h]\n{rows}", encoding="utf-8")
+    given(page, driven)
+    wait_for_address(page, "duty.vehicle.ratio=9")
+    assert field(page, "duty.vehicle.wheel_radius").input_value() == "320 mm"
+    assert radius.evaluate("group => Boolean(group.parentElement.closest('[data-testid=group-duty-cycle]'))")
+    # The first of five rows belongs to half a step.
+    wait_for_share(page, "share of the duty cycle at a standstill", 12.5)
+    type_into(page, "duty.vehicle.wheel_radius", "500")
+    type_into(page, "duty.vehicle.ratio", "10")
+    wait_for_address(page, "duty.vehicle.ratio=10")
+    # 20 m/s of wheels of 0.5 m turn at 40 rad/s, and the shaft ten times as fast.
+    duty = page.get_by_test_id("duty")
+    assert wait_until(lambda: "3820" in "".join(duty.text_content().split()))
+    type_into(page, "duty.vehicle.ratio", "-1")
+    page.get_by_test_id("error-duty-vehicle-ratio").filter(has_text="above 0").wait_for()
+    page.get_by_test_id("undo").click()
+    # A cycle with the speed of the shaft has no vehicle.
+    given(page, cycle(tmp_path))
+    page.wait_for_function("() => !location.search.includes('vehicle')")
+    assert not radius.is_visible()
+    wait_for_share(page, "share of the duty cycle at a standstill", 5.0)
 
 
 @pytest.mark.slow

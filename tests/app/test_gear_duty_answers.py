@@ -45,7 +45,7 @@ def test_the_page_has_the_numbers_of_the_command(session):
 
 
 def test_a_file_without_columns_of_gears_is_refused(session):
-    text = look(FILE, session, "gear")
+    text = look(FILE, session, "gear").text
     assert text.startswith("4 rows over 60 s: speed, torque.")
     assert "Ignored: radial load [N]." in text
     (session / SURFACES / "other.csv").write_text("time [s],radial load [N]\n0,1\n1,2\n", encoding="utf-8")

@@ -14,6 +14,7 @@ from ehlectric.app.view_models import (
     ContactAnswer,
     DriveAnswer,
     DutyAnswer,
+    DutyLook,
     Figure,
     GearAnswer,
     MotionAnswer,
@@ -64,7 +65,7 @@ REMEDY_QUICK: Call[RemedyAnswer] = Call("remedy_answers.quick_remedy")
 REMEDY_WHOLE: Call[RemedyAnswer] = Call("remedy_answers.whole_remedy")
 
 # A duty cycle: what its file has, and its result.
-DUTY_LOOK: Call[str] = Call("duty_answers.look")
+DUTY_LOOK: Call[DutyLook] = Call("duty_answers.look")
 BEARING_DUTY: Call[DutyAnswer] = Call("bearing_answers.duty_answer")
 
 # Measured values: how many there are, and the calibration with them.

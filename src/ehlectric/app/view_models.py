@@ -641,6 +641,14 @@ class PageAnswer:
 
 
 @dataclass(frozen=True)
+class DutyLook:
+    """What the file of a duty cycle contains."""
+
+    text: str  # sentence on rows, duration and columns
+    of_vehicle: bool  # whether the file contains a vehicle speed instead of a shaft speed
+
+
+@dataclass(frozen=True)
 class DutyAnswer:
     """Answer about a duty cycle."""
 

@@ -38,8 +38,8 @@ from ehlectric.quantities.inputs import (
 from ehlectric.quantities.quantity import Quantity
 from ehlectric.quantities.units import printed
 
-# Tables and keys that only a bearing file has.
-_OF_BEARINGS = ("bearing", "motor", "contacts")
+# Tables and keys that only a bearing file has, and the duty cycle with equal keys in files of all kinds.
+_OF_BEARINGS = ("bearing", "motor", "contacts", "duty")
 
 # Tables that only a drive file has, in addition to the tables of its bearings.
 _OF_DRIVES = ("drive", "source", "circuit", "breakdown")

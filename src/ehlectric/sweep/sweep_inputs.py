@@ -61,7 +61,7 @@ def check_varied(key: str, case: SolvedCase, varied: Collection[str] = ()) -> No
         _check_axle(key, case)
         return
     model: type[Table] = type(case)
-    if is_of_drive(key):
+    if is_of_drive(key) or key.partition(".")[0] == "duty":
         raise InputError.unknown(key, nearest_key(key, model, case.__dict__))
     try:
         input_field(key)

@@ -19,10 +19,11 @@ from ehlectric.app.charts.duty_charts import (
 )
 from ehlectric.app.charts.plotly_panels import Plot
 from ehlectric.app.compute.answer_parts import lines_of, page_warnings_of, with_session_files
-from ehlectric.app.view_models import DutyAnswer, Figure, Line, Table
+from ehlectric.app.form_fields.field import form_data
+from ehlectric.app.view_models import DutyAnswer, DutyLook, Figure, Line, Table
 from ehlectric.bearing import DutyResult
 from ehlectric.cases.duty_inputs import Duty, read_cycle
-from ehlectric.cases.measurements import CYCLE, GEAR_CYCLE, void_rows
+from ehlectric.cases.measurements import CYCLE, GEAR_CYCLE, VEHICLE_SPEED, read_measurement, void_rows
 from ehlectric.gear import MeshDuty
 from ehlectric.quantities.quantity import Quantity
 from ehlectric.quantities.result_bounds import bearing_bounds
@@ -35,17 +36,22 @@ from ehlectric.tables.gear_tables import gear_rows
 _STRETCH = "duty.stretches"
 
 
-def look(file: str, session: Path, kind: str = "bearing") -> str:
-    """Sentence about the file of a duty cycle in the folder of a session: rows, duration and columns.
+def look(file: str, session: Path, kind: str = "bearing") -> DutyLook:
+    """Contents of the file of a duty cycle in the folder of a session.
 
     ``kind`` of the page, "bearing", "drive" or "gear". Raises InputError where the file is no duty cycle.
     """
     book = GEAR_CYCLE if kind == "gear" else CYCLE
-    cycle = read_cycle(Duty(**with_session_files({"duty": {"file": file}}, session)["duty"]), book)
-    names = ", ".join(name.replace("_", " ").replace("common mode", "common-mode") for name in cycle.values)
+    path = with_session_files({"duty": {"file": file}}, session)["duty"]["file"]
+    of_vehicle = read_measurement(path, book).has(VEHICLE_SPEED)
+    vehicle = form_data("first_values")["vehicle"] if of_vehicle else None
+    cycle = read_cycle(Duty(file=path, vehicle=vehicle), book)
+    written = {"speed": VEHICLE_SPEED} if of_vehicle else {}
+    columns = (written.get(name, name) for name in cycle.values)
+    names = ", ".join(name.replace("_", " ").replace("common mode", "common-mode") for name in columns)
     text = f"{cycle.time.size} rows over {readable(cycle.time[-1] - cycle.time[0], 6)} s: {names}."
     text += f" Ignored: {', '.join(cycle.ignored)}." if cycle.ignored else ""
-    return text + "".join(f" {warning.text}" for warning in void_rows(cycle.read))
+    return DutyLook(text + "".join(f" {warning.text}" for warning in void_rows(cycle.read)), of_vehicle)
 
 
 def shown_duty(duty: DutyResult, summary: Mapping[str, Any]) -> DutyAnswer:

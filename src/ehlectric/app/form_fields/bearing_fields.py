@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from ehlectric.app.form_fields.field import (
+    VEHICLE,
+    VEHICLE_TABLE,
     always,
     both,
     carries,
@@ -54,7 +56,11 @@ _SHOWN: dict[str, dict[str, Any]] = {
 }
 _LISTS = {"bearing.radial_clearance": of_kind("radial_clearance")}
 # When groups are shown.
-_GROUPS = {"Pair": of_kind("pair"), "Clearance": of_kind("radial_clearance")}
+_GROUPS = {
+    "Pair": of_kind("pair"),
+    "Clearance": of_kind("radial_clearance"),
+    VEHICLE: given(VEHICLE_TABLE),
+}
 
 BEARING_GROUPS = tuple(
     oil("bearing")

@@ -9,6 +9,8 @@ from typing import Any
 from ehlectric.app.catalogue import oil_title
 from ehlectric.app.form_fields.bearing_fields import BEARING_GROUPS
 from ehlectric.app.form_fields.field import (
+    VEHICLE,
+    VEHICLE_TABLE,
     Field,
     Group,
     always,
@@ -207,7 +209,7 @@ _LISTS = {
     "source.overshoot": _described,
     "circuit.grounding_ring_resistance": given("circuit.grounding_ring_table"),
 }
-_CONDITIONS = {"Geometry of the machine": given("circuit.machine")}
+_CONDITIONS = {"Geometry of the machine": given("circuit.machine"), VEHICLE: given(VEHICLE_TABLE)}
 
 _OF_DRIVE = tuple(
     group_of("drive", title, _SHOWN, _LISTS, when=_CONDITIONS.get(title, always)) for title in form("drive")

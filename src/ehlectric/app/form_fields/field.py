@@ -341,6 +341,9 @@ class Group:
     when: When = always  # whether the group belongs to given inputs
 
 
+# Title of the group of the vehicle of a duty cycle, and the table of its inputs.
+VEHICLE, VEHICLE_TABLE = "Vehicle", "duty.vehicle"
+
 # Note of a group whose first values are assumptions.
 _ASSUMED = "The first values are assumptions: replace them with your own."
 

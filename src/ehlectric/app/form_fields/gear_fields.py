@@ -6,7 +6,15 @@ import math
 from collections.abc import Collection, Iterator, Mapping
 from typing import Any, Literal
 
-from ehlectric.app.form_fields.field import equal, given, group_of, unequal
+from ehlectric.app.form_fields.field import (
+    VEHICLE,
+    VEHICLE_TABLE,
+    always,
+    equal,
+    given,
+    group_of,
+    unequal,
+)
 from ehlectric.app.form_fields.oil_fields import oil
 from ehlectric.app.page_inputs import Inputs, example_inputs
 from ehlectric.quantities.inputs import form, key_of_list
@@ -23,10 +31,13 @@ _SHOWN: dict[str, dict[str, Any]] = {
     "gear.contact.reference_area": {"when": equal("gear.contact.conduction", None, "by-film")},
 }
 
+# When groups are shown.
+_GROUPS = {VEHICLE: given(VEHICLE_TABLE)}
+
 GEAR_GROUPS = tuple(
     oil("gear", **{"temperature.thermal_conductivity": {"when": _sheet}})
     if title == "Oil"
-    else group_of("gear", title, _SHOWN)
+    else group_of("gear", title, _SHOWN, when=_GROUPS.get(title, always))
     for title in form("gear")
 )
 

@@ -6,13 +6,14 @@ import asyncio
 from typing import ClassVar, Generic, Protocol, TypeVar, cast
 
 from ehlectric.app.calls import Call
+from ehlectric.app.form_fields.field import VEHICLE_TABLE
 from ehlectric.app.latest_answer import LatestAnswer
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.answer_page import AnswerPage
 from ehlectric.app.pages.duty_box import DutyField, DutyView
 from ehlectric.app.session import Session
 from ehlectric.app.view_models import DutyAnswer, PageAnswer
-from ehlectric.errors import LostError
+from ehlectric.errors import InputError, LostError
 
 _NOT_COMPUTED = "The duty cycle is not computed; its field says why."
 
@@ -61,7 +62,7 @@ class CyclePage(AnswerPage[A], Generic[A]):
 
     def build_boxes(self) -> None:
         """Build the field of a duty cycle."""
-        self.duty = DutyField(self.session, self.form.take, self.kind)
+        self.duty = DutyField(self.session, self.form, self.kind)
 
     def show_boxes(self) -> None:
         """Show the present inputs in the field of the duty cycle."""
@@ -108,9 +109,12 @@ class CyclePage(AnswerPage[A], Generic[A]):
         self.cycle_view.duty.show(answer, self.duty.named)
 
     def _refuse_cycle(self, error: Exception) -> None:
-        # A command and a solution have more time than an answer of the page.
-        further = f"; {self.or_solve}" if isinstance(error, LostError) else ""
-        self.duty.refuse(f"{error}{further}")
+        if isinstance(error, InputError) and str(error.key).startswith(f"{VEHICLE_TABLE}."):
+            self.form.tell(error)
+        else:
+            # A command and a solution have more time than an answer of the page.
+            further = f"; {self.or_solve}" if isinstance(error, LostError) else ""
+            self.duty.refuse(f"{error}{further}")
         self.cycle_view.duty.fail(_NOT_COMPUTED)
 
     def _refuse(self, error: Exception) -> None:

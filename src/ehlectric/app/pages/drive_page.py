@@ -226,7 +226,7 @@ class DrivePage(AnswerPage[DriveAnswer]):
         with self.form.group("Source"):
             self.waveform = WaveformField(self.session, self.form.take)
         self.remedies = RemedyBox(self.session, self.change)
-        self.duty = DutyField(self.session, self.form.take, self.kind)
+        self.duty = DutyField(self.session, self.form, self.kind)
 
     def show_boxes(self) -> None:
         """Show the present inputs in the fields of files, and in the remedies."""

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable
+from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 from nicegui import ui
 
 from ehlectric.app.calls import DUTY_LOOK
+from ehlectric.app.form_fields.field import VEHICLE, VEHICLE_TABLE, form_data
 from ehlectric.app.pages.file_field import LOST_FILE, NOT_IN_LINKS, UploadField
+from ehlectric.app.pages.form import Form
 from ehlectric.app.pages.page_parts import GroupBox, button, heading, lines_html, mark, say
 from ehlectric.app.pages.result_parts import FigureBox, note_html, table_html
 from ehlectric.app.session import Session
@@ -22,7 +23,8 @@ from ehlectric.runtime.memory import MOST_MEASURED
 DUTY_FILE, _EXAMPLE = "duty.file", "measurements/wltc_class_3b_motor.csv"
 
 _COLUMNS = (
-    "The file has the column time [s], and any of speed [rpm], {columns}. What has no column is as above."
+    "The file has the column time [s], and any of speed [rpm] or vehicle speed [km/h], {columns}. "
+    "What has no column is as above."
 )
 _OF_BEARINGS = "radial load [N], axial load [N], temperature [degC] and common-mode voltage [V]"
 _OF_GEARS = "torque [N m], temperature [degC], flank temperature [degC] and voltage [V]"
@@ -41,14 +43,13 @@ _TO_RESULT = "document.querySelector('[data-testid={}]')?.scrollIntoView({{ bloc
 
 
 class DutyField:
-    """Field for the file of a duty cycle of a page of a ``kind``, "bearing", "drive" or "gear"; ``change`` is
-    called with a changed key and its value.
+    """Field for the file of a duty cycle, next to the vehicle in the ``form`` of the page.
+
+    The ``kind`` of the page is "bearing", "drive" or "gear".
     """
 
-    def __init__(
-        self, session: Session, change: Callable[[dict[str, Any]], Awaitable[None]], kind: str
-    ) -> None:
-        self._session, self._change, self._kind = session, change, kind
+    def __init__(self, session: Session, form: Form, kind: str) -> None:
+        self._session, self._change, self._kind = session, form.take, kind
         columns = _COLUMNS.format(columns=_OF_GEARS if kind == "gear" else _OF_BEARINGS)
         self._sentences: dict[str, str] = {}  # sentences about files that were looked at
         self._last: str | None = None  # file that was shown last
@@ -75,6 +76,7 @@ class DutyField:
                 leads = button("Go to its result", "to-duty", lambda: ui.run_javascript(to_result))
                 removes = button("Remove the cycle", "duty-remove", self._removed)
                 button("Use the example, the WLTC of a car", "duty-example", self._example)
+            form.group(VEHICLE).move(ui.element("div").classes("box"))
             self._of_cycle = (leads, removes)
         self.refresh()
 
@@ -136,13 +138,13 @@ class DutyField:
     async def _take(self, name: str) -> None:
         """Put an uploaded file into the inputs, if it is a duty cycle."""
         try:
-            self._sentences[name] = await self._session.work.quick(
-                DUTY_LOOK, name, self._session.folder, self._kind
-            )
+            look = await self._session.work.quick(DUTY_LOOK, name, self._session.folder, self._kind)
         except (InputError, LostError) as error:
             self._tell(self._with_name(str(error), name))
             return
-        await self._change({DUTY_FILE: name})
+        self._sentences[name] = look.text
+        vehicle = self._session.inputs.value(VEHICLE_TABLE) or form_data("first_values")["vehicle"]
+        await self._change({DUTY_FILE: name, VEHICLE_TABLE: vehicle if look.of_vehicle else None})
 
     async def _removed(self) -> None:
         await self._change({"duty": None})
