@@ -18,6 +18,10 @@ from tests.helpers.places import EXAMPLES
 FILES = ("e_axle.toml", "e_axle_stage_1.toml", "e_axle_stage_2.toml")
 
 
+# Words instead of U/V_b by the state: no element of the example has summits that touch and insulate.
+_WITHOUT = {"conducts": "conducts", "insulates": "no V_b"}
+
+
 def contents(*names):
     return {name: (EXAMPLES / name).read_bytes() for name in names}
 
@@ -33,6 +37,8 @@ def test_an_answer_has_the_numbers_of_the_command():
             "–" if value is None else readable(factor * value)
             for value, factor in zip(expected, (1e9, 1.0, 1.0, 1.0), strict=True)
         ]
+        if row["state"] == "conducts":
+            texts[-1] = "conducts"
         assert list(rows[row["element"]][3:]) == texts
     assert answer.elements.rows[0][0] == summary["rank"]["by-film"][0]
     assert answer.verdict.margin == pytest.approx(
@@ -43,7 +49,7 @@ def test_an_answer_has_the_numbers_of_the_command():
         for row in remedy["elements"]:
             ratio = row["voltage_ratio"]
             cell = remedies[row["element"]][number].removesuffix(" ▲").removesuffix(" ▼")
-            assert cell == ("–" if ratio is None else readable(ratio))
+            assert cell.partition(" (")[0] == (_WITHOUT[row["state"]] if ratio is None else readable(ratio))
 
 
 def test_sentences_state_the_effect_of_each_remedy_on_all_elements():
@@ -53,6 +59,36 @@ def test_sentences_state_the_effect_of_each_remedy_on_all_elements():
     assert "no element breaks down" in ring
     assert "raises U/V_b of both bearings of intermediate" in hybrid
     assert "leaves both bearings of rotor without a breakdown voltage" in hybrid
+
+
+def test_the_table_of_remedies_contains_the_worse_state_of_the_meshes():
+    """If all meshes conduct, the voltage of the rotor is on the bearings of the next shaft."""
+    case = AxleCase.from_toml(EXAMPLES / FILES[0])
+    worse = {}
+    for conduction in ("always", "never"):
+        result = solve_axle(case.replace({"mesh.gear.contact.conduction": conduction}), probable=False)
+        for row in result.summary()["remedies"][0]["elements"]:
+            if row["voltage_ratio"] is not None:
+                worse[row["element"]] = max(worse.get(row["element"], 0.0), row["voltage_ratio"])
+    remedies = {row[0]: row[2] for row in remedied_answer(AXLE.table).remedies.rows}
+    for name in ("bearing 1 of intermediate", "bearing 2 of output"):
+        assert f"({readable(worse[name])})" in remedies[name]
+
+
+def test_summits_that_touch_are_words_and_the_first_elements():
+    """Bearings of the output shaft whose composite Rq is a thicker part of the film."""
+    rough = AXLE.changed({"bearing.5.composite_rq": "0.05 um", "bearing.6.composite_rq": "0.05 um"})
+    answer = remedied_answer(rough.table)
+    assert answer.elements.rows[0][0] == "bearing 1 of output"
+    assert [row[-1] for row in answer.elements.rows[:2]] == ["touches"] * 2
+    assert {*answer.remedies.rows[0][1:]} == {"touches"}
+    assert answer.verdict.margin == 0.0
+    codes = [reason.code for reason in answer.verdict.reasons]
+    assert {"axle-touching", "axle-first-film"} <= {*codes}
+    ring = answer.effects[0]
+    assert "lowers U/V_b of all elements that have a breakdown voltage" in ring
+    assert "summits touch in both bearings of output" in ring
+    assert ring.endswith("Then bearing 1 of output is first: its summits touch.")
 
 
 def test_remedies_and_probabilities_follow_the_quick_answer():

@@ -55,7 +55,7 @@ def test_shares_of_time_by_hand():
     table = by_hand().summary()
     assert (table["duration"], table["standstill_share"], table["left_out_share"]) == (4.0, 0.25, 0.125)
     first, second = table["elements"]
-    assert (first["first_share"], second["first_share"]) == (0.125, 0.5)
+    assert (first["first_share"], second["first_share"]) == (0.375, 0.25)
     assert (first["breakdown_share"], second["breakdown_share"]) == (0.375, 0.25)
     assert (first["touching_share"], first["conducting_share"], second["insulating_share"]) == (
         0.25,
@@ -64,7 +64,7 @@ def test_shares_of_time_by_hand():
     )
     assert (first["largest_ratio"], first["largest_time"]) == (2.0, 0.0)
     assert (second["largest_ratio"], second["largest_time"]) == (2.0, 2.0)
-    assert by_hand().statement.values["elements"][0] == "b 50 %"
+    assert by_hand().statement.values["elements"][0] == "a 38 %"
 
 
 @pytest.mark.slow

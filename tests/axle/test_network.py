@@ -123,6 +123,16 @@ def test_the_rank_of_elements_by_their_breakdown_voltage():
     assert rank(network(("12",)), voltages, 300.0)[0][0] == "23"
 
 
+def test_summits_that_touch_precede_all_others_by_their_voltage():
+    """The first shaft has more voltage than the second one. What has no voltage does not discharge."""
+    limits = {"10": 3.0, "12": 1.8, "20": 0.0, "23": 0.0, "30": 1.0}
+    ranked = rank(network(), limits, 300.0)
+    assert ranked[:2] == [("20", np.inf), ("23", np.inf)]
+    assert [name for name, _ in ranked[2:]] == ["12", "10", "30"]
+    assert rank(network(("23",)), limits, 300.0)[0] == ("20", np.inf)
+    assert dict(rank(network(("20",)), limits, 300.0))["23"] == 0.0
+
+
 def test_a_shaft_without_a_path_to_the_housing_is_named():
     floating = Network(("1", "2"), (Film("10", "1", HOUSING, NANO),))
     with pytest.raises(ValueError, match="no path"):

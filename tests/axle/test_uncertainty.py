@@ -5,12 +5,12 @@ import pytest
 
 from ehlectric import AxleCase, InputError, solve_axle
 from ehlectric.axle.many_axles import FilmScales, solve_axles
+from ehlectric.axle.network import firsts
 from ehlectric.axle.solution import solve_elements
 from ehlectric.axle.uncertainty import (
     AxleDesign,
     _chances,
     _deciding,
-    _firsts,
     has_chance,
     uncertainty_of,
 )
@@ -31,12 +31,12 @@ def uncertainty(solution):
 
 
 def test_the_first_element_by_hand():
-    """Largest U/V_b of elements with a breakdown voltage: neither summits that touch nor what conducts."""
-    voltages = np.array([[2.0, 3.0, 0.0], [2.0, 3.0, 1.0], [2.0, 3.0, 1.0], [0.0, 0.0, 0.0]])
+    """Summits that touch under the largest voltage, else the largest U/V_b; never what conducts."""
+    voltages = np.array([[2.0, 3.0, 0.0], [2.0, 3.0, 9.0], [2.0, 3.0, 1.0], [0.0, 0.0, 0.0]])
     limits = np.array([[1.0, 3.0, 1.0], [0.0, 0.0, 1.0], [INF, 6.0, 0.0], [1.0, 0.0, 1.0]])
-    firsts = _firsts(voltages, limits)
-    assert firsts.tolist() == [0, 2, 1, -1]
-    first, second, third = _chances(("a", "b", "c"), voltages, limits, np.isinf(limits), firsts)
+    numbers = firsts(voltages, limits)
+    assert numbers.tolist() == [0, 1, 2, -1]
+    first, second, third = _chances(("a", "b", "c"), voltages, limits, np.isinf(limits), numbers)
     assert (first.first, second.first, third.first) == (0.25, 0.25, 0.25)
     assert (first.breakdown, second.breakdown, third.breakdown) == (0.5, 0.5, 0.5)
     assert (first.conduction, first.touching, third.touching) == (0.25, 0.25, 0.25)
@@ -49,7 +49,7 @@ def test_what_decides_is_what_only_one_of_two_elements_has(solution):
     ratio = np.exp(2.0 * at[:, 1] - 1.0)
     voltages, limits = np.stack([ratio, np.ones(512)], axis=1), np.ones((512, 2))
     elements = tuple(
-        _chances(("a", "b"), voltages, limits, np.zeros((512, 2), bool), _firsts(voltages, limits))
+        _chances(("a", "b"), voltages, limits, np.zeros((512, 2), bool), firsts(voltages, limits))
     )
     deciding = _deciding(design, at, voltages, limits, elements)
     assert deciding is not None

@@ -11,6 +11,7 @@ import numpy as np
 
 from ehlectric.arrays import Array, IntArray, Mask
 from ehlectric.axle.many_axles import solve_axles
+from ehlectric.axle.network import firsts, voltage_ratios
 from ehlectric.axle.solution import AxleSolution
 from ehlectric.bearing import duty_csv, edges_of, file_warnings, moves
 from ehlectric.cases.axle_case import AxleCase, changed_axle
@@ -72,14 +73,12 @@ class AxleDuty:
         """U/V_b of all elements, shape (n, elements): infinite where summits touch, 0 if the element does not
         break down, and NaN without a result.
         """
-        with np.errstate(divide="ignore", invalid="ignore"):
-            return np.where(self.voltages == 0.0, 0.0, self.voltages / self.limits)
+        return voltage_ratios(self.voltages, self.limits)
 
     @property
     def first(self) -> IntArray:
-        """Number of the element with the largest finite U/V_b at each row, -1 without one, shape (n,)."""
-        ratios = np.where(np.isfinite(self.ratios), self.ratios, 0.0)
-        return np.asarray(np.where(np.max(ratios, axis=1) > 0.0, np.argmax(ratios, axis=1), -1))
+        """Number of the element that discharges first at each row, -1 without one, shape (n,)."""
+        return firsts(self.voltages, self.limits)
 
     def share(self, within: Mask) -> float:
         """Share of the time of some rows, from 0 to 1."""

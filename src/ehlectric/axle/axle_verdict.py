@@ -1,4 +1,4 @@
-"""Verdict on an axle: which element breaks down first, and in which case another element is first."""
+"""Verdict on an axle: which element discharges first, and in which case another element is first."""
 
 from __future__ import annotations
 
@@ -7,16 +7,11 @@ from collections.abc import Iterator, Sequence
 from typing import Protocol
 
 from ehlectric.axle.solution import AxleSolution
-from ehlectric.discharge.breakdown_rule import (
-    TOUCHING_AT_TIMES,
-    Chance,
-    code_of,
-    level_of,
-    strength_interval,
-)
+from ehlectric.discharge.breakdown_rule import Chance, code_of, level_of, strength_interval, touching_rule
 from ehlectric.discharge.film_verdict import no_verdict, strength_clause, strength_doubt
-from ehlectric.quantities.lubrication_states import CONDUCTS
-from ehlectric.quantities.statement import Fact, Statement
+from ehlectric.quantities.formats import time_share_text
+from ehlectric.quantities.lubrication_states import AT_TIMES, CONDUCTS
+from ehlectric.quantities.statement import Fact, Level, Statement
 from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import readable
 
@@ -73,59 +68,82 @@ def axle_verdict(
 ) -> Verdict:
     """Verdict on a solved axle, whose level follows the probability of breakdown if it is known.
 
-    Its margin is the breakdown voltage divided by the voltage of the first element.
+    The first element has the largest voltage divided by its breakdown voltage. An element whose summits
+    touch under a voltage precedes all others, because its contacts discharge at any voltage as they open. The
+    margin is the breakdown voltage divided by the voltage of the first element, 0 if its summits touch.
 
     ``pending``, whether the axle has probabilities that are not computed; the verdict then states this.
-    Grey without a strength, and if no element with a breakdown voltage has a voltage. A margin that a change
-    of the strength by 20 % takes across 1 is yellow. An element whose summits touch keeps a verdict from
-    being green, because its contacts discharge as they open.
+    Grey without a strength, and if no element with a voltage breaks down. A margin that a change of the
+    strength by 20 % takes across 1 is yellow.
     """
     if not solution.case.discharge.has_strength:
         return no_verdict(Statement.of("no-strength"))
-    ranking = [(name, ratio) for name, ratio in solution.ranking() if ratio > 0.0]
+    ranking = solution.discharging()
     if not ranking:
         return no_verdict(Statement.of("axle-none"))
     (first, ratio), limits = ranking[0], solution.breakdown_voltages
-    margin = 1.0 / ratio
-    interval = strength_interval(margin)
-    level = level_of(*interval)
-    code, doubts = code_of(level, likely=margin < 1.0), tuple(strength_doubt(solution.case.discharge, margin))
-    facts: tuple[Fact, ...] = (
-        Fact("first.breakdown_voltage", limits[first]),
-        Fact("first.margin", margin, interval),
-    )
+    margin, touching = 1.0 / ratio, first not in limits
+    interval = None if touching else strength_interval(margin)
+    level, code = _level(solution, margin, None if uncertainty is None else uncertainty.chance)
+    doubts: tuple[Statement, ...] = tuple(strength_doubt(solution.case.discharge, margin))
+    facts: tuple[Fact, ...] = () if touching else (Fact("first.breakdown_voltage", limits[first]),)
     if uncertainty is not None:
         chance = uncertainty.chance
-        level, code = chance.level, chance.code
         ranked = uncertainty.ranks_inputs
         stated = (each for each in chance.statements() if ranked or not each.code.startswith("measure"))
         doubts = (*stated, *_firsts(uncertainty))
-        known = None if chance.failed or math.isinf(chance.high) else (chance.low, chance.high)
-        facts = (
-            Fact("first.breakdown_voltage", limits[first]),
-            Fact("first.margin", margin, known),
+        interval = None if chance.failed or math.isinf(chance.high) else (chance.low, chance.high)
+        facts += (
+            Fact("first.margin", margin, interval),
             Fact("uncertainty.breakdown_probability", chance.probability, chance.bounds),
         )
+    else:
+        facts += (Fact("first.margin", margin, interval),)
     without = (Statement.of("axle-without-probability"),) if pending else ()
-    if level == "green" and _touching(solution):
-        level, code = "yellow", TOUCHING_AT_TIMES
     drive = solution.case.drive
     return Verdict(
         level,
         code,
         Statement.of(
-            "axle-first",
-            element=first,
-            voltage=ratio * limits[first],
-            edge=solution.case.edge,
-            breakdown=limits[first],
-            margin=margin,
-        ),
+            "axle-first-touches", element=first, voltage=solution.voltage_of(first), edge=solution.case.edge
+        )
+        if touching
+        else _first_film(solution, first, "axle-first"),
         Statement.of("at-axle", torque=drive.torque, speed=drive.speed, temperature=drive.temperature),
         facts=facts,
         reasons=(*_reasons(solution, first), *doubts, *without),
         assumptions=(Statement.of("axle-model"), strength_clause(solution.case.discharge)),
         bound="best",
+    )
+
+
+def _level(solution: AxleSolution, margin: float, chance: Chance | None) -> tuple[Level, str]:
+    """Level and code of a verdict: by the probability, or by the margin.
+
+    If the summits of an element touch under a voltage, both follow the rule of surfaces that touch, unless
+    the probability, or the films that separate their surfaces, make breakdown expected.
+    """
+    if chance is not None and (chance.level == "red" or margin > 0.0):
+        return chance.level, chance.code
+    if margin > 0.0:
+        level = level_of(*strength_interval(margin))
+        return level, code_of(level, likely=margin < 1.0)
+    films = max(solution.ratios().values(), default=0.0)
+    if chance is None and films > 0.0 and level_of(*strength_interval(1.0 / films)) == "red":
+        return "red", code_of("red", likely=True)
+    return touching_rule(chance, driven=True)
+
+
+def _first_film(solution: AxleSolution, name: str, code: str) -> Statement:
+    """Statement on the voltages of an element whose film separates its surfaces."""
+    voltage, limit = solution.voltage_of(name), solution.breakdown_voltages[name]
+    return Statement.of(
+        code,
+        element=name,
+        voltage=voltage,
+        edge=solution.case.edge,
+        breakdown=limit,
+        margin=limit / voltage,
     )
 
 
@@ -150,21 +168,27 @@ def _firsts(uncertainty: _Probable) -> Iterator[Statement]:
         yield Statement.of("axle-deciding", first=first, second=second, input=label, share=share)
 
 
-def _touching(solution: AxleSolution) -> tuple[str, ...]:
-    """Names of elements without a breakdown voltage because summits touch, and that do not conduct."""
-    return tuple(each.name for each in solution.elements if each.touching and each.state != CONDUCTS)
-
-
 def _reasons(solution: AxleSolution, first: str) -> Iterator[Statement]:
-    """Statements on the other assumptions about meshes, and on elements without a breakdown voltage."""
+    """Statements on the other assumptions about meshes, and on elements that touch or conduct."""
+    ranking, limits = [name for name, _ in solution.discharging()], solution.breakdown_voltages
+    if touching := tuple(name for name in ranking if name not in limits and name != first):
+        yield Statement.of("axle-touching", elements=touching)
+    films = [name for name in ranking if name in limits]
+    if films and films[0] != first:
+        yield _first_film(solution, films[0], "axle-first-film")
     others = list(_others(solution, first)) if solution.case.mesh else []
     if solution.case.mesh and not others:
         yield Statement.of("axle-first-in-all")
     yield from others
     if solution.changed_ranks:
         yield Statement.of("axle-ranks", elements=solution.changed_ranks)
-    if touching := _touching(solution):
-        yield Statement.of("axle-touching", elements=touching)
+    at_times = tuple(
+        f"{each.name} {time_share_text(each.contact_time_share)}"
+        for each in solution.elements
+        if each.state == AT_TIMES
+    )
+    if at_times:
+        yield Statement.of("axle-conducting-at-times", elements=at_times)
     for each in solution.elements:
         if each.state == CONDUCTS:
             yield Statement.of("axle-conducting", elements=(each.name,))
@@ -173,9 +197,13 @@ def _reasons(solution: AxleSolution, first: str) -> Iterator[Statement]:
 def _others(solution: AxleSolution, first: str) -> Iterator[Statement]:
     """Statements on assumptions about meshes with which another element is first."""
     for conduction in ("always", "never"):
-        ranking = [row for row in solution.ranking(conduction) if row[1] > 0.0]
+        ranking = solution.discharging(conduction)
         if not ranking:
             yield Statement.of("axle-none-if", case=_IF[conduction])
         elif ranking[0][0] != first:
             name, ratio = ranking[0]
-            yield Statement.of("axle-first-if", case=_IF[conduction], element=name, margin=1.0 / ratio)
+            about = {"case": _IF[conduction], "element": name}
+            if math.isinf(ratio):
+                yield Statement.of("axle-touches-if", **about)
+            else:
+                yield Statement.of("axle-first-if", **about, margin=1.0 / ratio)

@@ -30,7 +30,7 @@ from functools import cached_property
 import numpy as np
 import scipy
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, IntArray
 from ehlectric.cases.axle_inputs import HOUSING as HOUSING
 from ehlectric.drive import FRAME, StateSpace, state_space
 from ehlectric.drive import WINDING as WINDING
@@ -156,16 +156,51 @@ class Network:
 
 
 def rank(
-    network: Network, breakdown_voltages: Mapping[str, float], edge: float, rise_time: float = 0.0
+    network: Network, limits: Mapping[str, float], edge: float, rise_time: float = 0.0
 ) -> list[tuple[str, float]]:
-    """Names of elements with the ratio of their voltage after an edge to their breakdown voltage, the largest
-    first. ``breakdown_voltages`` by the name of the element [V]; ``edge`` of the source [V] and its
-    ``rise_time`` [s].
+    """Names of elements with the ratio of their voltage after an edge to their breakdown voltage, in the
+    order of ``firsts``. ``limits``, breakdown voltages by the name of the element [V], 0 where summits touch;
+    ``edge`` of the source [V] and its ``rise_time`` [s].
     """
     potentials = network.potentials(edge, rise_time)
-    ratios = [
-        (each.name, abs(network.voltage(each, potentials)) / breakdown_voltages[each.name])
-        for each in network.elements
-        if each.name in breakdown_voltages and not each.conducts
-    ]
-    return sorted(ratios, key=lambda row: -row[1])
+    names = [each.name for each in network.elements if each.name in limits and not each.conducts]
+    films = {each.name: each for each in network.elements}
+    voltages = np.array([abs(network.voltage(films[name], potentials)) for name in names])
+    ratios = voltage_ratios(voltages, np.array([limits[name] for name in names]))
+    rows = zip(names, ratios.tolist(), voltages.tolist(), strict=True)
+    return [(name, ratio) for name, ratio, _ in sorted(rows, key=lambda row: (-row[1], -row[2]))]
+
+
+def voltage_ratios(voltages: Array, limits: Array) -> Array:
+    """Voltages divided by breakdown voltages [V], of one shape.
+
+    ``limits``, breakdown voltages: 0 where summits touch, infinite for an element that conducts or does not
+    break down. The ratio is infinite where summits touch under a voltage, and 0 without a voltage.
+
+    Examples
+    --------
+    >>> voltage_ratios(np.array([3.0, 3.0, 0.0]), np.array([2.0, 0.0, 0.0])).tolist()
+    [1.5, inf, 0.0]
+    """
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where(voltages == 0.0, 0.0, voltages / limits)
+
+
+def firsts(voltages: Array, limits: Array) -> IntArray:
+    """Numbers of the elements that discharge first, -1 where no element does, shape (n,).
+
+    ``voltages`` and ``limits`` as for ``voltage_ratios``, shape (n, elements). The first element has the
+    largest ratio. Elements whose summits touch under a voltage discharge at any voltage, and precede all
+    others; the element with the largest voltage is the first of them.
+
+    Examples
+    --------
+    >>> voltages = np.array([[2.0, 3.0], [2.0, 3.0], [2.0, 3.0]])
+    >>> firsts(voltages, np.array([[1.0, 3.0], [1.0, 0.0], [0.0, 0.0]])).tolist()
+    [0, 1, 1]
+    """
+    ratios = voltage_ratios(voltages, limits)
+    known = np.where(np.isnan(ratios), 0.0, ratios)
+    touching = np.where(np.isinf(known), voltages, 0.0)
+    first = np.where(np.any(touching > 0.0, axis=1), np.argmax(touching, axis=1), np.argmax(known, axis=1))
+    return np.asarray(np.where(np.any(known > 0.0, axis=1), first, -1))

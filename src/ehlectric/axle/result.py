@@ -201,9 +201,9 @@ class AxleResult(Shown):
 
     def key_numbers(self) -> tuple[str, ...]:
         """Return the number of elements and the first of them as texts."""
-        ranking = self.solution.ranking()
+        ranking = self.solution.discharging()
         count = f"{len(self.solution.elements)} bearings and meshes"
-        return (count, f"{ranking[0][0]} breaks down first") if ranking else (count,)
+        return (count, f"{ranking[0][0]} discharges first") if ranking else (count,)
 
     def _headline(self) -> str:
         return headline(self.case.title, *self.key_numbers(), verdict=axle_verdict(self.solution))

@@ -73,6 +73,13 @@ class Element:
         """State: conducts, conducts at times, or insulates."""
         return state_at(self.contact_time_share, self.conduction)
 
+    @property
+    def limit(self) -> float:
+        """Breakdown voltage [V]: 0 where summits touch, infinite for an element that does not break down."""
+        if self.breakdown_voltage is None:
+            return 0.0 if self.touching else math.inf
+        return self.breakdown_voltage
+
     def film(self, conduction: Conduction) -> Film:
         """Element of the network; ``conduction`` is an assumption about meshes, "by-film" as in its file."""
         given = self.conduction if self.kind == "bearing" or conduction == "by-film" else conduction
@@ -127,6 +134,11 @@ class AxleSolution:
         edge = self.case.edge if edge is None else edge
         return self.network(conduction).potentials(edge, self.case.source.rise_time or 0.0)
 
+    def voltage_of(self, name: str) -> float:
+        """Absolute voltage of a bearing or mesh after the edge of the case [V]."""
+        film = next(film for film in self.films() if film.name == name)
+        return abs(self.network().voltage(film, self.potentials()))
+
     @property
     def breakdown_voltages(self) -> dict[str, float]:
         """Breakdown voltages by the names of the elements that have one [V]."""
@@ -137,9 +149,22 @@ class AxleSolution:
         }
 
     def ranking(self, conduction: Conduction = "by-film") -> list[tuple[str, float]]:
-        """Names of elements with the ratio U/V_b after the edge of the case, the largest first."""
+        """Names of elements with the ratio U/V_b after the edge of the case, the first to discharge first.
+
+        The ratio is infinite for an element whose summits touch under a voltage: its contacts that open
+        discharge at any voltage. Of several such elements, the element with the largest voltage is first.
+        """
         rise_time = self.case.source.rise_time or 0.0
-        return rank(self.network(conduction), self.breakdown_voltages, self.case.edge, rise_time)
+        limits = {each.name: each.limit for each in self.elements if math.isfinite(each.limit)}
+        return rank(self.network(conduction), limits, self.case.edge, rise_time)
+
+    def discharging(self, conduction: Conduction = "by-film") -> list[tuple[str, float]]:
+        """Elements of the ranking that have a voltage."""
+        return [row for row in self.ranking(conduction) if row[1] > 0.0]
+
+    def ratios(self, conduction: Conduction = "by-film") -> dict[str, float]:
+        """Ratios U/V_b of the elements with a breakdown voltage that do not conduct, the largest first."""
+        return {name: ratio for name, ratio in self.ranking(conduction) if name in self.breakdown_voltages}
 
     def voltages_and_limits(self) -> tuple[Array, Array]:
         """Return voltages and breakdown voltages of all elements after the edge of the case [V].
@@ -149,8 +174,7 @@ class AxleSolution:
         """
         network, potentials, films = self.network(), self.potentials(), self.films()
         limits = [
-            math.inf if film.conducts else _limit(each.breakdown_voltage, touching=each.touching)
-            for each, film in zip(self.elements, films, strict=True)
+            math.inf if film.conducts else each.limit for each, film in zip(self.elements, films, strict=True)
         ]
         return np.array([abs(network.voltage(film, potentials)) for film in films]), np.array(limits)
 
@@ -163,13 +187,6 @@ class AxleSolution:
         first = [name for name in always if name in never]
         second = [name for name in never if name in always]
         return tuple(name for name in second if first.index(name) != second.index(name))
-
-
-def _limit(voltage: float | None, *, touching: bool) -> float:
-    """Breakdown voltage, 0 where summits touch, infinite for an element that does not break down."""
-    if voltage is None:
-        return 0.0 if touching else math.inf
-    return voltage
 
 
 def forces_on_shafts(case: AxleCase) -> dict[str, list[tuple[str, ForceAt]]]:
@@ -391,7 +408,7 @@ def bearing_elements(solution: BearingSolution, mounted: Sequence[tuple[str, str
     the load.
     """
     breakdown, bearing = breakdown_of(solution), solution.case.bearing
-    insulating = solution.conditions.ceramic
+    breaks = solution.case.discharge.has_strength and not solution.conditions.ceramic
     limit = math.nan if breakdown is None else breakdown.shaft_ring_to_ring_breakdown
     columns = (
         shaft_capacitance(solution),
@@ -407,7 +424,7 @@ def bearing_elements(solution: BearingSolution, mounted: Sequence[tuple[str, str
         Element(
             name=name,
             kind="bearing",
-            touching=math.isnan(voltage) and not insulating,
+            touching=breaks and math.isnan(voltage),
             first=shaft,
             second=HOUSING,
             capacitance=capacitance,

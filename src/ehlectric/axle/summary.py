@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Any
 
 from ehlectric.axle.solution import CONDUCTIONS, AxleSolution
 from ehlectric.cases.gear_inputs import Conduction
+from ehlectric.quantities.lubrication_states import word_without_ratio
 
 # Columns of elements.csv with their units: load and film, voltages after the edge, and the rank.
 ELEMENT_COLUMNS: Mapping[str, str] = MappingProxyType(
     {
         "element": "",
         "state": "",
+        "touching": "",
         "radial_load": "N",
         "axial_load": "N",
         "lambda_ratio": "",
@@ -22,6 +25,8 @@ ELEMENT_COLUMNS: Mapping[str, str] = MappingProxyType(
         "breakdown_voltage": "V",
         "voltage": "V",
         "voltage_ratio": "",
+        "voltage_ratio_always": "",
+        "voltage_ratio_never": "",
         "rank": "",
         "rank_always": "",
         "rank_never": "",
@@ -58,6 +63,27 @@ def axle_summary(solution: AxleSolution) -> dict[str, Any]:
     }
 
 
+def ratio_word(row: Mapping[str, Any]) -> str:
+    """Word for the reason why a row of ``elements`` has no voltage divided by breakdown voltage: that the
+    element conducts, that its summits touch, or that it has no breakdown voltage. Empty if it has a ratio.
+    """
+    return word_without_ratio(row["state"], row["breakdown_voltage"], touching=row["touching"])
+
+
+def worst_ratio(row: Mapping[str, Any]) -> float | None:
+    """Largest voltage divided by breakdown voltage of a row of ``elements`` if all meshes conduct, or none.
+
+    None if the element has no ratio, or if its ratio is not exceeded by more than 1 %.
+    """
+    ratio = row["voltage_ratio"]
+    others = [row[f"voltage_ratio_{conduction}"] or 0.0 for conduction in CONDUCTIONS[1:]]
+    return None if ratio is None or max(others) <= _EXCEEDS * ratio else max(others)
+
+
+# Ratio of two voltages from which a table contains both (engineering judgement).
+_EXCEEDS = 1.01
+
+
 def tables_of_point(solution: AxleSolution) -> dict[str, Any]:
     """Tables of a point of a sweep: ``edge`` and ``first`` as in summary.json, and the rows of ``elements``
     and ``shafts`` by their keys, without their names.
@@ -76,17 +102,16 @@ def tables_of_point(solution: AxleSolution) -> dict[str, Any]:
 
 
 def _first(solution: AxleSolution) -> dict[str, Any]:
-    """Table ``first``: the element that breaks down first, and its voltages; None without one."""
-    ranking = [row for row in solution.ranking() if row[1] > 0.0]
+    """Table ``first``: the element that discharges first, and its voltages; None without one."""
+    ranking = solution.discharging()
     if not ranking:
         return dict.fromkeys(("element", "voltage", "breakdown_voltage", "voltage_ratio", "margin"))
     name, ratio = ranking[0]
-    limit = solution.breakdown_voltages[name]
     return {
         "element": name,
-        "voltage": ratio * limit,
-        "breakdown_voltage": limit,
-        "voltage_ratio": ratio,
+        "voltage": solution.voltage_of(name),
+        "breakdown_voltage": solution.breakdown_voltages.get(name),
+        "voltage_ratio": ratio if math.isfinite(ratio) else None,
         "margin": 1.0 / ratio,
     }
 
@@ -99,11 +124,11 @@ def _elements(solution: AxleSolution) -> list[dict[str, Any]]:
     """Rows of elements.csv."""
     network, potentials = solution.network(), solution.potentials()
     ranks = {conduction: _ranked(solution, conduction) for conduction in CONDUCTIONS}
+    ratios = {conduction: solution.ratios(conduction) for conduction in CONDUCTIONS}
     rows = []
     for element in solution.elements:
         film = element.film("by-film")
         voltage = abs(network.voltage(film, potentials))
-        limit = element.breakdown_voltage
         places = {
             conduction: names.index(element.name) + 1 if element.name in names else None
             for conduction, names in ranks.items()
@@ -112,14 +137,17 @@ def _elements(solution: AxleSolution) -> list[dict[str, Any]]:
             {
                 "element": element.name,
                 "state": element.state,
+                "touching": element.touching,
                 "radial_load": element.radial_load,
                 "axial_load": element.axial_load,
                 "lambda_ratio": element.lambda_ratio,
                 "contact_time_share": element.contact_time_share,
                 "capacitance": element.capacitance,
-                "breakdown_voltage": limit,
+                "breakdown_voltage": element.breakdown_voltage,
                 "voltage": voltage,
-                "voltage_ratio": None if limit is None else voltage / limit,
+                "voltage_ratio": ratios["by-film"].get(element.name),
+                "voltage_ratio_always": ratios["always"].get(element.name),
+                "voltage_ratio_never": ratios["never"].get(element.name),
                 "rank": places["by-film"],
                 "rank_always": places["always"],
                 "rank_never": places["never"],

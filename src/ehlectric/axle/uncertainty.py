@@ -2,15 +2,15 @@
 
 At each point of a Sobol design the whole axle is solved: loads, films, network and voltages. An element with
 the voltage U and the breakdown voltage V_b breaks down if U is at least V_b; an element whose summits touch
-breaks down at any voltage. The first element has the largest r = U/V_b of all elements that have a breakdown
+discharges at any voltage. The first element has the largest r = U/V_b, infinite where summits touch under a
 voltage. Which of two elements A and B is first depends on
 
     D = (r_A - r_B)/(r_A + r_B),
 
-which does not contain the dielectric strength. The shares of the inputs in the variance of D rank the
-measurements that decide which of the two elements is first. In the same way the inputs have shares in the
-variance of r/(1 + r) of the first element. Both functions are bounded: a logarithm would not be near the
-inputs at which summits touch.
+which does not contain the dielectric strength. D is 1 if the summits of A touch, and -1 if the summits of B
+touch. The shares of the inputs in the variance of D rank the measurements that decide which of the two
+elements is first. In the same way the inputs have shares in the variance of r/(1 + r) of the first element.
+Both functions are bounded: a logarithm would not be near the inputs at which summits touch.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ import numpy as np
 
 from ehlectric.arrays import Array, IntArray
 from ehlectric.axle.many_axles import FilmScales, solve_axles
+from ehlectric.axle.network import firsts, voltage_ratios
 from ehlectric.axle.solution import AxleSolution
 from ehlectric.bearing import (
     FILMS,
@@ -75,8 +76,8 @@ _HERE: Mapping[str, float] = MappingProxyType({})
 # inputs recommend a measurement (engineering judgement).
 _PREDICTED = 0.5
 
-# Least share of the points at which both elements have a voltage and a breakdown voltage, so that their
-# ratios are compared (engineering judgement).
+# Least share of the points at which an element of two has a voltage and can break down, and the summits of at
+# most one of both touch, so that their ratios are compared (engineering judgement).
 _LEAST_COMPARED = 0.05
 
 # Inputs with a smaller share of the variance are not listed.
@@ -151,6 +152,7 @@ class AxleUncertainty(Uncertainty):
                 {
                     **super().summary(),
                     "elements": [_row(each) for each in self.elements],
+                    "none_first_probability": max(1.0 - math.fsum(each.first for each in self.elements), 0.0),
                     "deciding_elements": [] if deciding is None else list(deciding.elements),
                     "deciding": [
                         {"key": key, "label": label, "total": total}
@@ -420,8 +422,8 @@ def uncertainty_of(
     voltages, limits = np.array(rows.voltages), np.array(rows.limits) * strength[:, np.newaxis]
     solved = np.all(np.isfinite(voltages), axis=1)
     conducting = np.array(rows.conducting)[solved]
-    firsts = _firsts(voltages[solved], limits[solved])
-    elements = tuple(_chances(rows.names, voltages[solved], limits[solved], conducting, firsts))
+    first = firsts(voltages[solved], limits[solved])
+    elements = tuple(_chances(rows.names, voltages[solved], limits[solved], conducting, first))
     deciding = _deciding(design, at[solved], voltages[solved], limits[solved], elements)
     known = {each.name: getattr(spread, each.name) for each in fields(spread)}
     known |= {"inputs": inputs, "predicted": predicted}
@@ -455,29 +457,18 @@ def _add(rows: _Rows, design: AxleDesign, at: Array) -> None:
         rows.add(outcome)
 
 
-def _firsts(voltages: Array, limits: Array) -> IntArray:
-    """Numbers of the first elements at all points, -1 where no element has a voltage and a breakdown voltage.
-
-    As in the ranking of an axle, an element whose summits touch has no breakdown voltage.
-    """
-    ranked = np.isfinite(limits) & (limits > 0.0) & (voltages > 0.0)
-    ratios = np.divide(voltages, limits, out=np.full_like(limits, -1.0), where=ranked)
-    return np.asarray(np.where(np.any(ranked, axis=1), np.argmax(ratios, axis=1), -1))
-
-
 def _chances(
-    names: Sequence[str], voltages: Array, limits: Array, conducting: Array, firsts: IntArray
+    names: Sequence[str], voltages: Array, limits: Array, conducting: Array, first: IntArray
 ) -> Iterator[ElementChance]:
     """Probabilities of all elements."""
     touching = (limits == 0.0) & np.logical_not(conducting)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        ratios = np.where(voltages > 0.0, voltages / limits, 0.0)
+    ratios = voltage_ratios(voltages, limits)
     for number, name in enumerate(names):
         low, median, high = np.quantile(ratios[:, number], INTERVAL, method="higher").tolist()
         yield ElementChance(
             name,
             float(np.mean(ratios[:, number] >= 1.0)),
-            float(np.mean(firsts == number)),
+            float(np.mean(first == number)),
             float(np.mean(touching[:, number])),
             float(np.mean(conducting[:, number])),
             (low, median, high),
@@ -497,7 +488,7 @@ def _deciding(
     with np.errstate(invalid="ignore"):
         ratios = first * high, second * low
         difference = (ratios[0] - ratios[1]) / (ratios[0] + ratios[1])
-    known = np.isfinite(difference) & np.all(limits[:, both] > 0.0, axis=1)
+    known = np.isfinite(difference)
     if np.mean(known) < _LEAST_COMPARED or not np.ptp(difference[known]):
         return None
     shares = variance_shares(2.0 * at[known, : design.number] - 1.0, difference[known])

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
+from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from ehlectric.axle import AxleResult
+from ehlectric.axle import CONDUCTIONS, AxleResult, Element
 from ehlectric.errors import printable
 from ehlectric.figures.axle_discharges import axle_discharges, discharges_finding
 from ehlectric.figures.axle_duty import axle_duty, duty_finding
@@ -25,7 +27,8 @@ from ehlectric.figures.network_picture import network_picture
 from ehlectric.figures.shaft_forces import shaft_forces
 from ehlectric.figures.style import drawing_of, legend_above, new_panels, note, style, titled
 from ehlectric.quantities.formats import amount
-from ehlectric.quantities.palette import BLACK, BLUE, GREY, ORANGE
+from ehlectric.quantities.lubrication_states import CONDUCTS
+from ehlectric.quantities.palette import BLACK, BLUE, GREY, ORANGE, WHITE
 from ehlectric.readable import readable
 
 # Part of the axis at its ends, and height of the bars.
@@ -37,23 +40,23 @@ def elements(result: AxleResult, ax: Axes) -> None:
     are lines.
     """
     solution = result.solution
-    ratios = dict(solution.ranking())
-    bounds = [dict(solution.ranking(conduction)) for conduction in ("always", "never")]
+    ranked = [name for name, _ in solution.ranking()]
+    ratios, *bounds = (solution.ratios(conduction) for conduction in CONDUCTIONS)
     rest = [each.name for each in solution.elements if each.name not in ratios]
-    names = [*ratios, *rest]
+    names = [*ranked, *(name for name in rest if name not in ranked)]
+    first = next((name for name, _ in solution.discharging()), None)
     positive = [value for table in (ratios, *bounds) for value in table.values() if value > 0.0]
     low, high = min([*positive, 1.0]) / _ROOM, max([*positive, 1.0]) * _ROOM
     for place, name in enumerate(names):
-        ratio = ratios.get(name, 0.0)
+        ratio, colour = ratios.get(name, 0.0), ORANGE if name == first else BLUE
         if ratio > 0.0:
-            ax.barh(place, ratio - low, _HEIGHT, left=low, color=ORANGE if place == 0 else BLUE)
+            ax.barh(place, ratio - low, _HEIGHT, left=low, color=colour)
         ends = [table[name] for table in bounds if table.get(name, 0.0) > 0.0]
         if len(ends) == 2:
             ax.plot(ends, [place, place], color=BLACK, lw=1.6, marker="|", ms=8.0)
         if name in rest:
             element = next(each for each in solution.elements if each.name == name)
-            text = f"summits touch, {element.state}" if element.touching else element.state
-            note(ax, 0.02, place, text, data_axis="y", va="center", color=GREY, fontsize="medium")
+            _write_without_ratio(ax, place, element, colour if name in ranked else GREY)
     ax.axvline(1.0, color=BLACK, ls="--", lw=1.0)
     ax.set(xscale="log", xlim=(low, high), ylim=(len(names) - 0.4, -0.6))
     ax.set_yticks(range(len(names)), [printable(name) for name in names])
@@ -69,6 +72,19 @@ def elements(result: AxleResult, ax: Axes) -> None:
     )
 
 
+def _write_without_ratio(ax: Axes, place: int, element: Element, colour: str) -> None:
+    """Write why an element has no bar: it conducts, its summits touch, or it has no breakdown voltage."""
+    if element.state == CONDUCTS:
+        text = element.state
+    elif element.touching:
+        text = f"summits touch, {element.state}: discharges at any voltage"
+    else:
+        text = f"{element.state}, no breakdown voltage"
+    look: dict[str, Any] = {"va": "center", "fontsize": "medium", "zorder": 3.0}
+    box = {"facecolor": WHITE, "edgecolor": "none", "pad": 1.0}
+    note(ax, 0.02, place, text, data_axis="y", color=colour, bbox=box, **look)
+
+
 def _draw_elements(result: AxleResult) -> Axes:
     (ax,) = new_panels(1, 1, (8.0, 1.8 + 0.4 * len(result.solution.elements)))
     elements(result, ax)
@@ -76,11 +92,14 @@ def _draw_elements(result: AxleResult) -> Axes:
 
 
 def _first(result: AxleResult) -> str:
-    """Sentence about the element that breaks down first."""
-    ranking = [(name, ratio) for name, ratio in result.solution.ranking() if ratio > 0.0]
+    """Sentence about the element that discharges first."""
+    ranking = result.solution.discharging()
     if not ranking:
-        return "No bearing or mesh has a voltage and a breakdown voltage"
+        return "No bearing or mesh with a voltage breaks down"
     name, ratio = ranking[0]
+    if math.isinf(ratio):
+        voltage = readable(result.solution.voltage_of(name), 3)
+        return f"{name}: summits touch and discharge at any voltage, here {voltage} V after an edge"
     return f"{name}: {readable(ratio, 3)} times the breakdown voltage after an edge, the largest ratio"
 
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from ehlectric.axle import WINDING, AxleSolution, Element, Film
 from ehlectric.cases.axle_inputs import LinkKind
 from ehlectric.quantities.formats import amount
+from ehlectric.quantities.lubrication_states import AT_TIMES, CONDUCTS, TOUCHES
 from ehlectric.readable import readable
 
 # Decades of U/V_b on each side of breakdown that a bar shows.
@@ -23,13 +24,21 @@ class NetworkElement:
     name: str
     value: str  # capacitance or resistance, or that it conducts
     voltage: str
-    ratio: float | None  # U/V_b
-    first: bool  # whether it breaks down first
+    ratio: float | None  # U/V_b, infinite if summits touch; None without a voltage that breaks it down
+    contact_time_share: float  # share of time in which metallic contacts conduct
+    first: bool  # whether it discharges first
 
     @property
     def ends(self) -> set[str]:
         """Names of the nodes at both ends."""
         return {self.film.first, self.film.second}
+
+    @property
+    def mostly_conducts(self) -> bool:
+        """Whether metallic contacts conduct for more than half of the time, in which the element has no
+        voltage.
+        """
+        return not self.film.conducts and self.contact_time_share > 0.5
 
     @property
     def bar(self) -> float:
@@ -42,21 +51,22 @@ def elements_of_network(solution: AxleSolution) -> Iterator[NetworkElement]:
     """Elements of the network with their names, values and voltages."""
     network, potentials = solution.network(), solution.potentials()
     elements = {element.name: element for element in solution.elements}
-    ranking = [name for name, ratio in solution.ranking() if ratio > 0.0]
+    ratios = dict(solution.discharging())
+    first = next(iter(ratios), None)
     kinds = [link.kind for link in solution.case.link]
     for film in network.elements:
         if WINDING in (film.first, film.second):
             continue
         voltage = abs(network.voltage(film, potentials))
         element = elements.get(film.name)
-        limit = None if element is None else element.breakdown_voltage
         yield NetworkElement(
             film,
             _name(film, element, kinds),
             _value(film),
             _voltages(film, element, voltage),
-            None if limit is None or film.conducts else voltage / limit,
-            first=film.name in ranking[:1],
+            None if film.conducts else ratios.get(film.name),
+            0.0 if element is None else element.contact_time_share,
+            first=film.name == first,
         )
 
 
@@ -72,7 +82,7 @@ def _name(film: Film, element: Element | None, kinds: list[LinkKind]) -> str:
 
 def _value(film: Film) -> str:
     if film.conducts:
-        return "conducts"
+        return CONDUCTS
     parts = [amount(film.capacitance, "F")] if film.capacitance else []
     parts += [amount(1.0 / film.conductance, "ohm")] if film.conductance else []
     return ", ".join(parts)
@@ -83,7 +93,10 @@ def _voltages(film: Film, element: Element | None, voltage: float) -> str:
     if element is None or film.conducts:
         return ""
     if element.breakdown_voltage is None:
-        return f"{readable(voltage, 3)} V, {'summits touch' if element.touching else 'no breakdown voltage'}"
+        why = TOUCHES if element.touching else "no breakdown voltage"
+        share = readable(100.0 * element.contact_time_share, 2)
+        at_times = f", conducts {share} %" if element.state == AT_TIMES else ""
+        return f"{readable(voltage, 3)} V, {why}{at_times}"
     ratio = voltage / element.breakdown_voltage
     return f"{readable(voltage, 3)} V / {readable(element.breakdown_voltage, 3)} V = {readable(ratio, 3)}"
 

@@ -7,8 +7,10 @@ element between both. Elements between two shafts are in lanes between the boxes
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import FancyBboxPatch, Patch, Rectangle
@@ -36,8 +38,9 @@ _SYMBOL, _TEXT = 0.2, 0.36
 # Size of a bar.
 _BAR, _BAR_HIGH = 1.2, 0.07
 
-# Half distance and half height of the plates of a capacitor, and half length of the body of a resistor.
-_GAP, _PLATE, _BODY = 0.03, 0.1, 0.12
+# Half distance and half height of the plates of a capacitor, half length of the body of a resistor and of a
+# switch.
+_GAP, _PLATE, _BODY, _SWITCH = 0.03, 0.1, 0.12, 0.08
 
 
 def _colour(each: NetworkElement) -> str:
@@ -69,15 +72,14 @@ def network_picture(result: AxleResult) -> Axes:
         _draw_between(
             ax, each, lane, level, [shafts.index(end) for end in (each.film.first, each.film.second)]
         )
-    legend_above(
-        ax,
-        [
-            Line2D([], [], color=ORANGE, lw=2.0, label="first element to break down"),
-            Patch(color=BLUE, label="bar: $U/V_\\mathrm{b}$ from 0.01 to 100"),
-            Line2D([], [], color=BLACK, ls="none", marker="|", ms=8.0, label="$U = V_\\mathrm{b}$"),
-        ],
-        columns=3,
-    )
+    handles: list[Artist] = [
+        Line2D([], [], color=ORANGE, lw=2.0, label="first element to discharge"),
+        Patch(color=BLUE, label=r"bar: $U/V_\mathrm{b}$ from 0.01 to 100"),
+        Line2D([], [], color=BLACK, ls="none", marker="|", ms=8.0, label=r"$U = V_\mathrm{b}$"),
+    ]
+    if any(each.mostly_conducts for each in shown):
+        handles.append(Line2D([], [], color=BLACK, marker="o", ms=2.5, label="conducts most of the time"))
+    legend_above(ax, handles, columns=len(handles))
     return ax
 
 
@@ -142,6 +144,17 @@ def _draw_element(ax: Axes, each: NetworkElement, ends: tuple[float, float], hei
             ax.plot([first, last], [height] * 2, **look)
         for x in (at - _GAP, at + _GAP):
             ax.plot([x, x], [height - _PLATE, height + _PLATE], **look)
+        if each.mostly_conducts:
+            _draw_contact(ax, at, height, look)
+
+
+def _draw_contact(ax: Axes, at: float, height: float, look: Mapping[str, Any]) -> None:
+    """Draw a closed switch in parallel with a capacitor, for metallic contact for most of the time."""
+    below = height - _PLATE - 0.07
+    ends = [at - _SWITCH, at + _SWITCH]
+    for x in ends:
+        ax.plot([x, x], [height, below], **look)
+    ax.plot(ends, [below] * 2, marker="o", ms=2.5, **look)
 
 
 def _describe(ax: Axes, each: NetworkElement, x: float, height: float) -> None:

@@ -33,8 +33,10 @@ _LETTER = (1.0 + 2.0 * _ROOM) / 80.0
 # Part of the height of a panel below which an arrow is short, and distance of its number from the shaft [pt].
 _SHORT, _AWAY = 0.08, 5.0
 
-# Part of the largest force that is the half height of a panel.
+# Part of the largest force that is the half height of a panel, part of this height from which a force has an
+# arrow, 2 % of the largest force, and size of the head of a long arrow.
 _HIGH = 1.7
+_DRAWN, _HEAD = 0.02 / _HIGH, 10.0
 
 
 @dataclass(frozen=True)
@@ -137,12 +139,8 @@ def _draw(ax: Axes, forces: Sequence[PlacedForce], way: int, high: float) -> Non
         for number, (colour, force) in enumerate(zip(_COLOURS, each.forces, strict=True)):
             side = 2 * number - 1
             at, value = place + side * _ASIDE * length, force[way]
-            ax.annotate(
-                "",
-                (at, value),
-                (at, 0.0),
-                arrowprops={"arrowstyle": "-|>", "color": colour, "lw": 1.6, "shrinkA": 0.0, "shrinkB": 0.0},
-            )
+            if abs(value) >= _DRAWN * high:
+                _draw_arrow(ax, at, value, colour, min(1.0, abs(value) / (_SHORT * high)))
             ax.annotate(
                 f"{readable(abs(value), 3)} N",
                 (at, value),
@@ -159,6 +157,12 @@ def _draw(ax: Axes, forces: Sequence[PlacedForce], way: int, high: float) -> Non
     ax.tick_params(axis="x", labelsize="x-small")
     for edge in ("left", "right", "top"):
         ax.spines[edge].set_visible(False)
+
+
+def _draw_arrow(ax: Axes, at: float, value: float, colour: str, part: float) -> None:
+    """Draw a force from the shaft; ``part``, size of the head of its arrow as a part of the full size."""
+    look = {"arrowstyle": "-|>", "color": colour, "lw": 1.6, "shrinkA": 0.0, "shrinkB": 0.0}
+    ax.annotate("", (at, value), (at, 0.0), arrowprops=look | {"mutation_scale": _HEAD * part})
 
 
 def _lowered(places: Iterable[float], labels: Sequence[str]) -> Iterator[str]:

@@ -49,6 +49,29 @@ STATES = (BOUNDARY, FREQUENT, MIXED, FULL)
 # Electrical states of a mesh.
 CONDUCTS, AT_TIMES, INSULATES = "conducts", "conducts at times", "insulates"
 
+# Words for elements of an axle without a ratio of their voltage to their breakdown voltage, which conduct as
+# above, whose summits touch, or which have no breakdown voltage.
+TOUCHES, NO_LIMIT = "touches", "no V_b"
+
+
+def word_without_ratio(state: str, breakdown_voltage: float | None, *, touching: bool) -> str:
+    """Return the word for the reason why an element of an axle has no ratio of its voltage to its breakdown
+    voltage; empty if it has one.
+
+    Examples
+    --------
+    >>> word_without_ratio("conducts", 1.0, touching=False)
+    'conducts'
+    >>> [word_without_ratio("insulates", None, touching=touching) for touching in (True, False)]
+    ['touches', 'no V_b']
+    """
+    if state == CONDUCTS:
+        return CONDUCTS
+    if breakdown_voltage is None:
+        return TOUCHES if touching else NO_LIMIT
+    return ""
+
+
 # State of an element without load, which has a gap and no film.
 GAP = "gap"
 

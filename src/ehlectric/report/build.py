@@ -45,6 +45,7 @@ from ehlectric.runs.solve import load
 from ehlectric.sweep import NAME as SWEEP
 from ehlectric.sweep import SweepResults, read_sweep
 from ehlectric.tables.axle_tables import (
+    REMEDIES,
     axle_rows,
     chance_rows,
     chances_table,
@@ -191,7 +192,7 @@ def _axle(result: AxleResult) -> Part:
         f"mesh{'' if meshes == 1 else 'es'}: {amount(case.drive.torque, 'N m')} on the rotor, {speed}, "
         f"oil at {temperature}."
     )
-    elements = cell_table(elements_table(summary), "Bearings and meshes, the first to break down first")
+    elements = cell_table(elements_table(summary), "Bearings and meshes, the first to discharge on top")
     further = [elements, cell_table(shafts_table(summary), "Shafts", "shaft")]
     if "simulation" in summary:
         further.append(cell_table(simulation_table(summary), "Discharges over time"))
@@ -200,7 +201,7 @@ def _axle(result: AxleResult) -> Part:
     if "uncertainty" in summary:
         further.append(cell_table(chances_table(summary), "Probabilities of bearings and meshes"))
     if summary["remedies"]:
-        further.append(cell_table(remedies_table(summary), "Voltage / breakdown voltage with each remedy"))
+        further.append(cell_table(remedies_table(summary), REMEDIES))
     if summary["remedies"] and "simulation" in summary:
         further.append(cell_table(remedied_simulation_table(summary), "Discharges with each remedy"))
     return part_of(

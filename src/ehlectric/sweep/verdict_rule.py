@@ -296,6 +296,10 @@ def _why(results: SweepPoints, margins: Array) -> str:
     return ", ".join(f"{count} {reason}" for reason, count in counts.items())
 
 
+# Margin in place of 0, where summits touch: it has a logarithm, and breakdown then extends to the next point.
+_TOUCHING = 1e-300
+
+
 def _crossings(results: SweepPoints, margins: Array) -> list[Statement]:
     """Statements on the values of a single varied input at which the margin crosses 1."""
     if len(results.varied) != 1 or results.design == "sobol":
@@ -305,7 +309,7 @@ def _crossings(results: SweepPoints, margins: Array) -> list[Statement]:
     if not all(map(is_number, inputs)):
         return []
     rows = sorted(
-        (float(value), float(margin))
+        (float(value), max(float(margin), _TOUCHING))
         for value, margin in zip(inputs, margins, strict=True)
         if math.isfinite(margin)
     )

@@ -6,18 +6,23 @@ import textwrap
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
+from ehlectric.axle import ratio_word, worst_ratio
 from ehlectric.errors import printable
 from ehlectric.quantities.formats import time_share_text
+from ehlectric.quantities.lubrication_states import CONDUCTS
 from ehlectric.quantities.rows import Row, Summary
 from ehlectric.readable import readable
 from ehlectric.tables.measured_tables import columns_table
-from ehlectric.tables.probability_rows import left_out_of_probability, shares_of_spread
+from ehlectric.tables.probability_rows import left_out_of_probability, shares_above_all, shares_of_spread
 
 if TYPE_CHECKING:
     from rich.table import Table
 
 # Share of a spread below which the shares of the inputs in it are called rough (engineering judgement).
 _PREDICTED = 0.9
+
+# Probability from which the table has a row for no first element.
+_LEAST_NONE = 5e-5
 
 # Letters on a line of a head.
 _HEAD = 12
@@ -45,7 +50,7 @@ def element_cells(summary: Summary) -> Iterator[tuple[str, ...]]:
             _cell(row["capacitance"], 1e9),
             _cell(row["breakdown_voltage"]),
             _cell(row["voltage"]),
-            _cell(row["voltage_ratio"]),
+            ratio_word(row) or _cell(row["voltage_ratio"]),
         )
 
 
@@ -82,30 +87,43 @@ def shafts_table(summary: Summary) -> Table:
 
 
 def remedy_cells(summary: Summary) -> Iterator[tuple[str, ...]]:
-    """Yield the heads of the table of remedies, then U/V_b of each bearing and mesh, then the voltages. A
-    dash is an element that conducts or has no breakdown voltage.
+    """Yield the heads of the table of remedies, then U/V_b of each bearing and mesh, then the voltages.
+
+    A cell contains in brackets the largest U/V_b if all meshes conduct, or none, where it exceeds U/V_b. A
+    word replaces U/V_b of an element without one.
     """
     cases = [("as it is", summary), *((each["title"], each) for each in summary["remedies"])]
     yield "U/V_b", *(printable(title) for title, _ in cases)
-    ratios = [{row["element"]: row["voltage_ratio"] for row in table["elements"]} for _, table in cases]
+    ratios = [{row["element"]: ratio_text(row) for row in table["elements"]} for _, table in cases]
     for row in _in_order(summary):
-        yield printable(row["element"]), *(_cell(table.get(row["element"])) for table in ratios)
+        yield printable(row["element"]), *(table.get(row["element"], "–") for table in ratios)
     for number, shaft in enumerate(summary["shafts"]):
         voltages = (_cell(table["shafts"][number]["voltage"]) for _, table in cases)
         yield f"U of {printable(shaft['shaft'])} [V]", *voltages
 
 
+def ratio_text(row: Mapping[str, Any]) -> str:
+    """U/V_b of a row of ``elements``, or a word; in brackets the largest U/V_b if all meshes conduct, or
+    none.
+    """
+    worst = worst_ratio(row)
+    return ratio_word(row) or _cell(row["voltage_ratio"]) + ("" if worst is None else f" ({readable(worst)})")
+
+
 def remedies_table(summary: Summary) -> Table:
     """Table of U/V_b of all bearings and meshes with each remedy, for the terminal."""
-    return _wrapped_table(remedy_cells(summary))
+    return _wrapped_table(remedy_cells(summary), REMEDIES)
 
 
-def _wrapped_table(cells: Iterator[tuple[str, ...]]) -> Table:
+# What the table of remedies shows.
+REMEDIES = "U/V_b with each mitigation measure; in brackets the largest U/V_b if all meshes conduct, or none"
+
+
+def _wrapped_table(cells: Iterator[tuple[str, ...]], title: str = "") -> Table:
     """Table for the terminal whose heads, titles of remedies, are wrapped."""
     heads, *rows = cells
-    return columns_table(
-        ["\n".join(textwrap.wrap(head, _HEAD, break_long_words=False)) for head in heads], rows, wrapped=(0,)
-    )
+    wrapped = ["\n".join(textwrap.wrap(head, _HEAD, break_long_words=False)) for head in heads]
+    return columns_table(wrapped, rows, title, wrapped=(0,))
 
 
 def simulation_cells(summary: Summary) -> Iterator[tuple[str, ...]]:
@@ -136,7 +154,7 @@ def simulation_table(summary: Summary) -> Table:
 
 def remedied_simulation_cells(summary: Summary) -> Iterator[tuple[str, ...]]:
     """Yield the heads of the table of discharges with each remedy, then the discharges in a second of each
-    bearing and mesh, and their mean energies. A dash is an element that conducts or has no discharge.
+    bearing and mesh, and their mean energies. A dash is an element that has no discharge.
     """
     cases = [("as it is", summary), *((each["title"], each) for each in summary["remedies"])]
     yield "discharges [1/s]", *(printable(title) for title, _ in cases)
@@ -148,9 +166,9 @@ def remedied_simulation_cells(summary: Summary) -> Iterator[tuple[str, ...]]:
     ):
         for row in summary["elements"]:
             if any(row["element"] in table for table in tables):
-                values = (table.get(row["element"], {}).get(key) for table in tables)
                 head = name.format(printable(row["element"])) + (unit and f" [{unit}]")
-                yield head, *(_cell(value, factor) for value in values)
+                of_cases = [table and table.get(row["element"]) for table in tables]
+                yield head, *(CONDUCTS if of is None else _cell(of.get(key), factor) for of in of_cases)
     yield "power of all [µW]", *(_cell(table.get("power"), 1e6) for table in in_time)
 
 
@@ -181,6 +199,10 @@ def chance_cells(summary: Summary) -> Iterator[tuple[str, ...]]:
             ),
             _between(row["voltage_ratio_low"], row["voltage_ratio_high"]),
         )
+    # Results of earlier versions lack this probability.
+    none = table.get("none_first_probability") or 0.0
+    if none >= _LEAST_NONE:
+        yield "none", readable(100.0 * none, 2), "", "", "", ""
 
 
 def _between(low: float | None, high: float | None) -> str:
@@ -231,6 +253,7 @@ def chance_rows(summary: Summary) -> Iterator[Row]:
         for each in table["deciding"]:
             share = f"{readable(100.0 * each['total'], 2)} % of the spread"
             yield Row(printable(each["label"]), share, key=f"uncertainty.deciding.{each['key']}")
+        yield from shares_above_all([each["total"] for each in table["deciding"]])
         yield from _rough_shares(table, "deciding_predicted")
     yield from left_out_of_probability(summary)
 
@@ -265,5 +288,4 @@ def axle_rows(summary: Summary) -> Iterator[Row]:
         if row["breakdown_voltage"] is not None:
             yield Row("breakdown voltage", row["breakdown_voltage"], "V")
         yield Row("voltage after an edge", row["voltage"], "V")
-        if row["voltage_ratio"] is not None:
-            yield Row("voltage / breakdown voltage", row["voltage_ratio"])
+        yield Row("voltage / breakdown voltage", ratio_word(row) or row["voltage_ratio"])

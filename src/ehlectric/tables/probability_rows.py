@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from ehlectric.bearing import FILMS, is_factor
@@ -16,6 +16,9 @@ _SCALES = {UNITS[unit][0]: scale_of(unit) for unit in ("°C", "deg", "V/µm", "N
 
 # Least share of the spread of an input that has a row.
 _LEAST_SHARE = 0.005
+
+# Sum of shares that has a row: smaller sums are within the error of the shares (engineering judgement).
+_ABOVE_ALL = 1.05
 
 
 def probability_value(key: str) -> Callable[[Summary], Any]:
@@ -47,7 +50,8 @@ def probability_note(summary: Summary) -> str:
 
 def shares_of_spread(summary: Summary) -> Iterator[Row]:
     """Rows of the shares of the uncertain inputs in the spread of the margin, the largest first."""
-    for index in (summary.get("uncertainty") or {}).get("indices", ()):
+    indices = (summary.get("uncertainty") or {}).get("indices", ())
+    for index in indices:
         if index["total"] >= _LEAST_SHARE:
             name, _, remark = index["label"].partition(" (")
             within = "" if index["low"] is None else f", {input_range(index)}"
@@ -57,6 +61,14 @@ def shares_of_spread(summary: Summary) -> Iterator[Row]:
             note = f"{', ' + remark.removesuffix(')') if remark else ''}{assumed}"
             share = f"{readable(100.0 * index['total'], 2)} % of the spread"
             yield Row(f"{name}{within}", share, note=note, key=f"uncertainty.indices.{index['key']}")
+    yield from shares_above_all([index["total"] for index in indices])
+
+
+def shares_above_all(shares: Sequence[float]) -> Iterator[Row]:
+    """Row with the sum of the shares of all inputs, and why it exceeds 100 %; no row if it does not."""
+    if sum(shares) >= _ABOVE_ALL:
+        note = ", more than 100 %: what inputs cause together is in the share of each of them"
+        yield Row("sum of these shares", f"{readable(100.0 * sum(shares), 3)} %", note=note)
 
 
 def left_out_of_probability(summary: Summary) -> Iterator[Row]:

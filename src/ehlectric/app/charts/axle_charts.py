@@ -6,9 +6,10 @@ import math
 
 from ehlectric.app.charts.plotly_panels import INK, axis, log_ticks, plot, stack
 from ehlectric.app.view_models import Figure, Table
-from ehlectric.axle import AxleResult
+from ehlectric.axle import CONDUCTIONS, AxleResult
 from ehlectric.errors import printable
 from ehlectric.figures.axle_discharges import discharge_panels, discharges_finding
+from ehlectric.quantities.lubrication_states import TOUCHES
 from ehlectric.quantities.palette import BLUE, ORANGE
 from ehlectric.quantities.rows import Summary
 from ehlectric.readable import readable
@@ -105,23 +106,29 @@ def _voltages_figure(result: AxleResult) -> Figure:
 
 
 def ratios_figure(result: AxleResult) -> Figure:
-    """Bar of each element with a breakdown voltage, the first element on top; a line extends between the
-    values for all meshes conducting and no mesh conducting.
+    """Bar of each element that can discharge, the first element on top; a line extends between the values for
+    all meshes conducting and no mesh conducting. Hatched bars without an end belong to summits that touch.
     """
     solution = result.solution
-    ratios = {name: ratio for name, ratio in solution.ranking() if ratio > 0.0}
-    bounds = [dict(solution.ranking(conduction)) for conduction in ("always", "never")]
-    names = list(ratios)
-    labels = {name: f"{name}: {readable(ratios[name], 3)}" for name in names}
+    ranking = dict(solution.discharging())
+    ratios, *bounds = (solution.ratios(conduction) for conduction in CONDUCTIONS)
+    names = list(ranking)
+    labels = {
+        name: f"{name}: {TOUCHES if math.isinf(ratio) else readable(ratio, 3)}"
+        for name, ratio in ranking.items()
+    }
     positive = [value for table in (ratios, *bounds) for value in table.values() if value > 0.0]
     ends = (min([*positive, 1.0]) / _ROOM, max([*positive, 1.0]) * _ROOM)
     data = [
         {
             "type": "bar",
             "orientation": "h",
-            "x": [float(f"{value:.4g}") for value in ratios.values()],
+            "x": [float(f"{min(value, ends[1]):.4g}") for value in ranking.values()],
             "y": [*labels.values()],
-            "marker": {"color": [ORANGE, *[BLUE] * (len(names) - 1)]},
+            "marker": {
+                "color": [ORANGE, *[BLUE] * (len(names) - 1)],
+                "pattern": {"shape": ["/" if math.isinf(value) else "" for value in ranking.values()]},
+            },
             "hovertemplate": "%{y}<extra></extra>",
         }
     ]
@@ -140,7 +147,9 @@ def ratios_figure(result: AxleResult) -> Figure:
                 }
             )
     limit = {"type": "line", "x0": 1.0, "x1": 1.0, "yref": "paper", "y0": 0.0, "y1": 1.0}
-    first = f"{names[0]} first, {readable(ratios[names[0]])}" if names else "no element has a voltage"
+    first = (
+        f"{names[0]} first, {labels[names[0]].rpartition(': ')[2]}" if names else "no element has a voltage"
+    )
     return Figure(
         "Voltage after an edge / breakdown voltage",
         f"Bar of each bearing and mesh: {first}.",
@@ -155,6 +164,6 @@ def ratios_figure(result: AxleResult) -> Figure:
             shapes=[limit | {"line": {"color": INK, "width": 1, "dash": "dash"}}],
             bargap=0.35,
         ),
-        caption="Above 1 the element breaks down. A line extends between the values for all meshes conducting"
-        " and no mesh conducting.",
+        caption="Above 1 the element breaks down. Summits that touch discharge at any voltage: their bars "
+        "are hatched. A line extends between the values for all meshes conducting and no mesh conducting.",
     )

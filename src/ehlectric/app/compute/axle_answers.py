@@ -26,12 +26,13 @@ from ehlectric.app.view_models import (
     Number,
     Table,
 )
-from ehlectric.axle import HOUSING, AxleResult, solve_axle
+from ehlectric.axle import HOUSING, AxleResult, ratio_word, solve_axle, worst_ratio
 from ehlectric.cases.axle_case import AxleCase
 from ehlectric.drive import SIMULATING
 from ehlectric.errors import InputError, printable
 from ehlectric.figures.network_elements import elements_of_network
 from ehlectric.quantities.formats import amount_text
+from ehlectric.quantities.lubrication_states import CONDUCTS, NO_LIMIT, TOUCHES
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.rows import Summary
 from ehlectric.quantities.verdict import Verdict
@@ -170,10 +171,11 @@ def _meaning_of(verdict: Verdict) -> str:
 def _numbers(summary: Summary) -> Iterator[Number]:
     """Main numbers: margin and voltages of the first element, and voltage of the edge."""
     labels = _TEXTS["numbers"]
-    first = next((row for row in summary["elements"] if row["rank"] == 1 and row["voltage_ratio"]), None)
-    if first is not None:
-        yield Number("first.margin", labels["margin"], ratio_text(1.0 / first["voltage_ratio"]))
+    first = summary["first"]
+    if first["element"] is not None:
+        yield Number("first.margin", labels["margin"], ratio_text(first["margin"]))
         yield Number("first.voltage", labels["voltage"], readable(first["voltage"]), "V")
+    if first["breakdown_voltage"] is not None:
         yield Number(
             "first.breakdown_voltage", labels["breakdown"], readable(first["breakdown_voltage"]), "V"
         )
@@ -201,12 +203,12 @@ def _simulated_numbers(simulation: Summary) -> Iterator[Number]:
 
 def _deciding(summary: Summary, verdict: Verdict, *, probable: bool) -> Deciding:
     """Margin of the first element, with its name and its interval, which follows unless ``probable``."""
-    first = next((row for row in summary["elements"] if row["rank"] == 1), None)
+    first = summary["first"]["element"]
     margin, interval = verdict.margin, verdict.interval
     if first is None or margin is None:
         return Deciding("edge.voltage", figure="ratios")
     labels = _TEXTS["facts"]
-    facts = [(labels["first"], first["element"])]
+    facts = [(labels["first"], first)]
     if not probable:
         interval = None
         facts.append((labels["interval"], PENDING))
@@ -218,29 +220,52 @@ def _deciding(summary: Summary, verdict: Verdict, *, probable: bool) -> Deciding
 
 def _effects(result: AxleResult, summary: Summary) -> Iterator[str]:
     """Sentence on the effect of each remedy on all elements."""
-    texts, now = _TEXTS["effects"], _ratios(summary)
     for remedy in summary["remedies"]:
-        then, rank = _ratios(remedy), remedy["rank"]["by-film"]
-        changes = {name: _change(now[name], then[name]) for name in now if name in then}
-        if len(changes) == len(now) and {*changes.values()} == {-1}:
-            parts = [texts["all_lower"]]
-        else:
-            groups = {
-                "lower": [name for name, sign in changes.items() if sign < 0],
-                "higher": [name for name, sign in changes.items() if sign > 0],
-                "gone": [name for name in now if name not in then],
-                "new": [name for name in then if name not in now],
-            }
-            parts = [
-                texts[word].format(elements=", ".join(_grouped(result, names)))
-                for word, names in groups.items()
-                if names
-            ] or [texts["none"]]
-        sentences = [f"{'; '.join(parts)}."]
-        if rank and then[rank[0]] > 0.0:
-            word = "first_above" if then[rank[0]] > 1.0 else "first_below"
-            sentences.append(texts[word].format(element=rank[0], ratio=readable(then[rank[0]])))
+        parts = _changed(result, _ratios(summary), remedy) or [_TEXTS["effects"]["none"]]
+        sentences = [f"{'; '.join(parts)}.", *_then(remedy)]
         yield f"{remedy['title']}: {' '.join(sentences)}"
+
+
+def _changed(result: AxleResult, now: dict[str, float], remedy: Summary) -> list[str]:
+    """Parts of the sentence on a remedy: elements whose ratio changes, and elements without a ratio."""
+    texts, then = _TEXTS["effects"], _ratios(remedy)
+    words = {row["element"]: ratio_word(row) for row in remedy["elements"]}
+    changes = {name: _change(now[name], then[name]) for name in now if name in then}
+    groups = {
+        "lower": [name for name, sign in changes.items() if sign < 0],
+        "higher": [name for name, sign in changes.items() if sign > 0],
+        "conduct": [name for name in now if words[name] == CONDUCTS],
+        "gone": [name for name in now if words[name] == NO_LIMIT],
+        "new": [name for name in then if name not in now],
+        "touch": [name for name, word in words.items() if word == TOUCHES],
+    }
+    if len(changes) == len(now) and {*changes.values()} == {-1}:
+        lowered = texts["all_with_ratio_lower" if groups["touch"] else "all_lower"]
+        groups = {"touch": groups["touch"]}
+    else:
+        lowered = ""
+    parts = [
+        texts[word].format(elements=", ".join(_grouped(result, names)))
+        for word, names in groups.items()
+        if names
+    ]
+    return [lowered, *parts] if lowered else parts
+
+
+def _then(remedy: Summary) -> Iterator[str]:
+    """Sentences on the first element with a remedy, and on its dependence on the state of the meshes."""
+    texts, first = _TEXTS["effects"], remedy["first"]
+    if first["element"] is None:
+        return
+    if first["voltage_ratio"] is None:
+        yield texts["first_touches"].format(element=first["element"])
+        return
+    word = "first_above" if first["voltage_ratio"] > 1.0 else "first_below"
+    yield texts[word].format(element=first["element"], ratio=readable(first["voltage_ratio"]))
+    worst = {row["element"]: worst_ratio(row) or 0.0 for row in remedy["elements"]}
+    name = max(worst, key=lambda each: worst[each])
+    if word == "first_below" and worst[name] > 1.0:
+        yield texts["meshes_above"].format(element=name, ratio=readable(worst[name]))
 
 
 def _change(before: float, after: float) -> int:

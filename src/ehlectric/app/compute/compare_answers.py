@@ -69,7 +69,9 @@ def _axle(table: Mapping[str, Any], folder: Path | None, *, whole: bool) -> Side
     case = axle_answers.axle_after_an_edge(table, folder)
     result = solve_axle(case, remedies=False, probable=whole)
     answer, summary = axle_answers.answer_of(result), result.summary()
-    ratios = tuple((printable(name), ratio) for name, ratio in result.solution.ranking() if ratio > 0.0)
+    ratios = tuple(
+        (printable(name), ratio) for name, ratio in result.solution.ratios().items() if ratio > 0.0
+    )
     rows = axle_rows(summary)
     shafts = [
         Result(_SHAFTS, printable(row["shaft"]), row["voltage"], readable(row["voltage"]), "V", main=True)
