@@ -267,7 +267,7 @@ def test_each_remedy_is_simulated_with_the_seed_of_the_axle(simulated):
     heads, *rows = remedied_simulation_cells(summary)
     assert len(heads) == 4
     cells = {row[0]: row[1:] for row in rows}
-    assert cells["mesh of rotor and intermediate"][2] == "–"
+    assert cells["mesh of rotor and intermediate"][2] == "conducts"
     assert cells["power of all [µW]"][0] == readable(1e6 * summary["simulation"]["power"])
 
 

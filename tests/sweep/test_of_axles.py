@@ -125,7 +125,8 @@ def test_evaluated_axles_are_those_of_each_axle_alone(case):
             if isinstance(value, str):
                 assert at == value
             else:
-                assert at == pytest.approx(np.nan if value is None else value, rel=1e-7, nan_ok=True), key
+                expected = np.nan if value is None else float(value)
+                assert at == pytest.approx(expected, rel=1e-7, nan_ok=True), key
     assert found[RQ].attrs == {"long_name": "composite roughness Rq, bearings of rotor", "units": "m"}
 
 

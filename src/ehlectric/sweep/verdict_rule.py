@@ -296,7 +296,7 @@ def _why(results: SweepPoints, margins: Array) -> str:
     return ", ".join(f"{count} {reason}" for reason, count in counts.items())
 
 
-# Margin in place of 0, where summits touch: it has a logarithm, and breakdown then extends to the next point.
+# Margin instead of 0, where summits touch, for a logarithm; breakdown then extends to the next point.
 _TOUCHING = 1e-300
 
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 # Share of a spread below which the shares of the inputs in it are called rough (engineering judgement).
 _PREDICTED = 0.9
 
-# Probability from which the table has a row for no first element.
+# Probability from which the table contains a row for no first element.
 _LEAST_NONE = 5e-5
 
 # Letters on a line of a head.
