@@ -92,7 +92,7 @@ def test_the_updated_case_has_the_values_of_the_calibration_and_all_other_inputs
     updated = Inputs(answer.updated)
     for entry in result.inputs:
         ends = updated.value(f'ranges."{entry.key}"')
-        assert (ends is not None) == (entry.reduction > 0.05), entry.key
+        assert (ends is not None) == entry.updated, entry.key
     temperature = next(entry for entry in result.inputs if entry.key == "bearing.temperature")
     # Texts of the page have five digits.
     expected = [end - 273.15 for end in temperature.posterior]

@@ -173,6 +173,36 @@ SPEEDS = [100.0, 200.0, 300.0, 400.0, 600.0]
 
 
 @pytest.mark.slow
+def test_a_measurement_that_decides_nothing_changes_no_range(bearing):
+    """A temperature that is known to 60 K. For n even points, the reduction of a variance v = 1/12 has the
+    standard deviation 12 sqrt((1/80 - v^2)/n).
+    """
+    case = bearing.replace({"measured.outer_ring_temperature": "70 degC +- 60 K"})
+    calibration = ehlectric.calibrate(case)
+    assert not any(entry.updated for entry in calibration.inputs)
+    expected = 12.0 * np.sqrt((1.0 / 80.0 - 1.0 / 144.0) / calibration.samples)
+    for entry in calibration.inputs:
+        assert entry.reduction_error == pytest.approx(expected, rel=0.05)
+    assert calibration.case.ranges == bearing.ranges
+    assert calibration.of_file.probability == pytest.approx(calibration.before.probability)
+
+
+@pytest.mark.slow
+def test_the_probability_of_the_file_is_the_probability_of_its_bearing(bearing):
+    """A ratio of two capacitances is decided, which a file with independent ranges does not contain."""
+    case = bearing.replace({"measured.shaft_voltage": "4.4 V +- 3 %"})
+    calibration = ehlectric.calibrate(case)
+    solved = ehlectric.solve_bearing(calibration.case).summary()["uncertainty"]
+    expected, error = (solved[f"breakdown_probability{end}"] for end in ("", "_error"))
+    assert calibration.of_file.probability == pytest.approx(expected, abs=2.0 * error)
+    assert 0.05 < expected < 0.95
+    codes = [reason.code for reason in calibration.verdict.reasons]
+    differ = calibration.after.probability - calibration.of_file.probability
+    both = calibration.after.error + calibration.of_file.error
+    assert ("without-correlation" in codes) == (abs(differ) > both)
+
+
+@pytest.mark.slow
 @pytest.mark.gate
 def test_a_capacitance_in_parallel_is_the_cause_of_too_large_capacitances(bearing):
     """Simulated capacitances with 150 pF in parallel, which no input and no factor explains at all speeds;

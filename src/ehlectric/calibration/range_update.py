@@ -69,6 +69,10 @@ _FEW_POINTS = 32
 # calibrated file is the updated one.
 _DECIDES = 0.05
 
+# Removed variance in sampling errors above which it counts. Points of a Markov chain are not independent, so
+# that three errors are about two.
+_CERTAIN = 3.0
+
 # End of the keys of a capacitance in parallel to a bearing.
 _PARALLEL = "parallel_capacitance"
 
@@ -239,7 +243,8 @@ class _Compared:
         updated = self._updated(inputs) if posterior.explained else None
         following = tuple(self._following(numbers, margins)) if after is not None else ()
         unexplained = None if posterior.explained else self._unexplained(posterior)
-        verdict = self._verdict(updated, before, after, rows, unexplained, following)
+        of_file = None if after is None else self._of_file(updated, posterior)
+        verdict = self._verdict(updated, (before, after, of_file), rows, unexplained, following)
         return Calibration(
             title=case.title,
             source="[measured]" if self.given.read is None else self.given.read.source,
@@ -249,6 +254,7 @@ class _Compared:
             unexplained=unexplained,
             before=before,
             after=after,
+            of_file=of_file,
             following=following,
             effective=posterior.effective,
             chain=posterior.chain,
@@ -258,13 +264,24 @@ class _Compared:
             warnings=warnings,
         )
 
+    def _of_file(self, updated: Any, posterior: Posterior) -> Chance | None:
+        """Chance of breakdown of the case with the updated ranges, whose inputs are independent."""
+        model = model_of(updated)
+        design = sobol_points(len(model.names()), len(posterior.prior_at), self.seed)
+        return _chance(model.numbers(design, [{}], (MARGIN,))[MARGIN][:, 0])
+
     def _inputs(self, posterior: Posterior) -> Iterator[CalibratedInput]:
         """Inputs before and after the measurement."""
         quantiles = posterior.quantiles(INTERVAL)
         mean = posterior.weights @ posterior.at
-        variance = posterior.weights @ np.square(posterior.at - mean)
+        squares = np.square(posterior.at - mean)
+        variance = posterior.weights @ squares
+        # Standard deviation of a weighted mean of independent points.
+        spread = np.sqrt(np.square(posterior.weights) @ np.square(squares - variance))
+        reductions, spreads = 1.0 - 12.0 * variance, 12.0 * spread
         explained, names = posterior.explained, self.model.names()
-        for place, (name, after, part) in enumerate(zip(names, quantiles, 12.0 * variance, strict=True)):
+        changed = posterior.active & (reductions > np.maximum(_DECIDES, _CERTAIN * spreads))
+        for place, (name, after) in enumerate(zip(names, quantiles, strict=True)):
             yield CalibratedInput(
                 key=name.key,
                 label=name.label,
@@ -273,7 +290,9 @@ class _Compared:
                 high=_end(name.high),
                 prior=self._values(place, np.array(INTERVAL)),
                 posterior=self._values(place, after) if explained else None,
-                reduction=1.0 - float(part) if explained else None,
+                reduction=float(reductions[place]) if explained else None,
+                reduction_error=float(spreads[place]) if explained else None,
+                updated=explained and bool(changed[place]),
             )
 
     def _values(self, place: int, parts: Array) -> Quantiles:
@@ -353,7 +372,7 @@ class _Compared:
         """Case with the updated ranges of inputs that the measurement decided."""
         values, ranges = {}, {}
         for entry in inputs:
-            if entry.posterior is not None and (entry.reduction or 0.0) > _DECIDES:
+            if entry.posterior is not None and entry.updated:
                 low, median, high = (float(f"{end:.6g}") for end in entry.posterior)
                 values[entry.key], ranges[entry.key] = median, (low, high)
         return self.model.updated(values, ranges)
@@ -361,19 +380,23 @@ class _Compared:
     def _verdict(
         self,
         updated: Any,
-        before: Chance | None,
-        after: Chance | None,
+        chances: tuple[Chance | None, Chance | None, Chance | None],
         rows: Sequence[Compared],
         unexplained: Unexplained | None,
         following: Sequence[tuple[str, float]],
     ) -> Verdict:
-        """Verdict with the updated probability; grey if nothing explains the measurement."""
+        """Verdict with the updated probability; grey if nothing explains the measurement. ``chances``, of
+        breakdown before and after the measurement, and with the ranges of the calibrated file.
+        """
         if unexplained is not None:
             return _refused(rows, unexplained)
+        before, after, of_file = chances
         verdict = self.model.verdict(updated, after)
         reasons = []
         if before is not None:
             reasons.append(Statement.of("before-measurement", probability=before.stated))
+        if after is not None and of_file is not None and _differ(after, of_file):
+            reasons.append(Statement.of("without-correlation", probability=of_file.stated))
         if following:
             name, part = following[0]
             reasons.append(Statement.of("measure-next", quantity=quantity_text(name), share=part))
@@ -459,6 +482,11 @@ def _cause(cause: Cause) -> Statement:
     if cause.kind == "parallel":
         return Statement.of("cause-parallel", quantity=cause.label, **values)
     return Statement.of("input-leaves-range", input=cause.label, **values)
+
+
+def _differ(first: Chance, second: Chance) -> bool:
+    """Whether two probabilities differ by more than their sampling errors."""
+    return abs(first.probability - second.probability) > first.error + second.error
 
 
 def _chance(margins: Array, effective: float | None = None) -> Chance | None:

@@ -39,6 +39,10 @@ class CalibratedInput:
     posterior: Quantiles | None  # None where nothing within the ranges explains the measurement
     # Share of the variance of the input that the measurement removed, dimensionless; negative if it grew.
     reduction: float | None
+    reduction_error: float | None  # sampling error of the reduction, one standard deviation
+    # Whether the measurement changed the range by more than the sampling error: calibrated.toml then has the
+    # updated range.
+    updated: bool
 
 
 @dataclass(frozen=True)
@@ -109,6 +113,9 @@ class Calibration(Shown):
         What nothing within the ranges explains; None if inputs within the ranges explain the measurement.
     before, after : Chance or None
         Probability of breakdown before and after the measurement; None without a margin.
+    of_file : Chance or None
+        Probability of breakdown with the ranges of the calibrated file, which contains no correlation of the
+        inputs; None without a margin.
     following : tuple of (str, float)
         Quantities to measure next, and the share of the variance of the margin that each removes on average;
         the largest first.
@@ -136,6 +143,7 @@ class Calibration(Shown):
     unexplained: Unexplained | None
     before: Chance | None
     after: Chance | None
+    of_file: Chance | None
     following: tuple[tuple[str, float], ...]
     effective: float
     chain: bool
@@ -167,6 +175,7 @@ class Calibration(Shown):
                     "unexplained": None if self.unexplained is None else asdict(self.unexplained),
                     "before": _chance(self.before),
                     "after": _chance(self.after),
+                    "of_file": _chance(self.of_file),
                     "next": [{"quantity": name, "reduction": part} for name, part in self.following],
                     "effective_samples": self.effective,
                     "samples": self.samples,
@@ -195,8 +204,13 @@ class Calibration(Shown):
         contents: dict[str, Content] = {SUMMARY: json_of(self.summary()), COMPARED: csv_of(*self._table())}
         if self.case is not None:
             source = printable(self.source)
-            head = f"# Ranges from 5 % to 95 % after the measurement in {source}, by ehlectric calibrate."
-            contents[CALIBRATED] = f"{head}\n\n{self.case.to_toml()}".encode()
+            heads = [f"# Ranges from 5 % to 95 % after the measurement in {source}, by ehlectric calibrate."]
+            if self.after is not None and self.of_file is not None:
+                heads += [
+                    f"# Probability of breakdown after the measurement: {self.after.brief}.",
+                    f"# With these ranges: {self.of_file.brief}. They contain no correlation of the inputs.",
+                ]
+            contents[CALIBRATED] = "\n".join([*heads, "", self.case.to_toml()]).encode()
         return contents
 
     def _table(self) -> tuple[list[str], list[list[Any]]]:

@@ -88,7 +88,18 @@ def input_range(effect: Mapping[str, Any]) -> str:
     '12 to 18 V/µm'
     """
     low, high = (effect.get(f"{end}_input", effect.get(end)) for end in ("low", "high"))
-    ends, unit = (low, high), "" if is_factor(effect["key"]) else unit_of(effect["key"])
+    return interval_text(low, high, "" if is_factor(effect["key"]) else unit_of(effect["key"]))
+
+
+def interval_text(low: float, high: float, unit: str, digits: int = 4) -> str:
+    """Range in an SI unit as text, in the unit that is printed.
+
+    Examples
+    --------
+    >>> interval_text(2.4e-10, 2.613e-10, "F")
+    '0.24 to 0.2613 nF'
+    """
+    ends = low, high
     scale = _SCALES.get(unit) or scale_for(max(map(abs, ends)), unit)
-    low, high = (readable(scale.of(end), 4) for end in ends)
-    return f"{low} to {high} {scale.unit}".rstrip()
+    texts = (readable(scale.of(end), digits) for end in ends)
+    return f"{' to '.join(texts)} {scale.unit}".rstrip()
