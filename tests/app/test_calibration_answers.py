@@ -71,6 +71,45 @@ def test_names_of_shafts_with_other_letters_make_keys_in_quotes():
     assert measured_fields("axle", inputs)['shafts."größe_1".voltage'].label == "Voltage of the shaft größe 1"
 
 
+@each(
+    "typed, expected",
+    [
+        ("8 +- 0.3", "8 V +- 0.3 V"),
+        ("8 ± 0.3 V", "8 V +- 0.3 V"),
+        ("8 V +/- 4 %", "8 V +- 4 %"),
+        ("8 kV ± 2", "8 kV +- 2 kV"),
+        ("0.8 mV ± 0.1 V", "0.8 mV +- 0.1 V"),
+        ("8 +- 4 % V", "8 V +- 4 % V"),
+        ("8", "8 V +- 5 mV"),
+        ("", None),
+    ],
+)
+def test_a_value_is_typed_with_or_without_its_uncertainty(typed, expected):
+    field = measured_fields("bearing", Inputs())["shaft_voltage"]
+    present = Inputs({"measured": {"shaft_voltage": "7 V ± 5 mV"}})
+    assert with_value(present, "shaft_voltage", field, typed) == expected
+
+
+@each("written", ["7 V", "7 V +- 4 % V", "7 V +- 2 pF", "7 V +- 0.1 +- 0.2"])
+def test_what_is_no_uncertainty_is_replaced_by_the_usual_one(written):
+    field = measured_fields("bearing", Inputs())["shaft_voltage"]
+    present = Inputs({"measured": {"shaft_voltage": written}})
+    assert with_value(present, "shaft_voltage", field, "8") == "8 V +- 3 %"
+
+
+def test_values_of_the_page_and_of_a_file_are_counted_apart(tmp_path):
+    (tmp_path / "surfaces").mkdir()
+    heads = "speed [rpm],capacitance [pF],uncertainty of capacitance [%]"
+    rows = "3000,250,3\n3000,252,3\n6000,200,300\n"
+    (tmp_path / "surfaces" / "surface-1.csv").write_text(f"{heads}\n{rows}", encoding="utf-8")
+    table = tables("bearing", file="surfaces/surface-1.csv", shaft_voltage="8 V +- 3 %")
+    counts, doubt = checked(table, tmp_path).split(". ")
+    assert counts == (
+        "3 measured values at 2 operating points of the file, and 1 at the operating point of the page"
+    )
+    assert doubt.startswith("The uncertainty of the capacitance is larger")
+
+
 def test_a_value_without_an_uncertainty_is_refused_by_its_key():
     field = measured_fields("bearing", Inputs())["capacitance"]
     inputs = Inputs({"measured": {"capacitance": "250 pF +- 5 %"}})

@@ -8,6 +8,7 @@ from tests.app.driving import complete, drawn, field, type_into, wait_for_addres
 from tests.app.outputs import command, downloaded, fits
 from tests.app.test_accessibility import findings
 from tests.helpers.places import EXAMPLES
+from tests.helpers.processes import wait_until
 
 pytestmark = pytest.mark.browser
 
@@ -66,8 +67,9 @@ def test_a_file_of_operating_points_is_opened_with_its_case_and_can_be_replaced(
     complete(page)
     files = [EXAMPLES / "bearing_measured.toml", EXAMPLES / "measurements" / "bearing_6208_points.csv"]
     page.get_by_test_id("upload-case").locator("input[type=file]").set_input_files(files)
-    # Two values of the file, and seven of the CSV at four operating points; the case itself is a further one.
-    page.get_by_test_id("measured-used").get_by_text("9 measured values at 5 operating points").wait_for()
+    # Two values of the file, and seven of the CSV at four operating points.
+    used = page.get_by_test_id("measured-used")
+    used.get_by_text("7 measured values at 4 operating points of the file, and 2").wait_for()
     bad = tmp_path / "bad.csv"
     bad.write_text("speed [rpm],capacitance [pF]\n3000,250\n", encoding="utf-8")
     page.get_by_test_id("upload-measured").set_input_files(bad)
@@ -77,6 +79,39 @@ def test_a_file_of_operating_points_is_opened_with_its_case_and_can_be_replaced(
     assert page.get_by_test_id("calibrate").is_disabled()
     page.get_by_test_id("measured-remove").click()
     calibrate(page, explained=True)
+
+
+@pytest.mark.slow
+def test_a_value_is_typed_with_its_uncertainty(open_page, app_server):
+    page = open_page(app_server, "/")
+    complete(page)
+    add(page, "shaft_voltage", "8")
+    boxes = [field(page, f"measured.shaft_voltage{end}") for end in ("", ".uncertainty")]
+
+    def shown(*texts):
+        return wait_until(lambda: tuple(box.input_value() for box in boxes) == texts)
+
+    for typed, texts in {
+        "8 +- 0.3": ("8 V", "0.3 V"),
+        "9 V": ("9 V", "0.3 V"),
+        "8 ± 0.4 V": ("8 V", "0.4 V"),
+        "8 V +- 4 %": ("8 V", "4 %"),
+        "7 +- 4 % V": ("7 V", "4 % V"),
+    }.items():
+        type_into(page, "measured.shaft_voltage", typed)
+        assert shown(*texts), typed
+    error = page.get_by_test_id("error-measured-shaft_voltage-uncertainty")
+    error.filter(has_text="a difference above 0").wait_for()
+    assert not page.get_by_test_id("error-measured-shaft_voltage").is_visible()
+    # What is no uncertainty ends with the value to which it was typed.
+    type_into(page, "measured.shaft_voltage", "6")
+    assert shown("6 V", "3 %")
+    error.wait_for(state="hidden")
+    type_into(page, "measured.shaft_voltage.uncertainty", "300")
+    used = page.get_by_test_id("measured-used").filter(has_text="larger than the measured value")
+    used.wait_for()
+    type_into(page, "measured.shaft_voltage.uncertainty", "0.3")
+    used.wait_for(state="hidden")
 
 
 @pytest.mark.slow

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -17,6 +17,9 @@ from ehlectric.app.view_models import CalibrationAnswer, Table
 from ehlectric.calibration import Calibration, calibrate, given_points
 from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.input_keys import unit_of
+from ehlectric.cases.measured_inputs import MeasuredValue
+from ehlectric.cases.measurements import calibrated as calibrated_quantity
+from ehlectric.cases.measurements import quantity_text
 from ehlectric.discharge.breakdown_rule import Chance
 from ehlectric.quantities.inputs import ENDS, REPLACED, input_at
 from ehlectric.quantities.quantity import data_file
@@ -35,13 +38,35 @@ _KEPT = ("contacts", "drive_end.contacts", "non_drive_end.contacts")
 
 
 def checked(table: Mapping[str, Any], session: Path | None = None) -> str:
-    """Sentence on the measured values of a case. Raises InputError if one of them cannot be used."""
+    """Sentences on the measured values of a case. Raises InputError if one of them cannot be used."""
     given = given_points(run_case_of(table, session))
-    counts = (
-        f"{n} {name}{'' if n == 1 else 's'}"
-        for n, name in ((len(given.values), "measured value"), (len(given.points), "operating point"))
+    of_page = [value for value in given.values if value.line is None]
+    of_file = [value for value in given.values if value.line is not None]
+    points = {tuple(sorted(given.points[value.point].items())) for value in of_file}
+    if not of_file:
+        counts = f"{_count(len(of_page), 'measured value')} at 1 operating point"
+    else:
+        at = _count(len(points), "operating point")
+        counts = f"{_count(len(of_file), 'measured value')} at {at} of the file"
+        counts += f", and {len(of_page)} at the operating point of the page" if of_page else ""
+    return " ".join([f"{counts}.", *_doubts(given.values)])
+
+
+def _count(number: int, name: str) -> str:
+    return f"{number} {name}{'' if number == 1 else 's'}"
+
+
+def _doubts(values: Iterable[MeasuredValue]) -> Iterator[str]:
+    """Sentences on uncertainties above their values. A share of time or a temperature may have such an
+    uncertainty.
+    """
+    large = (
+        value
+        for value in values
+        if calibrated_quantity(value.quantity).relative and value.uncertainty > value.value
     )
-    return f"{' at '.join(counts)}."
+    for name in dict.fromkeys(quantity_text(value.quantity) for value in large):
+        yield f"The uncertainty of the {name} is larger than the measured value: check its unit."
 
 
 def calibrated(table: Mapping[str, Any], session: Path, progress: Progress) -> CalibrationAnswer:

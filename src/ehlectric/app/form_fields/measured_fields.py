@@ -2,24 +2,27 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
 from ehlectric.app.form_fields.axle_fields import MEASURED, measured_places
-from ehlectric.app.form_fields.field import Field, form_data
+from ehlectric.app.form_fields.field import Field, form_data, written_text
 from ehlectric.app.page_inputs import Inputs, dotted_key
 from ehlectric.cases.axle_keys import name_of_quantity
 from ehlectric.quantities.field_help import help_text
 from ehlectric.quantities.inputs import input_at
 from ehlectric.quantities.quantity import data_file
-from ehlectric.quantities.units import rounded, split
+from ehlectric.quantities.units import in_unit, rounded, split
 from ehlectric.readable import capital
 
 # Key of a file of operating points.
 MEASURED_FILE = f"{MEASURED}.file"
 
-_SIGNS = ("+-", "±")
+# Sign before an uncertainty, and other signs that a user may type.
+_SIGN, _SIGNS = "+-", re.compile(r"\+/?-|±")
 
 
 def has_measured(kind: str) -> bool:
@@ -85,30 +88,41 @@ def measured_text(inputs: Inputs, name: str) -> tuple[str, str]:
     >>> measured_text(Inputs({"measured": {"capacitance": "250 pF +- 5 %"}}), "capacitance")
     ('250 pF', '5 %')
     """
-    text = str(inputs.value(f"{MEASURED}.{name}") or "")
-    sign = next((sign for sign in _SIGNS if sign in text), _SIGNS[0])
-    value, _, part = text.partition(sign)
-    return value.strip(), part.strip()
+    return _pieces(str(inputs.value(f"{MEASURED}.{name}") or ""))
+
+
+def _pieces(text: str) -> tuple[str, str]:
+    """Value before the first sign of an uncertainty, and the uncertainty behind the sign."""
+    value, *part = _SIGNS.split(text, maxsplit=1)
+    return value.strip(), "".join(part).strip()
 
 
 def with_value(inputs: Inputs, name: str, field: Field, text: str) -> str | None:
-    """Measured value of a typed text, with its present uncertainty or the usual one; None for an empty text.
+    """Measured value of a typed text with its uncertainty; None for an empty text.
+
+    If the text has no uncertainty, the value has its present uncertainty, or the usual one if no readable
+    uncertainty is given. A bare number has the unit of the other number, or else the unit of the field.
 
     Examples
     --------
     >>> field = measured_fields("bearing", Inputs())["capacitance"]
     >>> with_value(Inputs(), "capacitance", field, "250")
     '250 pF +- 5 %'
+    >>> with_value(Inputs(), "capacitance", field, "0.25 ± 0.01 nF")
+    '0.25 nF +- 0.01 nF'
     """
-    value = field.from_text(text)
-    if value is None:
+    first, part = _pieces(text)
+    if not first:
         return None
-    part = measured_text(inputs, name)[1] or _usual_uncertainty(name, str(value))
-    return _joined(str(value), part)
+    value = str(field.from_text(written_text(field, _with_unit(first, part, field))))
+    if part:
+        return _joined(value, _uncertainty(field, part, value))
+    present = measured_text(inputs, name)[1]
+    return _joined(value, present if is_uncertainty(field, present) else _usual_uncertainty(name, value))
 
 
 def with_uncertainty(inputs: Inputs, name: str, field: Field, text: str) -> str:
-    """Measured value with the uncertainty of a typed text; a bare number has the unit of the field.
+    """Measured value with the uncertainty of a typed text; a bare number has the unit of the value.
 
     Examples
     --------
@@ -117,13 +131,52 @@ def with_uncertainty(inputs: Inputs, name: str, field: Field, text: str) -> str:
     >>> with_uncertainty(inputs, "outer_ring_temperature", field, "2")
     '74 degC +- 2 K'
     """
-    unit = "K" if _column(name)["unit"] == "K" else field.unit
-    part = Field(field.key, field.label, unit).from_text(text)
-    return _joined(measured_text(inputs, name)[0], "" if part is None else str(part))
+    value, (first, part) = measured_text(inputs, name)[0], _pieces(text)
+    return _joined(value, _uncertainty(field, part or first, value))
+
+
+def _uncertainty(field: Field, text: str, value: str) -> str:
+    """Uncertainty of a typed text; a bare number has the unit of the value, or else the unit of the field."""
+    part = replace(field, unit=_unit_of_difference(field)).from_text(_with_unit(text, value, field))
+    return "" if part is None else str(part)
+
+
+def _with_unit(text: str, other: str, field: Field) -> str:
+    """Bare number with the unit of another number, if values of the field may have this unit. The unit of a
+    temperature is not the unit of its uncertainty.
+    """
+    bare, unit = split(text), split(other)
+    if bare is None or bare[1] or unit is None or not field.unit or _is_temperature(field):
+        return text
+    return f"{text} {unit[1]}" if in_unit(other, field.unit) is not None else text
+
+
+def _is_temperature(field: Field) -> bool:
+    return field.unit == "degC"
+
+
+def _unit_of_difference(field: Field) -> str:
+    """Unit of an uncertainty that is typed without a unit."""
+    return "K" if _is_temperature(field) else field.unit
+
+
+def is_uncertainty(field: Field, text: str) -> bool:
+    """Whether a text is a number with a unit that the uncertainty of a value may have.
+
+    Examples
+    --------
+    >>> field = measured_fields("bearing", Inputs())["capacitance"]
+    >>> [is_uncertainty(field, text) for text in ("5 %", "0.01 nF", "4 % pF", "")]
+    [True, True, False, False]
+    """
+    amount = split(text)
+    if amount is None or not field.unit:
+        return amount is not None and not amount[1]
+    return amount[1] == "%" or in_unit(text, _unit_of_difference(field)) is not None
 
 
 def _joined(value: str, part: str) -> str:
-    return f"{value} {_SIGNS[0]} {part}" if part else value
+    return f"{value} {_SIGN} {part}" if part else value
 
 
 def _usual_uncertainty(name: str, value: str) -> str:

@@ -10,9 +10,10 @@ from nicegui import ui
 
 from ehlectric.app.calls import CALIBRATED, CALIBRATION_CHECKED
 from ehlectric.app.form_fields.axle_fields import MEASURED
-from ehlectric.app.form_fields.field import Field, in_field_unit, shown_text, written_text
+from ehlectric.app.form_fields.field import Field, in_field_unit, shown_text
 from ehlectric.app.form_fields.measured_fields import (
     MEASURED_FILE,
+    is_uncertainty,
     measured_fields,
     measured_text,
     with_uncertainty,
@@ -177,8 +178,7 @@ class MeasuredBox:
         part.show(placeholder="not given")
 
         async def value_typed(event: Any) -> None:
-            text = written_text(field, str(event.args))
-            await self._put(name, with_value(self._session.inputs, name, field, text))
+            await self._put(name, with_value(self._session.inputs, name, field, str(event.args)))
             value.turn()
 
         async def part_typed(event: Any) -> None:
@@ -236,10 +236,16 @@ class MeasuredBox:
         pair = self._rows.get(name)
         of_file = self._file is not None and str(self._session.path_of(self._file)) in str(error)
         if pair is not None and isinstance(error, InputError):
-            pair[0].show(error=in_field_unit(self._fields[name], error.text))
+            self._show_wrong(name, pair, error)
             self._group.turn(opened=True)
         elif not key or key.startswith(MEASURED) or of_file:
             self.refuse(str(error))
+
+    def _show_wrong(self, name: str, pair: tuple[Control, Control], error: InputError) -> None:
+        """Show an error at the value, or at the uncertainty if only the uncertainty is wrong."""
+        field, (value, part) = self._fields[name], measured_text(self._session.inputs, name)
+        wrong = part and field.number(value) is not None and not is_uncertainty(field, part)
+        pair[bool(wrong)].show(error=in_field_unit(field, error.text))
 
     def refuse(self, text: str) -> None:
         """Show why there is no calibration; a file with the name that its user gave."""
