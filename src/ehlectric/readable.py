@@ -91,9 +91,13 @@ def chance_text(probability: float, error: float) -> str:
     --------
     >>> chance_text(0.163, 0.032), chance_text(0.0, 0.00372), chance_text(1.0, 0.00372)
     ('16 % (sampling error 3.2 %)', 'below 0.75 %', 'above 99.25 %')
+    >>> chance_text(0.997, 0.002)
+    '99.7 % (sampling error 0.2 %)'
     """
     if not at_an_end(probability, error):
-        return f"{readable(100.0 * probability, 2)} % (sampling error {readable(100.0 * error, 2)} %)"
+        # A probability below 1 is not rounded to 100 %.
+        digits = 2 if probability < 0.99 else 2 - math.floor(math.log10(1.0 - probability))
+        return f"{readable(100.0 * probability, digits)} % (sampling error {readable(100.0 * error, 2)} %)"
     # Wilson's interval of a share of 0 is twice as wide as its half. Two digits, rounded up.
     most = 100.0 * (min(probability, 1.0 - probability) + 2.0 * error)
     step = 10.0 ** (math.floor(math.log10(most)) - 1)

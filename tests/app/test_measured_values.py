@@ -49,12 +49,23 @@ def test_measured_values_update_the_ranges_as_the_command_does(open_page, app_se
     assert "measured" not in updated
     drawn(page)
     assert findings(page) == []
+    # Both verdicts have a heading, and the short answer of a narrow screen names its own.
+    headings = page.locator("h2").filter(has_text="the measurement").filter(visible=True)
+    assert headings.all_inner_texts() == ["After the measurement", "Before the measurement"]
     page.set_viewport_size({"width": 400, "height": 800})
     assert fits(page)
+    strip = page.get_by_test_id("strip").inner_text()
+    after = page.get_by_test_id("calibration-chances").locator("tbody tr").first.locator("td").last
+    assert f"After the measurement · breakdown {after.inner_text().partition(' (')[0]}" in strip
+    type_into(page, "measured.outer_ring_temperature.uncertainty", "3")
+    page.get_by_test_id("strip").get_by_text("Before the measurement").wait_for()
+    page.get_by_test_id("undo").click()
+    page.get_by_test_id("strip").get_by_text("After the measurement").wait_for()
     # The updated ranges are inputs of the page, which has the measured values again after an undo.
     page.get_by_test_id("use-calibrated").click()
     wait_for_address(page, 'ranges."bearing.temperature"')
     assert not page.get_by_test_id("calibration").is_visible()
+    assert not page.get_by_test_id("before").is_visible()
     page.get_by_test_id("undo").click()
     page.get_by_test_id("calibration").wait_for()
 

@@ -665,6 +665,7 @@ class CalibrationAnswer:
     explained: bool  # whether inputs within the ranges explain the measurement
     verdict: Verdict  # with the updated probability
     chances: Table | None  # probability and margins before and after; None without a margin
+    chance: str  # probability of breakdown after the measurement; empty without a margin
     inputs: Table | None  # ranges of the inputs before and after; None unless explained
     compared: Table  # measured next to computed values
     figures: Mapping[str, Figure]  # "ranges" unless the measurement is not explained, and "compared"

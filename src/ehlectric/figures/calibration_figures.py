@@ -70,6 +70,8 @@ def _inputs(result: Calibration, ax: Axes) -> None:
 
 def _compared(rows: tuple[Compared, ...], ax: Axes) -> None:
     """Draw computed values divided by measured ones."""
+    # Bars end within the axes, and not at their edge, where they would seem to be cut.
+    ax.use_sticky_edges = False
     labels = []
     for place, row in enumerate(rows):
         line = "" if row.line is None else f", line {row.line}"
@@ -90,6 +92,5 @@ def _compared(rows: tuple[Compared, ...], ax: Axes) -> None:
             ax.plot([nearest], [place], color=GREY, marker="x", ls="none", label=label)
     ax.set_yticks(range(len(rows)), labels)
     ax.invert_yaxis()
-    ax.use_sticky_edges = False
     ax.set_xlabel("computed / measured")
     legend_above(ax, columns=2)

@@ -83,6 +83,7 @@ def calibrated(table: Mapping[str, Any], session: Path, progress: Progress) -> C
         explained=result.explained,
         verdict=result.verdict,
         chances=_chances(result),
+        chance="" if result.after is None else f"breakdown {result.after.brief}",
         inputs=_table(_TEXTS["inputs"], input_cells(result)) if result.explained else None,
         compared=_table(_TEXTS["compared"], compared_cells(result)),
         figures=figures,

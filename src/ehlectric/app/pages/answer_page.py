@@ -21,7 +21,7 @@ from ehlectric.app.pages.downloads import Downloads
 from ehlectric.app.pages.form import Form, is_to_type
 from ehlectric.app.pages.frame import PAGE_PATIENCE, Toolbar, framed, session_of, show_address
 from ehlectric.app.pages.measured_box import CalibrationView, MeasuredBox
-from ehlectric.app.pages.page_parts import Strip, button, heading, lines_html, mark, say
+from ehlectric.app.pages.page_parts import Strip, button, heading, lines_html, mark, page_texts, say
 from ehlectric.app.pages.result_parts import FigureBox, NoteList, NumberBox, Panel, behind
 from ehlectric.app.pages.solving import Solving
 from ehlectric.app.processes import Returned
@@ -59,6 +59,8 @@ class AnswerPage(Generic[A]):
     def __init__(self, session: Session) -> None:
         self.session = session
         self._measured: MeasuredBox | None = None  # None for a page without measured values
+        self._answer_shown: A | None = None
+        self._updated: CalibrationAnswer | None = None  # calibration of the present inputs
         self._latest_answer: LatestAnswer[Inputs, A] = LatestAnswer(
             lambda inputs: self._answer(self.quick, inputs),
             [partial(self._answer, call) for call in self.later],
@@ -135,6 +137,8 @@ class AnswerPage(Generic[A]):
             self._notice, "visible", lambda shown: shown and self.form.wrong is not None
         )
         self._calibration = CalibrationView(self.session, self.go_to)
+        self._before = heading(page_texts("calibration")["before"], 2).props('data-testid="before"')
+        self._before.set_visibility(False)
         self.build_view()
         self._downloads = Downloads(self.session, self.kind, self.folder)
 
@@ -182,6 +186,10 @@ class AnswerPage(Generic[A]):
 
     def _show_calibration(self, answer: CalibrationAnswer | None, state: str) -> None:
         self._calibration.show(answer, state)
+        self._before.set_visibility(answer is not None)
+        self._updated = answer if answer is not None and answer.explained and not state else None
+        if self._answer_shown is not None:
+            self._show_strip(self._answer_shown)
 
     def _answer_again(self) -> None:
         self.show_boxes()
@@ -224,10 +232,22 @@ class AnswerPage(Generic[A]):
 
     def _put(self, answer: A) -> None:
         self.view.show(answer)
+        self._answer_shown = answer
+        self._show_strip(answer)
+
+    def _show_strip(self, answer: A) -> None:
+        """Show the short answer: after the measurement if the inputs are calibrated."""
+        texts = page_texts("calibration")
+        if self._updated is not None:
+            verdict, chance = self._updated.verdict, self._updated.chance
+            state = texts["after"]
+            self._strip.show(verdict.level, verdict.heading, [chance], state=state)
+            return
+        state = texts["before"] if self._before.visible else ""
         named = [number for number in answer.shown if number.key in self.short and number.known]
-        texts = [f"{self.short[number.key] or number.name} {number.with_unit}" for number in named]
+        numbers = [f"{self.short[number.key] or number.name} {number.with_unit}" for number in named]
         verdict = answer.verdict
-        self._strip.show(verdict.level, verdict.heading, texts, bound=verdict.bound_note)
+        self._strip.show(verdict.level, verdict.heading, numbers, bound=verdict.bound_note, state=state)
 
     def _dim(self, *, dimmed: bool) -> None:
         self.view.dim(dimmed=dimmed)
@@ -237,6 +257,7 @@ class AnswerPage(Generic[A]):
         self.form.tell(error)
         words = self.form.words(error)
         self.view.stop()
+        self._answer_shown = None
         self._strip.show("grey", "No answer", [words])
         self.solving.show(None, error)
         earlier = " The answer below is that of earlier inputs." if self.view.shown else ""

@@ -302,7 +302,7 @@ class CalibrationView:
     def _build(self) -> None:
         """Build the parts of the place, which a page without a calibration does not have."""
         self._built = True
-        heading("Before and after the measurement", 2)
+        heading(self._texts["after"], 2)
         self._state = ui.label().classes("notice").props('role="status" data-testid="calibration-state"')
         with ui.element("div").classes("calibration") as self._result:
             self._verdict = VerdictBox("calibration-verdict")

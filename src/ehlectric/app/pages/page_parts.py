@@ -175,10 +175,11 @@ class ThemeButton(Element, component="../static/theme.js"):
 _SIGNS = {"green": "✓", "yellow": "!", "red": "✕", "grey": "?"}
 
 
-def heading(text: str, level: int) -> None:
+def heading(text: str, level: int) -> Element:
     """Heading of a level from 1 to 6."""
-    with ui.element(f"h{level}"):
+    with ui.element(f"h{level}") as made:
         ui.html(escape(text), sanitize=False, tag="span")
+    return made
 
 
 def address_error(error: InputError | None) -> None:
@@ -279,11 +280,15 @@ class Strip:
             with leads:
                 ui.html("Answer", sanitize=False, tag="span")
 
-    def show(self, level: str, word: str, numbers: Iterable[str] = (), *, bound: str = "") -> None:
-        """Show the level of a verdict, its word and bound, and a few numbers such as the margin."""
+    def show(
+        self, level: str, word: str, numbers: Iterable[str] = (), *, bound: str = "", state: str = ""
+    ) -> None:
+        """Show the level of a verdict, its word and bound, and a few numbers such as the margin. ``state``
+        contains words before them, such as "after the measurement".
+        """
         self._box.classes(replace=f"strip {level}")
         self._word.text = f"{_SIGNS[level]} {word}"
-        self._numbers.text = " · ".join(filter(None, [bound, *numbers]))
+        self._numbers.text = " · ".join(filter(None, [state, bound, *numbers]))
 
     def dim(self, *, dimmed: bool) -> None:
         """Dim the answer while it belongs to earlier inputs."""
