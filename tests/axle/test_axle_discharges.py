@@ -10,7 +10,7 @@ from ehlectric.axle.solution import solve_elements
 from ehlectric.drive.discharges.films_and_source import Measuring
 from ehlectric.drive.drive_record import FILM, VOLTAGE
 from ehlectric.errors import InputError
-from tests.axle.axles import ALONE
+from tests.axle.axles import ALONE, two_stages
 from tests.helpers.drives import arc, element, march, motor, square
 
 
@@ -134,3 +134,30 @@ def test_the_first_thresholds_of_a_film_do_not_depend_on_other_films():
     alone = first((rotor,))
     assert alone.size > 20
     assert first((other, rotor)) == pytest.approx(alone, rel=1e-9)
+
+
+def test_all_missing_resistances_are_named_at_once():
+    """Ground flanks of the first mesh and rough bearings of the output shaft conduct at times."""
+    rough = two_stages(
+        **{
+            "bearing.output.composite_rq": "0.12 um",
+            "mesh.1.gear.flank_ra": "0.2 um",
+            "drive.duration": "1 ms",
+            "breakdown": {"arc_resistance": 10.0, "extinction_current": 0.01, "recovery_time": 1e-7},
+            "remedies": [],
+        }
+    )
+    with pytest.raises(InputError) as refused:
+        solve_axle(rough)
+    keys = ("bearing.5.contact_resistance", "bearing.6.contact_resistance", "mesh.1.contact_resistance")
+    assert [error.key for error in refused.value.several] == [*keys]
+    assert all(key in str(refused.value) for key in keys)
+
+
+def test_the_resistance_of_a_mesh_replaces_the_value_of_its_gear_file():
+    case = two_stages(**{"mesh.1.contact_resistance": "2 ohm"})
+    contacts = [case.gear_case(number, case.turning()).gear.contact for number in range(2)]
+    assert [contact.contact_resistance for contact in contacts] == [2.0, None]
+    again = AxleCase.from_dict(case.to_dict()).replace({"mesh.gear.contact.contact_resistance": "3 ohm"})
+    contacts = [again.gear_case(number, again.turning()).gear.contact for number in range(2)]
+    assert [contact.contact_resistance for contact in contacts] == [3.0, 3.0]

@@ -7,7 +7,8 @@ it has its mean values. A bearing has positions of its rolling elements, and a m
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -188,21 +189,37 @@ def simulate_axle(
 
 
 def _films_in_time(solved: SolvedFilms, breakdown: Breakdown, conducting: set[str]) -> list[TimedFilm]:
-    """Films of all bearings and meshes, except those that conduct for good."""
-    case, films = solved.case, list[TimedFilm]()
+    """Films of all bearings and meshes, except those that conduct for good.
+
+    Raises an InputError that names the missing values of all of them.
+    """
+    case, films, missing = solved.case, list[TimedFilm](), list[InputError]()
     for number, (name, bearing) in enumerate(zip(case.names_of_bearings(), case.bearing, strict=True)):
         if name not in conducting:
-            with case.naming(number):
+            with _collecting(missing), case.naming(number):
                 element = bearing_element(solved.bearings[number], breakdown)
-            stream = _stream_of_bearing(case, number)
-            films.append(TimedFilm(name, bearing.shaft, HOUSING, _few_positions(element), stream))
+                stream = _stream_of_bearing(case, number)
+                films.append(TimedFilm(name, bearing.shaft, HOUSING, _few_positions(element), stream))
     for number, (name, mesh) in enumerate(zip(case.names_of_meshes(), case.mesh, strict=True)):
         if name not in conducting:
-            with within(f"mesh.{number + 1}.pair"):
+            with _collecting(missing, f"mesh.{number + 1}"):
                 film = _few_positions(mesh_film(solved.meshes[number], breakdown))
-            stream = f"mesh of {' and '.join(sorted(mesh.gears))}"
-            films.append(TimedFilm(name, mesh.gears[0], mesh.gears[1], film, stream))
+                stream = f"mesh of {' and '.join(sorted(mesh.gears))}"
+                films.append(TimedFilm(name, mesh.gears[0], mesh.gears[1], film, stream))
+    if missing:
+        raise InputError.together(missing)
     return films
+
+
+@contextmanager
+def _collecting(missing: list[InputError], mesh: str = "") -> Iterator[None]:
+    """Context in which the error of a missing value is added to a list, a key of a mesh with its place."""
+    try:
+        yield
+    except InputError as error:
+        if not error.is_missing:
+            raise
+        missing.append(error.under(mesh) if mesh and error.key == "contact_resistance" else error)
 
 
 def _stream_of_bearing(case: AxleCase, number: int) -> int | str:
@@ -239,7 +256,7 @@ def mesh_film(gears: GearSolution, breakdown: Breakdown) -> BearingElement:
     touching = share if gear.contact.conduction == "by-film" and share > _NEVER else 0.0
     if touching and gear.contact.contact_resistance is None:
         raise InputError.missing(
-            "gear.contact.contact_resistance", "the resistance of the mesh while it conducts, about 1 ohm"
+            "contact_resistance", "the resistance of the mesh while it conducts, about 1 ohm"
         )
     phases = np.arange(_PHASES) * limits.size // _PHASES
     capacitance, tau = np.asarray(gears.capacitance)[phases], gears.relaxation_time

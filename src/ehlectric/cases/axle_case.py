@@ -72,6 +72,9 @@ _ADJUSTED = ("angular-contact ball", "tapered roller")
 _DISPLACED = ("source", "circuit", "discharge", "breakdown")
 _SHARED_ALTERNATIVES = {"bearings": ALTERNATIVES["bearing"]}
 
+# Key of a mesh that replaces the same key of its gear file.
+_CONTACT = "contact_resistance"
+
 # Resistance that removes a link.
 NO_LINK = "none"
 
@@ -276,6 +279,11 @@ class AxleCase(CaseFile, book="axle_file"):
         if self.drive.contacts is not None:
             table["contacts"] = self.drive.contacts
         table["gear"]["operation"] |= self.gear_operation(number, turning)
+        if self.mesh[number].contact_resistance is not None:
+            table["gear"]["contact"] = {
+                **table["gear"].get("contact", {}),
+                _CONTACT: self.mesh[number].contact_resistance,
+            }
         with within(f"mesh.{number + 1}.pair"):
             return GearCase.from_dict(
                 table | {"lubricant": self.lubricant.model_copy(), "discharge": self._discharge()}
@@ -687,8 +695,13 @@ class AxleCase(CaseFile, book="axle_file"):
         """Change a key in the gear file of a mesh, or in all gear files, in the tables of a case."""
         of_all = key.startswith("mesh.gear.")
         changes = {f"gear.{name}": value for name, value in change.items()} if of_all else change
+        if _CONTACT in change:
+            table["mesh"][self.places_of(key)[0]] |= change
+            return
         for number in self.places_of(key):
             mesh = table["mesh"][number]
+            if f"gear.contact.{_CONTACT}" in changes:
+                mesh.pop(_CONTACT, None)
             with within("mesh" if of_all else f"mesh.{number + 1}"):
                 mesh["pair"] = GearCase.from_dict(mesh["pair"]).replace(changes).to_dict()
 

@@ -146,6 +146,7 @@ class AxleMesh(Table, book="axle.mesh"):
     gears: _Names
     at: tuple[float, ...]
     direction: float = 0.0
+    contact_resistance: float | None = None
     pair: GearCase
 
     @model_validator(mode="after")

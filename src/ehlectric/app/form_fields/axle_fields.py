@@ -48,12 +48,14 @@ _WITH_RESISTANCE, _WITH_CAPACITANCE = ("ring", "brush", "seal"), ("insulated",)
 AXLE_TEMPLATES = tuple(group_of("axle", title, {}) for title in form("axle"))
 _TEMPLATES = {group.title: group.fields for group in AXLE_TEMPLATES}
 _OF_BEARING = {field.key: field for group in BEARING_GROUPS for field in group.fields}
+# Resistance of a mesh in its gear file, which the table of the mesh replaces.
+_CONTACT = "gear.contact.contact_resistance"
 _OF_GEAR = {
     field.key: field
     for group in GEAR_GROUPS
     if group.title in ("Gear pair", "Flanks", "Electrical contact", "Operation")
     for field in group.fields
-    if field.key not in (*REPLACED_IN_GEAR_FILES, "gear.contact.voltage")
+    if field.key not in (*REPLACED_IN_GEAR_FILES, "gear.contact.voltage", _CONTACT)
 }
 
 # Fields of a mounted bearing: always shown, and folded away until they are given.
@@ -395,7 +397,8 @@ def _fitted_to_time(before: Inputs, after: Inputs) -> Inputs:
     first = form_data("first_values")
     values = dict(first["simulated_time"])
     for number in range(1, len(_tables(after, "mesh")) + 1):
-        values |= {f"mesh.{number}.{key}": value for key, value in first["simulated_meshes"].items()}
+        if after.value(f"mesh.{number}.pair.{_CONTACT}") is None:
+            values |= {f"mesh.{number}.{key}": value for key, value in first["simulated_meshes"].items()}
     return after.changed({key: value for key, value in values.items() if after.value(key) is None})
 
 
