@@ -5,7 +5,8 @@ import math
 import pytest
 
 from ehlectric import AxleCase, DriveCase, InputError
-from ehlectric.axle.solution import loads_on_shafts
+from ehlectric.axle.many_axles import solve_axles
+from ehlectric.axle.solution import loads_on_shafts, solve_elements
 from tests.axle.axles import ALONE, two_stages
 from tests.helpers.each import each
 from tests.helpers.places import DATA, EXAMPLES
@@ -259,3 +260,40 @@ def test_faces_of_a_mesh_that_do_not_overlap_are_refused():
     with pytest.raises(InputError, match=r"75 mm and 0.125 m.*one origin for all shafts") as refused:
         AxleCase.from_dict(table)
     assert refused.value.key == "mesh.2.at"
+
+
+@pytest.mark.parametrize("solved", [solve_elements, lambda case: next(iter(solve_axles([case])))])
+def test_a_torque_that_a_bearing_cannot_carry_is_named_with_its_load(solved):
+    """A torque in N mm, typed as N m: 40 times the load that a separate program computed for 150 N m."""
+    case = two_stages(**{"drive.torque": "6000 N m"})
+    try:
+        error = solved(case)
+    except InputError as refused:
+        error = refused
+    assert error.key == "drive.torque"
+    assert error.text.startswith(
+        "got 6000 N m, with which bearing 1 of rotor carries 197.8 kN of radial load"
+    )
+
+
+def test_limits_of_angles_are_in_degrees():
+    table = two_stages().to_dict()
+    table["mesh"][0]["direction"] = "400 deg"
+    with pytest.raises(InputError, match="at least -361 deg and at most 361 deg"):
+        AxleCase.from_dict(table)
+
+
+def test_an_axle_that_does_not_turn_is_refused():
+    with pytest.raises(InputError, match="the axle does not turn"):
+        two_stages(**{"drive.speed": "0 rpm"})
+
+
+def test_a_mesh_that_raises_the_speed_has_a_note():
+    """The shafts of the second stage, with 19 and 73 teeth, are swapped, which turns the output faster."""
+    table = two_stages(remedies=[]).to_dict()
+    usual = solve_elements(AxleCase.from_dict(table))
+    table["mesh"][1]["gears"] = ["output", "intermediate"]
+    swapped = solve_elements(AxleCase.from_dict(table))
+    (note,) = (warning for warning in swapped.warnings if warning.code == "speed-raised")
+    assert "shaft output" in note.text
+    assert "speed-raised" not in [warning.code for warning in usual.warnings]

@@ -13,12 +13,13 @@ from ehlectric.axle.shaft_loads import BearingLoads
 from ehlectric.axle.solution import (
     AxleSolution,
     Element,
-    adjustment_warnings,
+    axle_warnings,
     bearing_elements,
     load_of,
     loads_of_axles,
     mesh_element,
     named_warnings,
+    naming_torque,
 )
 from ehlectric.bearing import Detail, codes_of, is_quick, many_of, solve_bearing, solved_parts
 from ehlectric.cases.axle_case import AxleCase, Turning
@@ -136,7 +137,7 @@ def _together(axle: _Axle, solved: Sequence[_Solved]) -> Outcome:
         known.append(each)
     warnings = named_warnings(
         (
-            *adjustment_warnings(axle.case, axle.loads),
+            *axle_warnings(axle.case, axle.turning, axle.loads),
             *((element.name, of_element) for element, of_element in known),
         )
     )
@@ -256,11 +257,14 @@ def _scaled(element: Element, scales: FilmScales | None) -> Element:
 
 def _alone(mounted: _Mounted) -> _Solved:
     """Element of a single bearing."""
+    of_bearing = mounted.case
     try:
-        result = solve_bearing(mounted.case, workers=1)
+        with naming_torque(mounted.axle.case, mounted.number, of_bearing):
+            result = solve_bearing(of_bearing, workers=1)
     except (InputError, ConvergenceError) as error:
         if isinstance(error, InputError):
-            return error.with_text(error.key or "bearing", f"{error.text} ({mounted.name})")
+            named = "" if error.key == "drive.torque" else f" ({mounted.name})"
+            return error.with_text(error.key or "bearing", f"{error.text}{named}")
         return error
     (element,) = bearing_elements(result.solution, [mounted.mounting])
     return _scaled(element, mounted.axle.scales), result.warnings

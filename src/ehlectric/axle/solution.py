@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal, cast
@@ -32,9 +33,11 @@ from ehlectric.bearing import (
 )
 from ehlectric.cases.axle_case import AxleCase, Turning
 from ehlectric.cases.axle_inputs import CONDUCTING, Shaft
+from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.gear_inputs import Conduction
 from ehlectric.errors import ConvergenceError, InputError, within
 from ehlectric.gear import GearSolution, drawing_of, gear_pair, gear_warnings, solve_gear_pair, state_at
+from ehlectric.quantities.formats import amount, speed_text
 from ehlectric.quantities.lubrication_states import CONDUCTS
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable
@@ -321,7 +324,7 @@ def solve_films(case: AxleCase, progress: Progress = silent) -> SolvedFilms:
     for number, bearing in enumerate(case.bearing):
         radial, force = load_of(case, number, loads)
         of_bearing = case.bearing_case(number, turning[bearing.shaft].speed, radial, abs(force))
-        with case.naming(number):
+        with naming_torque(case, number, of_bearing), case.naming(number):
             bearings.append(solve_bearing(of_bearing, workers=1))
         axial.append(force)
         progress(len(bearings), count, names[len(bearings) - 1])
@@ -331,6 +334,41 @@ def solve_films(case: AxleCase, progress: Progress = silent) -> SolvedFilms:
         done = len(bearings) + len(meshes)
         progress(done, count, names[done - 1])
     return SolvedFilms(case, turning, loads, tuple(bearings), tuple(axial), tuple(meshes))
+
+
+# Load that a bearing carries if only its own load is too large [N].
+_LIGHT_LOAD = 100.0
+
+
+@contextmanager
+def naming_torque(case: AxleCase, number: int, of_bearing: BearingCase) -> Iterator[None]:
+    """Context in which the error of a bearing names the torque and the load if its load is the cause.
+
+    It is the cause if the bearing can be solved with a load of 100 N.
+    """
+    try:
+        yield
+    except InputError as error:
+        mounted, loads = case.bearing[number], of_bearing.bearing
+        light = case.bearing_case(number, loads.inner_speed, _LIGHT_LOAD, 0.0)
+        if mounted.loaded or not _is_solved(light):
+            raise
+        name = case.names_of_bearings()[number]
+        radial, axial = amount(loads.radial_load, "N"), amount(loads.axial_load, "N")
+        text = (
+            f"got {readable(case.drive.torque)} N m, with which {name} carries {radial} of radial load and "
+            f"{axial} of axial load; {error.key}: {error.text.removesuffix(f' ({name})')}"
+        )
+        raise error.with_text("drive.torque", text) from None
+
+
+def _is_solved(case: BearingCase) -> bool:
+    """Whether a bearing has a solution."""
+    try:
+        solve_bearing(case, workers=1)
+    except (InputError, ConvergenceError):
+        return False
+    return True
 
 
 def solve_elements(case: AxleCase, progress: Progress = silent) -> AxleSolution:
@@ -345,7 +383,7 @@ def solve_elements(case: AxleCase, progress: Progress = silent) -> AxleSolution:
 def elements_of(films: SolvedFilms) -> AxleSolution:
     """Axle with the elements of its solved films."""
     case, elements = films.case, list[Element]()
-    warnings = [*adjustment_warnings(case, films.loads)]
+    warnings = [*axle_warnings(case, films.turning, films.loads)]
     mounted = zip(case.names_of_bearings(), case.bearing, films.bearings, films.axial, strict=True)
     for name, bearing, result, axial in mounted:
         warnings.append((name, result.warnings))
@@ -356,11 +394,21 @@ def elements_of(films: SolvedFilms) -> AxleSolution:
     return AxleSolution(case, films.turning, tuple(elements), tuple(named_warnings(warnings)))
 
 
-def adjustment_warnings(
-    case: AxleCase, loads: Mapping[str, BearingLoads]
+def axle_warnings(
+    case: AxleCase, turning: Mapping[str, Turning], loads: Mapping[str, BearingLoads]
 ) -> Iterator[tuple[str, tuple[ResultWarning, ...]]]:
-    """Warnings about bearings that are adjusted against each other, with the names of shafts and bearings."""
-    names = case.names_of_bearings()
+    """Warnings about meshes that raise the speed, and about bearings that are adjusted against each other,
+    with the names of meshes, shafts and bearings.
+    """
+    names, order = case.names_of_bearings(), [*turning]
+    for name, mesh in zip(case.names_of_meshes(), case.mesh, strict=True):
+        driving, driven = sorted(mesh.gears, key=order.index)
+        slow, fast = (abs(turning[shaft].speed) for shaft in (driving, driven))
+        if fast > slow:
+            raised = ResultWarning.of(
+                "speed-raised", driven=driven, slow=speed_text(slow), fast=speed_text(fast)
+            )
+            yield name, (raised,)
     for shaft in case.shaft:
         if shaft.name not in loads or loads[shaft.name].shares is None:
             continue

@@ -177,9 +177,8 @@ class Amount(Bounds):
         if self.unit == units.ROTATION:
             text = "a string with its unit, as '3000 rpm'"
         text += " or a string in percent" if self.fraction else ""
-        unit = f" {self.unit}" if self.unit == units.ROTATION else ""
         bounds = [
-            f"{word} {bound:g}{unit}"
+            f"{word} {self._bound_text(bound)}"
             for word, bound in (
                 ("above", self.above),
                 ("at least", self.least),
@@ -192,6 +191,12 @@ class Amount(Bounds):
             text += ", " + " and ".join(bounds)
         text += ", or 'inf' for a plane" if self.infinite else ""
         return text + (f": {self.reason}" if self.reason else "")
+
+    def _bound_text(self, bound: float) -> str:
+        """Text of a bound: of angles in degrees, of speeds with their unit."""
+        if self.unit == "rad":
+            return f"{math.degrees(bound):.3g} deg"
+        return f"{bound:g} {self.unit}" if self.unit == units.ROTATION else f"{bound:g}"
 
 
 @dataclass(frozen=True)

@@ -87,9 +87,11 @@ class AxleOperation(Table, book="axle.drive"):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        for key in ("speed", "torque"):
+        for key, problem in (("speed", "the axle does not turn"), ("torque", "no mesh carries a load")):
             if getattr(self, key) == 0.0:
-                raise InputError(key, got="0", takes="a value with a sign, about the positive z axis")
+                raise InputError(
+                    key, got=f"0: {problem}", takes="a value with a sign, about the positive z axis"
+                )
         return self
 
 
