@@ -173,6 +173,36 @@ SPEEDS = [100.0, 200.0, 300.0, 400.0, 600.0]
 
 
 @pytest.mark.slow
+def test_several_values_at_one_operating_point_are_named(bearing):
+    """The capacitance in the case, and two rows of the table at its speed of 3000 rpm."""
+    table = pd.DataFrame(
+        {
+            "speed [rpm]": [3000, 1500, 3000],
+            "capacitance [pF]": [258.0, 351.0, 259.0],
+            "uncertainty of capacitance [%]": [3, 3, 3],
+        }
+    )
+    calibration = ehlectric.calibrate(bearing.replace({"measured.capacitance": "258 pF +- 3 %"}), table)
+    (note,) = (each for each in calibration.warnings if each.code == "measured-twice")
+    assert "capacitance and capacitance in line 1 and capacitance in line 3" in note.text
+
+
+@pytest.mark.parametrize(
+    ("written", "named"),
+    [
+        ("8 +- 0.3", "8 has no unit.*8 V"),
+        (8, "got 8;.*8 V"),
+        ("8 +- 4 % V", "8 has no unit"),
+        ("8 V +- 4 % V", "in %"),
+        ("8 V", "8 V \\+- "),
+    ],
+)
+def test_a_message_about_a_measured_value_contains_its_correct_spelling(bearing, written, named):
+    with pytest.raises(InputError, match=f"measured.shaft_voltage: .*{named}"):
+        BearingCase.from_dict(bearing.to_dict() | {"measured": {"shaft_voltage": written}})
+
+
+@pytest.mark.slow
 def test_a_measurement_that_decides_nothing_changes_no_range(bearing):
     """A temperature that is known to 60 K. For n even points, the reduction of a variance v = 1/12 has the
     standard deviation 12 sqrt((1/80 - v^2)/n).

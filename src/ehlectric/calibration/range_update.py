@@ -76,6 +76,10 @@ _CERTAIN = 3.0
 # End of the keys of a capacitance in parallel to a bearing.
 _PARALLEL = "parallel_capacitance"
 
+# Number of points at which predictions of one operating point are equal, and largest number of values that a
+# note names.
+_EQUAL, _NAMED = 16, 4
+
 # Measured divided by computed value above which a deviation is stated as a factor.
 _AS_FACTOR = 3.0
 
@@ -422,8 +426,20 @@ class _Compared:
             yield from void_rows(read)
             if read.ignored:
                 yield ResultWarning.of("columns-ignored", file=read.source, columns=", ".join(read.ignored))
+        for places in self._repeated(posterior):
+            texts = " and ".join(row_text(self.given.values[place]) for place in places[:_NAMED])
+            yield ResultWarning.of("measured-twice", values=texts)
         if posterior.explained and posterior.effective < LEAST_EFFECTIVE:
             yield ResultWarning.of("effective-samples-few", effective=posterior.effective)
+
+    def _repeated(self, posterior: Posterior) -> Iterator[list[int]]:
+        """Places of the values of one quantity at one operating point, at which all predictions are equal."""
+        groups: dict[object, list[int]] = {}
+        for place, value in enumerate(self.given.values):
+            column = posterior.prior_predictions[:_EQUAL, place]
+            key = value.quantity, *(f"{number:.6g}" for number in column.tolist())
+            groups.setdefault(key, []).append(place)
+        yield from (places for places in groups.values() if len(places) > 1)
 
 
 # What a case needs for its quantities.

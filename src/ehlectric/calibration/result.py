@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from ehlectric.arrays import Array
+from ehlectric.cases.measured_inputs import MeasuredValue
 from ehlectric.cases.measurements import quantity_text
 from ehlectric.discharge.breakdown_rule import Chance
 from ehlectric.errors import printable
@@ -238,7 +239,7 @@ class Calibration(Shown):
         return headline(self.title, count, change)
 
 
-def row_text(row: Compared) -> str:
+def row_text(row: Compared | MeasuredValue) -> str:
     """Name of a measured value in words, with its line in the file."""
     return quantity_text(row.quantity) + ("" if row.line is None else f" in line {row.line}")
 

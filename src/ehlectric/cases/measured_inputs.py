@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Annotated, Any, Self
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import BeforeValidator, Field, ValidationInfo, model_validator
 
 from ehlectric.cases.measurements import (
     CALIBRATED,
@@ -17,30 +17,43 @@ from ehlectric.cases.measurements import (
     calibrated,
     read_measurement,
 )
-from ehlectric.cases.stated_ranges import value_and_uncertainty
+from ehlectric.cases.stated_ranges import value_and_uncertainty, with_uncertainty_text
 from ehlectric.cases.table import Table
-from ehlectric.errors import InputError
+from ehlectric.errors import InputError, shown
 from ehlectric.readable import readable
 
 if TYPE_CHECKING:
     import pandas as pd
 
 
+def _text(entry: object, info: ValidationInfo) -> object:
+    """Refuse a number, which has neither a unit nor an uncertainty."""
+    if isinstance(entry, int | float):
+        quantity = calibrated(info.field_name or "")
+        takes = with_uncertainty_text(entry, quantity, quantity.usual)
+        raise InputError(got=shown(entry), takes=takes)
+    return entry
+
+
+# Measured value with its standard uncertainty, as a user writes it.
+Written = Annotated[str | None, BeforeValidator(_text)]
+
+
 class Measured(Table, book="measured"):
     """Measured values, each with its standard uncertainty: "240 pF +- 5 %"."""
 
     file: str | None = None
-    capacitance: str | None = None
-    first_breakdown_voltage: str | None = None
-    breakdown_voltage: str | None = None
-    shaft_voltage: str | None = None
-    shaft_voltage_rms: str | None = None
-    bearing_voltage_ratio: str | None = None
-    discharge_rate: str | None = None
-    conducting_share: str | None = None
-    inner_ring_temperature: str | None = None
-    outer_ring_temperature: str | None = None
-    film: str | None = None
+    capacitance: Written = None
+    first_breakdown_voltage: Written = None
+    breakdown_voltage: Written = None
+    shaft_voltage: Written = None
+    shaft_voltage_rms: Written = None
+    bearing_voltage_ratio: Written = None
+    discharge_rate: Written = None
+    conducting_share: Written = None
+    inner_ring_temperature: Written = None
+    outer_ring_temperature: Written = None
+    film: Written = None
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -50,7 +63,7 @@ class Measured(Table, book="measured"):
     def values(self) -> dict[str, tuple[float, float]]:
         """Measured values and their standard uncertainties at the operating point of the case, SI units."""
         return {
-            name: value_and_uncertainty(name, getattr(self, name), quantity)
+            name: value_and_uncertainty(name, getattr(self, name), quantity, quantity.usual)
             for name, quantity in CALIBRATED.items()
             if getattr(self, name) is not None
         }
@@ -59,15 +72,15 @@ class Measured(Table, book="measured"):
 class MeasuredElement(Table, book="axle.measured.elements"):
     """Measured values of a bearing or a mesh of an axle, each with its standard uncertainty."""
 
-    capacitance: str | None = None
-    breakdown_voltage: str | None = None
-    conducting_share: str | None = None
+    capacitance: Written = None
+    breakdown_voltage: Written = None
+    conducting_share: Written = None
 
 
 class MeasuredShaft(Table, book="axle.measured.shafts"):
     """Measured values of a shaft of an axle, each with its standard uncertainty."""
 
-    voltage: str | None = None
+    voltage: Written = None
 
 
 class AxleMeasured(Table, book="axle.measured"):
@@ -91,7 +104,10 @@ class AxleMeasured(Table, book="axle.measured"):
             for key, table in of_place.items()
             for name, text in table.model_dump(exclude_none=True).items()
         }
-        return {name: value_and_uncertainty(name, text, calibrated(name)) for name, text in texts.items()}
+        return {
+            name: value_and_uncertainty(name, text, calibrated(name), calibrated(name).usual)
+            for name, text in texts.items()
+        }
 
 
 def _check_measured(table: Measured | AxleMeasured) -> None:

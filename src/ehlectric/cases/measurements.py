@@ -28,9 +28,11 @@ from ehlectric.quantities.unit_spelling import plain
 from ehlectric.runtime.memory import MOST_MEASURED
 from ehlectric.runtime.reading import read_bytes
 from ehlectric.runtime.text_table import (
+    OVERLOADED,
     Dialect,
     decimal_mark,
     decoded,
+    is_overload,
     is_void,
     name_and_unit,
     record_at,
@@ -659,7 +661,10 @@ def _with_units(
         if table.heads[place].startswith(_FROM_CELLS):
             bare = [k for k, (cell, unit) in enumerate(pairs) if not unit and not is_void(cell)]
             if bare:
-                got = f"line {numbers[bare[0]]}: got {shown(cells[bare[0]][place])} without a unit"
+                cell = cells[bare[0]][place]
+                if is_overload(cell):
+                    raise InputError(path, f"line {numbers[bare[0]]}: got {shown(cell)}", takes=OVERLOADED)
+                got = f"line {numbers[bare[0]]}: got {shown(cell)} without a unit"
                 raise InputError(path, got, takes="a unit in the head of the column, or in each of its cells")
     heads = [head.removeprefix(_FROM_CELLS) for head in table.heads]
     if dialect.separator is not None:

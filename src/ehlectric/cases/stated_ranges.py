@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from ehlectric.cases.amounts import Amount
-from ehlectric.errors import InputError, shown
+from ehlectric.errors import InputError, short, shown
 from ehlectric.quantities import units
 from ehlectric.quantities.grouped_digits import certain, doubt
 from ehlectric.quantities.quantity import Bounds
@@ -76,8 +76,9 @@ def _written(value: float, quantity: Amount) -> float | str:
     return certain(f"{value!r} {quantity.unit}") if quantity.unit else value
 
 
-def value_and_uncertainty(key: str, text: str, quantity: Amount) -> tuple[float, float]:
-    """Value and its uncertainty behind "+-", SI units. Raises InputError for a text without them.
+def value_and_uncertainty(key: str, text: str, quantity: Amount, usual: str = "") -> tuple[float, float]:
+    """Value and its uncertainty behind "+-", SI units. ``usual``, unit in the advice of an error. Raises
+    InputError for a text without them.
 
     Examples
     --------
@@ -86,14 +87,36 @@ def value_and_uncertainty(key: str, text: str, quantity: Amount) -> tuple[float,
     """
     around = _AROUND.fullmatch(text)
     if around is None:
-        unit = f" {quantity.unit}" if quantity.unit else ""
-        takes = f"a value in{unit or ' a number'} with its standard uncertainty behind +-"
-        raise InputError(key, got=shown(text), takes=takes)
-    number = _number(around["value"])
-    if not quantity.unit and None in (number, _number(around["part"])):
+        raise InputError(key, got=shown(text), takes=with_uncertainty_text(text, quantity, usual))
+    bare = _number(around["value"])
+    if not quantity.unit and None in (bare, _number(around["part"])):
         raise InputError(key, got=shown(text), takes="two numbers, such as 0.02 +- 0.01")
-    value = _parsed(key, quantity, around["value"].strip() if quantity.unit else number)
+    if quantity.unit and bare is not None:
+        got = f"{shown(text)} ({around['value'].strip()} has no unit)"
+        raise InputError(key, got=got, takes=with_uncertainty_text(around["value"], quantity, usual))
+    value = _parsed(key, quantity, around["value"].strip() if quantity.unit else bare)
     return value, _difference(key, text, value, around["part"].strip(), quantity)
+
+
+def with_uncertainty_text(entry: object, quantity: Amount, usual: str = "") -> str:
+    """What a value with its uncertainty looks like, from what a user wrote; ``usual``, a usual unit.
+
+    Examples
+    --------
+    >>> with_uncertainty_text("8", Amount(unit="V"))
+    "a value with its standard uncertainty behind +-, such as '8 V +- 5 %'"
+    """
+    written = str(entry).strip()
+    number = _number(written)
+    unit = usual or quantity.unit
+    if quantity.unit:
+        example = f"1 {unit}" if number is None else f"{written} {unit}"
+        if number is None and units.split(written) is not None:
+            example = written
+        example += " +- 1 K" if quantity.unit == "K" else " +- 5 %"
+    else:
+        example = f"{0.02 if number is None else written} +- 0.01"
+    return f"a value with its standard uncertainty behind +-, such as '{short(example)}'"
 
 
 def _range(key: str, text: str, quantity: Amount) -> tuple[float, float, float]:

@@ -144,6 +144,22 @@ def is_void(field: str) -> bool:
     return text in _VOIDS or (text[:1] in _FILLERS and text == text[0] * len(text))
 
 
+# Texts of an overload, in small letters, and what a user does about it.
+_OVERLOADS = ("ol", "o.l", "o.l.", "ovl", "ovld", "overload", "overflow")
+OVERLOADED = "a number, or an empty cell where the meter was overloaded"
+
+
+def is_overload(field: str) -> bool:
+    """Whether a field contains the overload of a meter.
+
+    Examples
+    --------
+    >>> is_overload("OL"), is_overload("251.3")
+    (True, False)
+    """
+    return field.strip().lower() in _OVERLOADS
+
+
 @dataclass(frozen=True)
 class Dialect:
     """Separator of columns, None for white space, and decimal mark."""
@@ -217,8 +233,10 @@ class Dialect:
                     raise ValueError(field)
                 value = value_of(field, self.decimal)
             except ValueError:
+                if is_overload(field):
+                    raise ValueError(OVERLOADED) from None
                 mark = "point" if self.decimal == "." else "comma"
-                raise ValueError(f"a number with a decimal {mark}, or without a mark") from None
+                raise ValueError(f"a number, with a decimal {mark} if it has decimals") from None
         if math.isinf(value):
             raise ValueError("a finite number")
         return value
