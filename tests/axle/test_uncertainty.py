@@ -157,3 +157,21 @@ def test_without_a_strength_there_is_no_probability():
     case = AxleCase.from_dict(table)
     assert not has_chance(case)
     assert solve_axle(case).uncertainty is None
+
+
+def test_films_within_their_error_change_capacitances_and_voltages():
+    """Thinner films have a larger capacitance, at most in proportion to 1/h, and the divider less voltage."""
+    case = AxleCase.from_dict(ALONE)
+    design = AxleDesign.of(solve_elements(case))
+    column = [name.key for name in design.names()].index("films.bearings")
+    at = np.full((3, design.width), 0.5)
+    at[:, column] = 0.0, 0.5, 1.0
+    thin, middle, thick = design.solutions(at)
+    error = design.films[0]
+    for first, second, third in zip(thin.elements, middle.elements, thick.elements, strict=True):
+        assert 1.0 < first.capacitance / second.capacitance < 1.0 / (1.0 - error)
+        assert 1.0 / (1.0 + error) < third.capacitance / second.capacitance < 1.0
+    for solution in (thin, middle, thick):
+        capacitance = sum(element.capacitance for element in solution.elements)
+        expected = case.edge * 100e-12 / (1.1e-9 + capacitance)
+        assert solution.potentials()["rotor"] == pytest.approx(expected, rel=1e-12)

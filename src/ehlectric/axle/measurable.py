@@ -1,14 +1,13 @@
 """Quantities of an axle that a user can measure, and the model that computes them at many inputs.
 
-The capacitance of an element follows the error of its films. Its ratio C(f)/C(1) with films f times as thick
-is computed at the inputs of the case, and interpolated over ln f.
+The capacitance of an element follows the error of its films, as in the probabilities of an axle.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -17,8 +16,6 @@ from ehlectric.arrays import Array
 from ehlectric.axle.axle_verdict import axle_verdict
 from ehlectric.axle.solution import (
     AxleSolution,
-    Element,
-    SolvedFilms,
     elements_of,
     solve_elements,
     solve_films,
@@ -38,22 +35,15 @@ from ehlectric.bearing import (
     OF_TABLE,
     Change,
     Names,
-    gathered,
     is_factor,
-    many_of,
-    shaft_capacitance,
-    solved_parts,
 )
 from ehlectric.cases.axle_case import AxleCase, changed_bearings
 from ehlectric.cases.axle_keys import OF_ELEMENTS, OF_SHAFTS
 from ehlectric.discharge.breakdown_rule import Chance
-from ehlectric.gear import capacitances_over_films, reference_area_of
+from ehlectric.gear import reference_area_of
 from ehlectric.quantities.lubrication_states import CONDUCTS
 from ehlectric.quantities.rows import value_at
 from ehlectric.quantities.verdict import Verdict
-
-# Factors on the films at which capacitances are computed.
-_FACTORS = 5
 
 # Heights of the summits of all bearings.
 _SUMMIT_HEIGHT = "summit_height"
@@ -71,44 +61,11 @@ class _Probable:
 
 
 @dataclass(frozen=True)
-class _Capacitances:
-    """Capacitances of elements over the factor on their films, divided by the ones without a factor."""
-
-    log_factors: tuple[Array, Array]  # of bearings and of meshes, shape (f,) each
-    log_ratios: tuple[Array, ...]  # of each element, shape (f,)
-
-    @classmethod
-    def of(cls, films: SolvedFilms, errors: tuple[float, float]) -> _Capacitances:
-        """Capacitances around solved films with the relative errors of bearings and of meshes."""
-        factors = [1.0 + error * np.linspace(-1.0, 1.0, _FACTORS) for error in errors]
-        rows = []
-        for bearing in films.bearings:
-            case, ends = bearing.solution.case, np.append(factors[0], 1.0)
-            speeds = np.full(ends.size, case.bearing.inner_speed)
-            many = many_of(case, {"bearing.inner_speed": speeds}, ends.size)
-            parts = solved_parts(many, detail="coarse", films=ends)
-            rows.append(gathered(parts, lambda each: [shaft_capacitance(each)], (1, ends.size))[0])
-        rows += [capacitances_over_films(mesh, np.append(factors[1], 1.0)) for mesh in films.meshes]
-        ratios = tuple(np.log(row[:-1] / row[-1]) for row in rows)
-        return cls((np.log(factors[0]), np.log(factors[1])), ratios)
-
-    def scaled(self, elements: Sequence[Element], factors: Array) -> Iterator[Element]:
-        """Elements with the capacitances of films that are ``factors`` times as thick, of bearings and of
-        meshes.
-        """
-        for element, ratios in zip(elements, self.log_ratios, strict=True):
-            kind = 0 if element.kind == "bearing" else 1
-            log = float(np.interp(math.log(factors[kind]), self.log_factors[kind], ratios))
-            yield replace(element, capacitance=element.capacitance * math.exp(log))
-
-
-@dataclass(frozen=True)
 class AxleModel:
     """Axle with films from the atlas or from formulas, at many values of its uncertain inputs."""
 
     case: AxleCase  # axle of the file
     design: AxleDesign
-    capacitances: _Capacitances
     # Rows that are computed, by the operating point and the inputs from 0 to 1.
     _known: dict[Any, dict[bytes, Mapping[str, float]]] = field(default_factory=dict, repr=False)
 
@@ -116,8 +73,7 @@ class AxleModel:
     def of(cls, case: AxleCase) -> AxleModel:
         """Model of an axle file. Raises InputError where an element has no film."""
         films = solve_films(_quick(case))
-        design = AxleDesign.of(elements_of(films))
-        return cls(case, design, _Capacitances.of(films, design.films))
+        return cls(case, AxleDesign.of(elements_of(films), films))
 
     @property
     def quantities(self) -> tuple[str, ...]:
@@ -178,18 +134,16 @@ class AxleModel:
         ]
         strength = np.exp(np.sum(self.design.log_factors(at[new]), axis=-1)).tolist()
         solutions = self.design.solutions(at[new], point)
-        factors = self.design.factors_on_films(at[new])
-        for place, solution, *scales in zip(new, solutions, strength, factors, strict=True):
-            of_point[keys[place]] = {} if solution is None else self._row(solution, *scales)
+        for place, solution, factor in zip(new, solutions, strength, strict=True):
+            of_point[keys[place]] = {} if solution is None else self._row(solution, factor)
         return [of_point[key] for key in keys]
 
-    def _row(self, solution: AxleSolution, strength: float, factors: Array) -> dict[str, float]:
-        """Quantities and margin of an axle whose strength and films are factors times as large."""
-        scaled = replace(solution, elements=tuple(self.capacitances.scaled(solution.elements, factors)))
+    def _row(self, solution: AxleSolution, strength: float) -> dict[str, float]:
+        """Quantities and margin of an axle whose strength is a factor times as large."""
         return {
-            **self._of_elements(scaled, strength),
-            **self._of_shafts(scaled),
-            MARGIN: _margin(scaled, strength),
+            **self._of_elements(solution, strength),
+            **self._of_shafts(solution),
+            MARGIN: _margin(solution, strength),
         }
 
     def _of_elements(self, solution: AxleSolution, strength: float) -> dict[str, float]:

@@ -18,16 +18,17 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
 from ehlectric.arrays import Array, IntArray
+from ehlectric.axle.film_capacitances import FilmCapacitances
 from ehlectric.axle.many_axles import FilmScales, solve_axles
 from ehlectric.axle.network import firsts, voltage_ratios
-from ehlectric.axle.solution import AxleSolution
+from ehlectric.axle.solution import AxleSolution, SolvedFilms, solve_films
 from ehlectric.bearing import (
     FILMS,
     MOTOR,
@@ -185,13 +186,15 @@ class AxleDesign:
     computed: tuple[UncertainKey, ...]
     factors: tuple[Change, ...]  # inputs to which all breakdown voltages are proportional
     films: tuple[float, float]  # relative errors of the films of bearings and of meshes
+    capacitances: FilmCapacitances  # over the errors of the films
     assumed: Mapping[str, str]  # reasons of usual ranges by their key
     left_out: tuple[str, ...]
 
     @classmethod
-    def of(cls, solution: AxleSolution) -> AxleDesign:
-        """Design of a solved axle."""
+    def of(cls, solution: AxleSolution, films: SolvedFilms | None = None) -> AxleDesign:
+        """Design of a solved axle. ``films`` of the atlas or of formulas; by default they are solved."""
         case = solution.case
+        alone = case.model_copy(update={"ranges": None, "remedies": (), "measured": None})
         stated = {entry.key: entry for entry in case.ranges or ()}
         usual = {each.change.key: each for each in _usual(case)}
         for key, entry in stated.items():
@@ -205,8 +208,9 @@ class AxleDesign:
             max((each.film_error for each in solution.elements if each.kind == kind), default=0.0)
             for kind in ("bearing", "mesh")
         )
+        quick = alone.replace({"drive.contacts": "atlas"}) if alone.solves_films else alone
         return cls(
-            case.model_copy(update={"ranges": None, "remedies": (), "measured": None}),
+            alone,
             tuple(
                 each
                 for each in changes
@@ -214,6 +218,7 @@ class AxleDesign:
             ),
             tuple(each.change for each in changes if proportional_to_strength(each.change.key)),
             (errors[0], errors[1]),
+            FilmCapacitances.of(films or solve_films(quick), (errors[0], errors[1])),
             {each.change.key: each.change.reason for each in changes if each.change.key not in stated},
             tuple(f"{key}: its range has no part in the probability" for key in left_out),
         )
@@ -288,8 +293,17 @@ class AxleDesign:
             (list(column) for column in zip(*changed.values(), strict=True)) if changed else ([], [])
         )
         solved = dict(zip(changed, solve_axles(cases, scales=scales), strict=True))
-        outcomes = [solved.get(place) for place in range(len(at))]
-        return [outcome if isinstance(outcome, AxleSolution) else None for outcome in outcomes]
+        factors = self.factors_on_films(at)
+        return [
+            self._scaled(outcome, factors[place])
+            if isinstance(outcome := solved.get(place), AxleSolution)
+            else None
+            for place in range(len(at))
+        ]
+
+    def _scaled(self, solution: AxleSolution, factors: Array) -> AxleSolution:
+        """Solution with the capacitances of films that are ``factors`` times as thick."""
+        return replace(solution, elements=tuple(self.capacitances.scaled(solution.elements, factors)))
 
 
 def _usual(case: AxleCase) -> Iterator[UncertainKey]:
