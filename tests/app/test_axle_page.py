@@ -137,6 +137,31 @@ def test_a_ticked_measure_has_a_column_and_a_sentence_on_all_elements(axle):
     assert box.get_attribute("aria-checked") == "false"
 
 
+# Words that the browser shows on a part of the page.
+_WORDS = "part => getComputedStyle(part, '::before').content"
+
+
+@pytest.mark.slow
+def test_parts_of_earlier_inputs_say_so_until_their_new_values_come(axle):
+    page = axle
+    page.locator("[data-testid=answer][data-whole=true]").wait_for()
+    remedies, followed = page.get_by_test_id("remedies-table"), page.locator(".follows")
+    remedies.locator("table").wait_for()
+    assert followed.count() == 0
+    before = remedies.inner_text()
+    type_into(page, "drive.torque", "45")
+    waiting = page.locator("[data-testid=answer]:not(.follows) [data-testid=remedies-table].follows")
+    waiting.wait_for()
+    assert "new values follow" in waiting.evaluate(_WORDS)
+    assert remedies.inner_text() == before
+    followed.first.wait_for(state="detached")
+    assert wait_until(lambda: remedies.inner_text() != before and followed.count() == 0)
+    # A refused input has no new values, and the notice of the page says so.
+    type_into(page, "drive.torque", "much")
+    page.get_by_test_id("notice").filter(has_text="earlier inputs").wait_for()
+    assert page.get_by_test_id("answer").evaluate(_WORDS) == "none"
+
+
 @pytest.mark.slow
 def test_shafts_and_links_are_added_renamed_and_removed(axle):
     page = axle

@@ -36,7 +36,7 @@ AXLES = {
 }
 
 # Height beyond which a picture of a page is cut off [px].
-_TALLEST = 4000
+_TALLEST = 3600
 
 
 @pytest.fixture

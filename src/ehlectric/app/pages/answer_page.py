@@ -21,7 +21,7 @@ from ehlectric.app.pages.downloads import Downloads
 from ehlectric.app.pages.form import Form, is_to_type
 from ehlectric.app.pages.frame import PAGE_PATIENCE, Toolbar, framed, session_of, show_address
 from ehlectric.app.pages.measured_box import CalibrationView, MeasuredBox
-from ehlectric.app.pages.page_parts import Strip, button, heading, lines_html, mark, page_texts, say
+from ehlectric.app.pages.page_parts import Strip, button, follow, heading, lines_html, mark, page_texts, say
 from ehlectric.app.pages.result_parts import FigureBox, NoteList, NumberBox, Panel, behind
 from ehlectric.app.pages.solving import Solving
 from ehlectric.app.processes import Returned
@@ -316,12 +316,14 @@ class AnswerView(Generic[A]):
 
     def dim(self, *, dimmed: bool) -> None:
         """Dim the answer while it belongs to earlier inputs."""
-        mark(self.body, "stale", on=dimmed and self.shown)
+        follow(self.body, on=dimmed and self.shown)
+        mark(self.body, "stopped", on=False)
         self.body.props(f'aria-busy="{str(dimmed).lower()}"')
 
     def stop(self) -> None:
         """Show that what was to follow is not computed, as after a wrong input."""
         self.body.set_visibility(self.shown)
+        mark(self.body, "stopped", on=True)
         self.panel.wait("This figure is not computed.")
 
     def show(self, answer: A) -> None:

@@ -37,7 +37,7 @@ from ehlectric.app.pages.answer_page import AnswerPage, ProbableView
 from ehlectric.app.pages.file_field import UploadField
 from ehlectric.app.pages.form import Form
 from ehlectric.app.pages.frame import AXLE, PATHS
-from ehlectric.app.pages.page_parts import GroupBox, button, heading, mark, page_texts, removable, say
+from ehlectric.app.pages.page_parts import GroupBox, button, follow, heading, page_texts, removable, say
 from ehlectric.app.pages.result_parts import FigureBox, behind, table_html
 from ehlectric.app.session import Session
 from ehlectric.app.view_models import (
@@ -123,12 +123,12 @@ class AxleView(ProbableView[AxleAnswer]):
         self.body.update()
         self._show_simulated(answer)
         # The earlier table remains until the remedies are computed.
-        mark(self._remedies, "stale", on=not answer.remedied)
+        follow(self._remedies, on=not answer.remedied and bool(self._remedies.content))
         if answer.remedied:
             self._show_remedies(answer)
         self._elements.content = f"<h2>Bearings and meshes</h2>{table_html(answer.elements)}"
         chances = answer.chances
-        mark(self._chances, "stale", on=not answer.whole)
+        follow(self._chances, on=not answer.whole and bool(self._chances.content))
         if answer.whole:
             self._chances.content = "" if chances is None else table_html(chances)
         self._shafts.content = behind("Speeds, torques and voltages of the shafts", table_html(answer.shafts))

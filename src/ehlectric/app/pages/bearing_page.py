@@ -22,7 +22,7 @@ from ehlectric.app.pages.answer_page import AnswerView
 from ehlectric.app.pages.cycle_page import CyclePage
 from ehlectric.app.pages.duty_box import DUTY_FILE, DutyView
 from ehlectric.app.pages.frame import BEARING
-from ehlectric.app.pages.page_parts import mark, say
+from ehlectric.app.pages.page_parts import follow, say
 from ehlectric.app.pages.remedies_box import RemediesBox
 from ehlectric.app.pages.result_parts import FigureBox, table_html
 from ehlectric.app.session import Session
@@ -100,7 +100,7 @@ class BearingView(AnswerView[BearingAnswer]):
             self.panel.wait(self.waits)
         self.panel.figures["breakdown"].dim(dimmed=not known)
         self._effects.set_visibility(bool(self._effects.content))
-        mark(self._effects, "stale", on=not answer.analysed)
+        follow(self._effects, on=not answer.analysed)
         self.panel.dim(dimmed=not answer.analysed)
         say(self._none, "" if answer.figures else "Not converged: the figures would show no solution.")
 

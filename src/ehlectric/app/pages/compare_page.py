@@ -331,7 +331,8 @@ class ComparePage:
     def refresh(self) -> asyncio.Task[None]:
         """Answer both cases at once, and then with their critical speeds."""
         for element in self._answers:
-            element.classes(add="old")
+            page_parts.follow(element, on=bool(self._effects.content))
+            page_parts.mark(element, "stopped", on=False)
         return self._latest_answer.ask(self.session.inputs)
 
     def close(self) -> None:
@@ -358,6 +359,8 @@ class ComparePage:
         """Say what is wrong with both cases together; the error of one case stands next to it."""
         self._notice.text = str(error)
         self._notice.set_visibility(True)
+        for element in self._answers:
+            page_parts.mark(element, "stopped", on=True)
 
     def _show(self, inputs: Inputs, sides: Sides) -> None:
         """Show the answers, and their differences where there are two."""
@@ -367,6 +370,8 @@ class ComparePage:
         both = isinstance(first, Side) and isinstance(second, Side)
         self._notice.text = _EARLIER
         self._notice.set_visibility(not both)
+        for element in self._answers:
+            page_parts.mark(element, "stopped", on=not both)
         if isinstance(first, Side) and isinstance(second, Side):
             self._show_both(inputs, first, second)
 
@@ -403,7 +408,7 @@ class ComparePage:
             self._figures[name].show(shown)
         self._notes.content = notes_html(first, second)
         for element in self._answers:
-            element.classes(remove="old")
+            page_parts.follow(element, on=False)
 
 
 def _flat_of(cases: Iterable[Inputs]) -> Callable[[Mapping[str, Any]], Mapping[str, Any]]:

@@ -11,7 +11,7 @@ from ehlectric.app.calls import DUTY_LOOK
 from ehlectric.app.form_fields.field import VEHICLE, VEHICLE_TABLE, form_data
 from ehlectric.app.pages.file_field import LOST_FILE, NOT_IN_LINKS, UploadField
 from ehlectric.app.pages.form import Form
-from ehlectric.app.pages.page_parts import GroupBox, button, heading, lines_html, mark, say
+from ehlectric.app.pages.page_parts import GroupBox, button, follow, heading, lines_html, say
 from ehlectric.app.pages.result_parts import FigureBox, note_html, table_html
 from ehlectric.app.session import Session
 from ehlectric.app.view_models import DutyAnswer, Note
@@ -170,7 +170,7 @@ class DutyView:
         self.body.set_visibility(answer is not None)
         self._result.set_visibility(answer is not None)
         say(self._state, "")
-        mark(self._result, "stale", on=False)
+        follow(self._result, on=False)
         if answer is None:
             return
         self._lines.content = lines_html(
@@ -187,7 +187,7 @@ class DutyView:
         """Show that a result is being computed; the one before is dimmed."""
         self.body.set_visibility(True)
         say(self._state, _COMPUTING)
-        mark(self._result, "stale", on=True)
+        follow(self._result, on=True)
 
     def stop(self) -> None:
         """Show that what was to follow is not computed, as after a wrong input."""

@@ -71,6 +71,12 @@ def mark(element: Element, name: str, *, on: bool) -> None:
     element.classes(add=name if on else None, remove=None if on else name)
 
 
+def follow(element: Element, *, on: bool) -> None:
+    """Dim a part that belongs to earlier inputs, with words that its new values follow, or show it again."""
+    for name in ("stale", "follows"):
+        mark(element, name, on=on)
+
+
 def say(label: ui.label, text: str) -> None:
     """Show a text in a label; an empty text hides the label."""
     label.text = text

@@ -13,7 +13,7 @@ from ehlectric.app.form_fields.drive_fields import BEARING_REMEDIES, remedy_at_b
 from ehlectric.app.latest_answer import LatestAnswer
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.frame import PATHS, address_of, drive_with
-from ehlectric.app.pages.page_parts import Choices, Control, heading, mark, say
+from ehlectric.app.pages.page_parts import Choices, Control, follow, heading, say
 from ehlectric.app.pages.result_parts import table_html
 from ehlectric.app.session import Session
 from ehlectric.app.view_models import RemedyAnswer
@@ -66,7 +66,7 @@ class RemediesBox:
     def wait(self) -> None:
         """Dim what belongs to earlier inputs."""
         self.latest_answer.drop()
-        mark(self._effect, "stale", on=True)
+        follow(self._effect, on=bool(self._table.content))
 
     def offer(self) -> Mapping[str, Any] | None:
         """Offer what the present bearing has not yet. Returns the pressed remedy; None without one."""
@@ -100,7 +100,7 @@ class RemediesBox:
         self._link.update()
         second = inputs.value("motor.second_bearing_capacitance") is not None
         say(self._message, _SECOND if second else "")
-        mark(self._effect, "stale", on=True)
+        follow(self._effect, on=bool(self._table.content))
         self.latest_answer.ask((inputs, drive))
 
     def _show(self, answer: RemedyAnswer) -> None:
@@ -111,13 +111,13 @@ class RemediesBox:
             with self._effect:
                 ui.run_javascript(f"setTimeout(() => {element}?.scrollIntoView({{block: 'nearest'}}), 50)")
         self._effect.props(f'data-whole="{str(answer.whole).lower()}"')
-        mark(self._effect, "stale", on=False)
+        follow(self._effect, on=False)
 
     def _tell(self, text: str) -> None:
         """Say why there is no effect."""
         self._table.content = ""
         self._link.set_visibility(False)
-        mark(self._effect, "stale", on=False)
+        follow(self._effect, on=False)
         say(self._message, text)
 
     def _press(self, name: str) -> None:

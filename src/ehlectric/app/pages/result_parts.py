@@ -8,7 +8,7 @@ from html import escape
 
 from nicegui import ui
 
-from ehlectric.app.pages.page_parts import Plot, mark, say, scrolling_table
+from ehlectric.app.pages.page_parts import Plot, follow, mark, say, scrolling_table
 from ehlectric.app.view_models import Deciding, Figure, Gauge, Note, Number, PageWarning, Table, counts
 from ehlectric.quantities.result_warnings import SEVERITY_WORDS
 from ehlectric.quantities.verdict import Verdict
@@ -218,7 +218,7 @@ class FigureBox:
 
     def dim(self, *, dimmed: bool) -> None:
         """Dim the figure while it belongs to earlier inputs."""
-        mark(self._box, "stale", on=dimmed)
+        follow(self._box, on=dimmed)
 
     def show(self, shown: Figure | None) -> None:
         """Show a figure; None hides the one before."""

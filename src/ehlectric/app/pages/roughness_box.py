@@ -11,7 +11,17 @@ from ehlectric.app.calls import SURFACE
 from ehlectric.app.form_fields.contact_fields import geometry_of
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.file_field import LOST_FILE, NOT_IN_LINKS, UploadField
-from ehlectric.app.pages.page_parts import Control, GroupBox, JobBox, Plot, button, control, heading, say
+from ehlectric.app.pages.page_parts import (
+    Control,
+    GroupBox,
+    JobBox,
+    Plot,
+    button,
+    control,
+    follow,
+    heading,
+    say,
+)
 from ehlectric.app.pages.result_parts import show_warnings, table_html
 from ehlectric.app.roughness_keys import (
     FILE_KEYS,
@@ -246,7 +256,7 @@ class RoughnessBox:
         if "file" not in self._draft and "generator" not in self._draft:
             self._show(None)
             return
-        self._view.classes("old")
+        follow(self._view, on=self._answer is not None)
         self._use.disable()
         file = self._draft.get("file", "")
         path = self._session.path_of(file) if file else None
@@ -281,7 +291,7 @@ class RoughnessBox:
         self._answer = answer
         self._tell(None)
         self._use.set_enabled(answer is not None)
-        self._view.classes(remove="old")
+        follow(self._view, on=False)
         self._view.clear()
         if answer is not None:
             with self._view:
