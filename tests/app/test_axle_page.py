@@ -73,7 +73,7 @@ def test_designations_and_a_drawing_lead_to_the_numbers_of_the_command(axle, tmp
     wait_for_number(page, "first.margin", 1.0 / ratios[first])
     for row in summary["elements"]:
         shown = elements(page)[row["element"]]
-        assert shown[-1] == ("–" if row["voltage_ratio"] is None else readable(row["voltage_ratio"]))
+        assert shown[0] == ("–" if row["voltage_ratio"] is None else readable(row["voltage_ratio"]))
         assert shown[3] == readable(1e9 * row["capacitance"])
     network = page.get_by_test_id("network")
     assert network.locator("li.first").count() == 1
@@ -217,6 +217,16 @@ def test_an_axle_opens_with_its_gear_files(page):
     page.get_by_test_id("verdict").filter(has_text="Breakdown expected").wait_for()
     opened(page, "gear-mesh-2")
     assert field(page, "mesh.2.pair.gear.teeth.2").input_value() == "73"
+
+
+@pytest.mark.slow
+def test_a_narrow_screen_shows_the_ratio_of_each_element_without_scrolling(open_page, app_server):
+    page = open_page(app_server, "/axle", width=400, height=800)
+    answered(page)
+    heads = page.get_by_test_id("elements").get_by_role("columnheader")
+    assert heads.all_inner_texts()[:4] == ["", "U/V_b", "U [V]", "V_b [V]"]
+    right = heads.nth(3).bounding_box()
+    assert right["x"] + right["width"] <= 400
 
 
 @pytest.mark.slow

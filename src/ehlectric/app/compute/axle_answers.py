@@ -111,7 +111,8 @@ def answer_of(result: AxleResult) -> AxleAnswer:
         simulated=simulated,
         simulation=_table(_TEXTS["simulation"], simulation_cells(summary)) if simulated else None,
         network=tuple(_network(result)),
-        elements=_table(_TEXTS["elements"], element_cells(summary)),
+        # U/V_b and its voltages first: a narrow screen shows the first columns.
+        elements=_table(_TEXTS["elements"], ((row[0], *row[:0:-1]) for row in element_cells(summary))),
         chances=_table(_TEXTS["chances"], chance_cells(summary)) if "uncertainty" in summary else None,
         shafts=_table(_TEXTS["shafts"], shaft_cells(summary)),
         remedies=_remedies(summary) if summary["remedies"] else None,
