@@ -1,5 +1,6 @@
 """Names of calibration that other packages may import."""
 
+from .calibrated_files import written_input as written_input
 from .range_update import calibrate as calibrate
 from .range_update import given_points as given_points
 from .result import CalibratedInput as CalibratedInput

@@ -198,9 +198,11 @@ class Calibration(Shown):
         heads, rows = self._table()
         return pd.DataFrame(rows, columns=heads)
 
-    def contents(self) -> dict[str, Content]:
+    def contents(self, text: str | None = None) -> dict[str, Content]:
         """Return the content of summary.json, compared.csv and, if the measurement is explained, the case
         file calibrated.toml by their names.
+
+        ``text``, text of the updated case; by default all values in SI units.
         """
         contents: dict[str, Content] = {SUMMARY: json_of(self.summary()), COMPARED: csv_of(*self._table())}
         if self.case is not None:
@@ -211,7 +213,7 @@ class Calibration(Shown):
                     f"# Probability of breakdown after the measurement: {self.after.brief}.",
                     f"# With these ranges: {self.of_file.brief}. They contain no correlation of the inputs.",
                 ]
-            contents[CALIBRATED] = "\n".join([*heads, "", self.case.to_toml()]).encode()
+            contents[CALIBRATED] = "\n".join([*heads, "", text or self.case.to_toml()]).encode()
         return contents
 
     def _table(self) -> tuple[list[str], list[list[Any]]]:

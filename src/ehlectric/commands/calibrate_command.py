@@ -49,7 +49,13 @@ def calibrate(
         output,
         progress=progress_line,
         run=lambda _, case, folder, progress: by_kind.run_calibration(
-            case, folder, progress, measured=measured, background=background, uncertainty=uncertainty
+            case,
+            folder,
+            progress,
+            measured=measured,
+            background=background,
+            uncertainty=uncertainty,
+            file=case_file,
         ),
         plots=plots,
         formats=formats,

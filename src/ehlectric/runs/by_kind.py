@@ -284,8 +284,11 @@ def run_calibration(
     measured: Path | None = None,
     background: str | None = None,
     uncertainty: str | None = None,
+    file: Path | None = None,
 ) -> RunOutcome[Calibration]:
-    """Update the uncertain inputs of a case by measured values, and write the results."""
+    """Update the uncertain inputs of a case by measured values, and write the results; ``file``, file of the
+    case, whose units and comments the calibrated file keeps.
+    """
     from ehlectric.calibration import calibrate_to_folder
 
     with alone_in(folder, locks=[RESULT_LOCK]) as folder:
@@ -297,6 +300,7 @@ def run_calibration(
             measured=measured,
             background=background,
             uncertainty=uncertainty,
+            file=file,
             others=files_of_results(folder),
         )
 

@@ -14,24 +14,19 @@ from ehlectric.app.form_fields.field_defaults import DRIVE_END, NON_DRIVE_END, e
 from ehlectric.app.form_fields.field_rules import changed
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.view_models import CalibrationAnswer, Table
-from ehlectric.calibration import Calibration, calibrate, given_points
+from ehlectric.calibration import Calibration, calibrate, given_points, written_input
 from ehlectric.cases.axle_case import AxleCase
-from ehlectric.cases.input_keys import unit_of
 from ehlectric.cases.measured_inputs import MeasuredValue
 from ehlectric.cases.measurements import calibrated as calibrated_quantity
 from ehlectric.cases.measurements import quantity_text
 from ehlectric.discharge.breakdown_rule import Chance
-from ehlectric.quantities.inputs import ENDS, REPLACED, input_at
+from ehlectric.quantities.inputs import ENDS, REPLACED
 from ehlectric.quantities.quantity import data_file
-from ehlectric.quantities.units import in_unit, rounded
 from ehlectric.readable import capital, chance_text, ratio_text, readable
 from ehlectric.runtime.progress import Progress
 from ehlectric.tables.calibration_tables import compared_cells, input_cells
 
 _TEXTS = data_file("ehlectric.app", "page_texts.toml")["calibration"]
-
-# Digits of the updated values.
-_DIGITS = 5
 
 # Keys of an updated case whose values the page keeps: how its films are computed.
 _KEPT = ("contacts", "drive_end.contacts", "non_drive_end.contacts")
@@ -165,17 +160,8 @@ def _resolved(case: Any, key: str) -> Any:
 
 def _written(key: str, value: Any) -> Any:
     """Value of an input, or the ends of a range, as a person writes it: with the unit of its field."""
-    if isinstance(value, list | tuple):
-        return [_written(key, each) for each in value]
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        return value
     *_, name = _parts(key)
-    entry, unit = input_at(end_and_key(name)[1]), unit_of(end_and_key(name)[1])
-    if not unit:
-        return float(rounded(value, _DIGITS))
-    shown = unit if entry is None or not entry.shown else entry.shown
-    number = in_unit(f"{value!r} {unit}", shown)
-    return f"{value!r} {unit}" if number is None else f"{rounded(number, _DIGITS)} {shown}"
+    return written_input(end_and_key(name)[1], value)
 
 
 def _parts(key: str) -> tuple[str, str]:
