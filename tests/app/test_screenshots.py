@@ -21,7 +21,7 @@ from tests.helpers.processes import PATIENCE, wait_until
 pytestmark = pytest.mark.browser
 
 # Largest picture [bytes], and the number of its colours.
-_MOST, _COLOURS = 250_000, 128
+_MOST, _COLOURS = 260_000, 128
 
 # A bearing with measured values.
 MEASURED = {

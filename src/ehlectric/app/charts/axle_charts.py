@@ -146,6 +146,7 @@ def ratios_figure(result: AxleResult) -> Figure:
                     "hoverinfo": "skip",
                 }
             )
+    touching = " Hatched bars: summits touch." if math.inf in ranking.values() else ""
     limit = {"type": "line", "x0": 1.0, "x1": 1.0, "yref": "paper", "y0": 0.0, "y1": 1.0}
     first = (
         f"{names[0]} first, {labels[names[0]].rpartition(': ')[2]}" if names else "no element has a voltage"
@@ -164,6 +165,6 @@ def ratios_figure(result: AxleResult) -> Figure:
             shapes=[limit | {"line": {"color": INK, "width": 1, "dash": "dash"}}],
             bargap=0.35,
         ),
-        caption="Above 1 the element breaks down. Summits that touch discharge at any voltage: their bars "
-        "are hatched. A line extends between the values for all meshes conducting and no mesh conducting.",
+        caption=f"Above 1 the element breaks down.{touching} A line extends between the values for all "
+        "meshes conducting and no mesh conducting.",
     )
