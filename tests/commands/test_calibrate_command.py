@@ -133,3 +133,35 @@ def test_a_wrong_option_is_refused(typed, case_file, options, named):
     done = typed("calibrate", case_file.name, *options)
     assert done.returncode == 2
     assert named in done.stderr
+
+
+@pytest.mark.slow
+def test_a_record_of_the_shaft_voltage_is_counted_and_explained(ehlectric, case_file):
+    """The record was simulated with 36 discharges, a divider of 0.04035, 40 V/um and 44 pF."""
+    shutil.copy(EXAMPLES / "drive_scope.toml", case_file.parent)
+    done = ehlectric("calibrate", "drive_scope.toml", "-o", "out", "--no-plots")
+    assert "36 discharges in 200 µs" in done.stderr
+    summary = json.loads((case_file.parent / "out" / "summary.json").read_text("utf-8"))
+    assert summary["explained"]
+    measured = {row["quantity"]: row for row in summary["measured"]}
+    ratio = measured["bearing_voltage_ratio"]
+    assert abs(ratio["measured"] - 0.040346) < 2.0 * ratio["uncertainty"]
+    assert measured["discharge_rate"]["measured"] == pytest.approx(36 / 200e-6, rel=1e-3)
+    # The page calibrate.md states about 30 to 80 V/um, and 33 to 54 pF.
+    for end, true, ends in (
+        ("dielectric_strength", 40e6, (30e6, 80e6)),
+        ("winding_rotor_capacitance", 44e-12, (33e-12, 54e-12)),
+    ):
+        (entry,) = (entry for entry in summary["inputs"] if entry["key"].endswith(end))
+        low, _, high = entry["posterior"]
+        assert low < true < high
+        assert (low, high) == pytest.approx(ends, rel=0.2)
+
+
+def test_a_record_in_a_case_of_another_kind_is_refused(typed, case_file):
+    text = (EXAMPLES / "gear_spur.toml").read_text("utf-8")
+    record = '[measured]\nshaft_record = { file = "measurements/shaft_voltage.csv", column = "CH2" }\n'
+    (case_file.parent / "gear.toml").write_text(f"{text}\n{record}", "utf-8")
+    done = typed("calibrate", "gear.toml", "-o", "out")
+    assert done.returncode == 2
+    assert "measured.shaft_record" in done.stderr

@@ -49,6 +49,7 @@ from ehlectric.cases.measurements import (
 )
 from ehlectric.cases.table_edits import flattened
 from ehlectric.discharge.breakdown_rule import INTERVAL, Chance, sampling_error
+from ehlectric.drive import RECORDED, measured_shaft
 from ehlectric.errors import InputError
 from ehlectric.formulas.sobol import sobol_points
 from ehlectric.quantities.result_warnings import ResultWarning
@@ -147,7 +148,9 @@ def calibrate(
     (True, 2)
     """
     model = model_of(case)
-    given = given_points(case, measured, background=background, uncertainty=uncertainty)
+    given = given_points(
+        case, measured, background=background, uncertainty=uncertainty, quantities=model.quantities
+    )
     _check(model, given)
     compared = _Compared(model, given, seed, progress)
     posterior = infer(
@@ -169,8 +172,12 @@ def given_points(
     *,
     background: str | float | None = None,
     uncertainty: str | float | None = None,
+    quantities: Sequence[str] | None = None,
 ) -> MeasuredPoints:
-    """Measured values of a case, and of a file or a table, with the arguments and errors of ``calibrate``."""
+    """Measured values of a case, and of a file or a table, with the arguments and errors of ``calibrate``.
+
+    ``quantities``, names of the quantities that a record of the shaft voltage gives; None for all.
+    """
     table: Measured | AxleMeasured | None = case.measured
     if measured is None and table is None:
         raise InputError.missing("measured", "a table [measured], or a file of measured operating points")
@@ -184,7 +191,21 @@ def given_points(
         off = parsed_option(BACKGROUND, "background", background)
     if uncertainty is not None:
         part = parsed_option(UNCERTAINTY, "uncertainty", uncertainty, takes='a part in per cent, as "2 %"')
-    return measured_points(table, points_of(case), measured, background=off, uncertainty=part)
+    given = measured_points(table, points_of(case), measured, background=off, uncertainty=part)
+    record = getattr(table, "shaft_record", None)
+    if record is None:
+        return given
+    estimates, warnings = measured_shaft(record)
+    pairs = {
+        name: (estimate.value, estimate.uncertainty)
+        for name, estimate in estimates.items()
+        if quantities is None or name in quantities
+    }
+    given = given.with_record(pairs, warnings)
+    if not given.values:
+        takes = f"a record that determines one of {', '.join(RECORDED)}; {' '.join(map(str, warnings))}"
+        raise InputError("measured.shaft_record", got="no quantity of this case", takes=takes)
+    return given
 
 
 def _check(model: Model, given: MeasuredPoints) -> None:
@@ -420,7 +441,8 @@ class _Compared:
         return Unexplained(rows, posterior.limit, nearest.p_value, causes, contradicting)
 
     def _warnings(self, posterior: Posterior) -> Iterator[ResultWarning]:
-        """Warnings about the file, and about too few points."""
+        """Warnings about the files, and about too few points."""
+        yield from self.given.warnings
         read = self.given.read
         if read is not None:
             yield from void_rows(read)

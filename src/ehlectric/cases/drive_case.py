@@ -237,6 +237,9 @@ def with_files(table: Mapping[str, Any], folder: Path) -> dict[str, Any]:
         if isinstance(holder, Mapping) and isinstance(holder.get("file"), str):
             # It then stays valid where the case is written to another folder.
             tables[name] = {**holder, "file": str((folder / holder["file"]).absolute())}
+    if isinstance(tables.get("measured"), Mapping):
+        tables["measured"] = dict(tables["measured"])
+        find_files({"measured": tables["measured"]}, folder)
     return tables
 
 

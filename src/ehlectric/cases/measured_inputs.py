@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Self
@@ -20,6 +20,7 @@ from ehlectric.cases.measurements import (
 from ehlectric.cases.stated_ranges import value_and_uncertainty, with_uncertainty_text
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError, shown
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable
 
 if TYPE_CHECKING:
@@ -39,10 +40,33 @@ def _text(entry: object, info: ValidationInfo) -> object:
 Written = Annotated[str | None, BeforeValidator(_text)]
 
 
+class ShaftFile(Table, book="measured.shaft_record", named_by="file"):
+    """Record of the shaft voltage, from which measured values follow."""
+
+    file: str
+    column: str | int | None = None
+    common_mode_column: str | int | None = None
+    time_column: str | int | None = None
+    step: float | None = None
+    time_unit: str | None = None
+    value_unit: str | None = None
+    scale: float = 1.0
+    common_mode_scale: float = 1.0
+    resample: float | None = None
+    threshold: float | None = None
+    gain_uncertainty: float = 0.03
+
+    @model_validator(mode="before")
+    @classmethod
+    def _of_file(cls, table: Any) -> Any:
+        return cls.of_name(table)
+
+
 class Measured(Table, book="measured"):
     """Measured values, each with its standard uncertainty: "240 pF +- 5 %"."""
 
     file: str | None = None
+    shaft_record: ShaftFile | None = None
     capacitance: Written = None
     first_breakdown_voltage: Written = None
     breakdown_voltage: Written = None
@@ -112,7 +136,8 @@ class AxleMeasured(Table, book="axle.measured"):
 
 def _check_measured(table: Measured | AxleMeasured) -> None:
     """Refuse a table [measured] without a value and without a file."""
-    if not table.values() and table.file is None:
+    record = isinstance(table, Measured) and table.shaft_record is not None
+    if not table.values() and table.file is None and not record:
         raise InputError("file", "missing", takes="a file, or a measured value with its uncertainty")
 
 
@@ -134,6 +159,23 @@ class MeasuredPoints:
     points: tuple[dict[str, float], ...]  # inputs that differ from the case, by their keys in a bearing file
     values: tuple[MeasuredValue, ...]
     read: Measurement | None = None  # rows of the file
+    warnings: tuple[ResultWarning, ...] = ()  # about the record of the shaft voltage
+
+    def with_record(
+        self, estimates: Mapping[str, tuple[float, float]], warnings: Iterable[ResultWarning]
+    ) -> MeasuredPoints:
+        """Points with further values and their standard uncertainties at the operating point of the case.
+
+        A value that the table [measured] already has replaces the value of the record.
+        """
+        first = [number for number, point in enumerate(self.points) if not point][:1]
+        points = self.points if first else (*self.points, {})
+        place = first[0] if first else len(self.points)
+        known = {value.quantity for value in self.values if value.line is None}
+        further = [MeasuredValue(name, *pair, place) for name, pair in estimates.items() if name not in known]
+        return replace(
+            self, points=points, values=(*self.values, *further), warnings=(*self.warnings, *warnings)
+        )
 
 
 def measured_points(

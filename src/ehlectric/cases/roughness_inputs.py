@@ -189,9 +189,18 @@ def check_geometry(tables: Iterable[Roughness], geometry: str) -> None:
             table.check_geometry(geometry)
 
 
+def shaft_table(table: dict[str, Any]) -> dict[str, Any] | None:
+    """Table of the record of a shaft voltage, also for a text that stands for its file; None without one."""
+    measured = table.get("measured")
+    record = measured.get("shaft_record") if isinstance(measured, dict) else None
+    if isinstance(measured, dict) and isinstance(record, str):
+        record = measured["shaft_record"] = {"file": record}
+    return record if isinstance(record, dict) else None
+
+
 def find_files(table: dict[str, Any], folder: Path) -> None:
     """Make the names of files absolute, which are relative to the ``folder`` of the case file: roughness, a
-    duty cycle, a measurement and viscosities.
+    duty cycle, a measurement, a record of the shaft voltage, and viscosities.
 
     They then stay valid if the case is written to another folder.
     """
@@ -200,7 +209,7 @@ def find_files(table: dict[str, Any], folder: Path) -> None:
     if isinstance(oil, dict) and isinstance(oil.get("viscosity_table"), str):
         oil["viscosity_table"] = {"file": oil["viscosity_table"]}
     viscosities = oil.get("viscosity_table") if isinstance(oil, dict) else None
-    tables = (table.get("duty"), table.get("measured"), viscosities)
+    tables = (table.get("duty"), table.get("measured"), shaft_table(table), viscosities)
     for holder in (*(rough if isinstance(rough, list) else []), *tables):
         if not isinstance(holder, dict) or not isinstance(holder.get("file"), str):
             continue

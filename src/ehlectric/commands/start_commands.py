@@ -191,7 +191,10 @@ def _needed(file: str) -> Iterator[str]:
     yield from _MEASUREMENTS.get(file, ())
     if isinstance(table.get("case"), str):
         yield from _needed(table["case"])
-    yield from (table[name]["file"] for name in ("duty", "measured") if "file" in table.get(name, ()))
+    named = (table.get(name, {}) for name in ("source", "duty", "measured"))
+    yield from (holder["file"] for holder in named if "file" in holder)
+    if isinstance(record := table.get("measured", {}).get("shaft_record"), dict):
+        yield record["file"]
     viscosities = table.get("lubricant", {}).get("viscosity_table")
     if isinstance(viscosities, str):
         yield viscosities

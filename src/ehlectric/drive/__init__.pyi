@@ -64,6 +64,8 @@ from .result import solve_drive as solve_drive
 from .run import result_of as result_of
 from .run import save as save
 from .run import solve_to_folder as solve_to_folder
+from .shaft_record import RECORDED as RECORDED
+from .shaft_record import measured_shaft as measured_shaft
 from .solver import SIMULATING as SIMULATING
 from .source_in_time import SourceInTime as SourceInTime
 from .stored import SCHEMA as SCHEMA
