@@ -147,7 +147,7 @@ def test_a_record_of_the_shaft_voltage_is_counted_and_explained(ehlectric, case_
     ratio = measured["bearing_voltage_ratio"]
     assert abs(ratio["measured"] - 0.040346) < 2.0 * ratio["uncertainty"]
     assert measured["discharge_rate"]["measured"] == pytest.approx(36 / 200e-6, rel=1e-3)
-    # The page calibrate.md states about 30 to 80 V/um, and 33 to 54 pF.
+    # The page shaft_record.md states about 30 to 80 V/um, and 33 to 54 pF.
     for end, true, ends in (
         ("dielectric_strength", 40e6, (30e6, 80e6)),
         ("winding_rotor_capacitance", 44e-12, (33e-12, 54e-12)),
