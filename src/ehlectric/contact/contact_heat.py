@@ -115,7 +115,7 @@ _PURE_ROLLING = 1e-4
 _SLOW = {"line": 0.1, "point": 5.0}
 
 # Error of the temperature rise over the rise, and of the balance of heat, above which there is a warning.
-_RISE_ERROR, _IMBALANCE = 0.05, 0.02
+_RISE_ERROR, _IMBALANCE = 0.05, 0.01
 
 # Error of the rise of which there is no warning [K].
 _SMALL_ERROR = 0.1
@@ -162,7 +162,7 @@ def heat_warnings(
             yield from _slow(number, body, speed, conditions)
 
 
-def unconverged_heat(heated: HeatedFilm, max_pressure: float) -> str:
+def unconverged_heat(heated: HeatedFilm, max_pressure: float, *, rough: bool) -> str:
     """Advice about a film with heat that did not converge at a Hertz pressure [Pa].
 
     The iteration between film and temperature has its own limit, so that more Newton steps do not help. The
@@ -175,9 +175,32 @@ def unconverged_heat(heated: HeatedFilm, max_pressure: float) -> str:
             f"maximum Hertzian pressure, but oils carry less than {_CARRIED:g} times. Give "
             "lubricant.eyring_stress, and set film.rheology to 'eyring'"
         )
+    if heated.unsettled is not None:
+        return unsettled_heat(heated.unsettled, rough=rough)
     return (
         f"Temperature and pressure do not converge together ({reached_rise(heated)}), also with more Newton "
         "steps. Try another number of grid.nodes, or film.thermal = false"
+    )
+
+
+def unsettled_heat(unsettled: tuple[float, float, float], *, rough: bool) -> str:
+    """Reason and advice about a film that converges in each turn while its temperature does not.
+
+    ``unsettled`` is the change of temperature [K] and the position, as in ``HeatedFilm``.
+
+    Examples
+    --------
+    >>> unsettled_heat((17.3, 0.28, 0.0), rough=False).split(": ")[0]
+    'The film converges, and its temperature (energy equation) still changes by 17 K at x/b = 0.28'
+    """
+    change, x, y = unsettled
+    place = f"(x, y)/b = ({x:.2f}, {y:.2f})" if y else f"x/b = {x:.2f}"
+    advice = "try another number of grid.nodes, or film.thermal = false"
+    if rough:
+        advice = f"use a longer cutoff_short or a lower roughness, or {advice}"
+    return (
+        f"The film converges, and its temperature (energy equation) still changes by {readable(change, 2)} K "
+        f"at {place}: {advice}"
     )
 
 

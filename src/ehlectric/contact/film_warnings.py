@@ -85,13 +85,14 @@ def _advice(setup: Case | Setup, film: Film | PointFilm) -> str:
     A film thicker than the grid spacing, both in dimensionless units, is resolved. At high L, Newton's
     method needs more steps for such a film. Thinner films need a finer grid.
     """
-    if setup.roughness:
+    heated, rough = film.heated, bool(setup.roughness)
+    if heated is not None and heated.thermal and (heated.unsettled is not None or not rough):
+        return unconverged_heat(heated, film.scales.pressure, rough=rough)
+    if rough:
         hardness = setup.contact.hardness if isinstance(setup, Case) else None
         soft = "" if hardness is None else "raise or omit contact.hardness, "
         advice = f"{soft}lower the roughness, or raise speed or viscosity"
         return f"{capital(advice)}; use more grid.nodes only if they do not resolve the roughness"
-    if film.heated is not None and film.heated.thermal:
-        return unconverged_heat(film.heated, film.scales.pressure)
     spacing = float(film.x[1] - film.x[0]) / film.scales.length
     resolved = film.central_thickness > spacing * film.scales.thickness
     if film.status == "stalled" and resolved and setup.solver.max_iterations < _MANY_STEPS:

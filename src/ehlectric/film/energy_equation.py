@@ -8,9 +8,13 @@ with the filling theta of a cavitated gap, it is
     q(zeta) = theta h Int_0^zeta rho u,      S = tau_x u_z + tau_y v_z - (T/rho) (d rho/dT) (u p_x + v p_y)
 
 The convection conserves mass, and needs no velocity across the film. Across the film the balance is a weak
-form on Gauss-Lobatto nodes, so that the sum of a column is its balance of heat with both surfaces. Along x
-the convection is an upstream difference of second order where the oil flows forward and of first order where
-it flows back; across the contact it is of first order.
+form on Gauss-Lobatto nodes, so that the sum of a column is its balance of heat with both surfaces. The
+convection is the difference of the flows through the faces between the columns. A face carries the
+temperature of the columns upstream of it: along x a line through two of them where the oil flows forward, one
+of them where it flows back; across the contact one of them. The flow through a face is the mean flow of its
+two columns, with a parabola that brings its sum to the flow of the Reynolds equation. Only this flow
+conserves the mass of each column, and only with it the heat of the film is in balance where the film changes
+from node to node.
 
 One march along x solves the columns from the inlet to the outlet. The fluxes into the bodies at the column
 itself are implicit, the fluxes at the columns before it enter by the history of the moving surfaces. In the
@@ -251,6 +255,9 @@ class Stream:
     # Heat of asperities that rub [W/m^2], half of which arises at each surface, shape (nx, ny).
     rubbed: Array | float = 0.0
     earlier: Earlier | None = None  # oil at the instant before; None of a stationary film
+    # Mass flow through the faces between the nodes along x and across it [kg/(m s)], shapes (nx - 1, ny) and
+    # (nx, ny - 1), NaN where it is not known; None where the mean flow of the nodes counts.
+    through: tuple[Array, Array] | None = None
 
     @property
     def mass(self) -> Array:
@@ -261,7 +268,21 @@ class Stream:
         """Flow of a time step with a pressure (nx, ny) [Pa] at its end; compression in time also heats."""
         rate = self.expansion * (pressure - earlier.pressure) / earlier.step
         by_pressure = self.compression_p + self.expansion / earlier.step
-        return replace(self, compression=self.compression + rate, compression_p=by_pressure, earlier=earlier)
+        through = self.through
+        if through is not None:
+            # What a column stores does not pass through the faces behind it.
+            weights = self.across.weights[:, np.newaxis, np.newaxis]
+            stored = self.dx / earlier.step * np.sum(weights * (self.mass - earlier.mass), axis=0)
+            along = through[0].copy()
+            along[1:] -= np.cumsum(stored[1:-1], axis=0)
+            through = along, through[1]
+        return replace(
+            self,
+            compression=self.compression + rate,
+            compression_p=by_pressure,
+            earlier=earlier,
+            through=through,
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -326,9 +347,9 @@ class HeatColumns:
 class _Convection:
     """Mass that flows to each node from its neighbours, over the spacing, (nz, nx, ny) [kg/(m^2 s)].
 
-    D(m T) - T D(m) with the upstream difference D of the mass flow m: the factors of the neighbours, whose
-    sum is the factor of the node itself, and the divergence D(m). The heat of the whole film is thereby in
-    balance.
+    D(m T) - T D(m) with the difference D of the mass flow m through the faces: the factors of the neighbours,
+    whose sum is the factor of the node itself, and the divergence D(m). The heat of the whole film is thereby
+    in balance.
     """
 
     neighbours: tuple[Array, ...]  # of the columns i - 1, i - 2, i + 1 and of the lines j - 1 and j + 1
@@ -337,22 +358,55 @@ class _Convection:
     @classmethod
     def of(cls, stream: Stream) -> _Convection:
         """Convection of a stream."""
-        mass = stream.mass
-        forward, back = _parts(mass * stream.u / stream.dx)
-        # The columns upstream of the first one have the inlet temperature, and the flow of the first column.
-        upstream = np.concatenate([forward[:, :1], forward[:, :-1]], axis=1)
-        upstream_2 = np.concatenate([upstream[:, :1], upstream[:, :-1]], axis=1)
-        ahead = np.concatenate([back[:, 1:], np.zeros_like(back[:, :1])], axis=1)
-        divergence = 1.5 * forward - 2.0 * upstream + 0.5 * upstream_2 + back - ahead
-        divergence[:, -1] = (1.5 * forward - 2.0 * upstream + 0.5 * upstream_2)[:, -1]
-        left = right = np.zeros_like(forward)
+        along, across = (None, None) if stream.through is None else stream.through
+        forward, back = _parts(
+            _through_faces(stream.across, stream.mass * stream.u, stream.filling, along) / stream.dx
+        )
+        # The columns upstream of the first one have the inlet temperature. The faces at both ends have the
+        # flow of the faces next to them, and no oil enters through the last one.
+        before, after = _with_ends(forward)
+        back_before, ahead = _with_ends(back)
+        ahead = np.concatenate([ahead[:, :-1], np.zeros_like(ahead[:, :1])], axis=1)
+        divergence = after - before + back_before - ahead
+        divergence[:, -1] = (after - before)[:, -1]
+        left = right = np.zeros_like(before)
         if stream.dy:
-            upward, down = _parts(mass * stream.v / stream.dy)
-            first = down[..., 1:2] if stream.symmetric else upward[..., :1]
-            left = np.concatenate([first, upward[..., :-1]], axis=2)
-            right = np.concatenate([down[..., 1:], down[..., -1:]], axis=2)
-            divergence += upward - left + down - right
-        return cls((2.0 * upstream, -0.5 * upstream_2, ahead, left, right), divergence)
+            flow = (stream.mass * stream.v).swapaxes(1, 2)
+            turned = None if across is None else across.T
+            flow = _through_faces(stream.across, flow, stream.filling.T, turned) / stream.dy
+            upward, down = (part.swapaxes(1, 2) for part in _parts(flow))
+            first_up, first_down = (down, upward) if stream.symmetric else (upward, down)
+            left = np.concatenate([first_up[..., :1], upward], axis=2)
+            right = np.concatenate([down, down[..., -1:]], axis=2)
+            out = np.concatenate([upward, upward[..., -1:]], axis=2)
+            back_out = np.concatenate([first_down[..., :1], down], axis=2)
+            divergence += out - left + back_out - right
+        return cls((1.5 * before + 0.5 * after, -0.5 * before, ahead, left, right), divergence)
+
+
+def _with_ends(faces: Array) -> tuple[Array, Array]:
+    """Flow through the faces before and behind each node, from the flow (nz, nx - 1, ny) between them."""
+    before = np.concatenate([faces[:, :1], faces], axis=1)
+    return before, np.concatenate([faces, faces[:, -1:]], axis=1)
+
+
+def _through_faces(across: Across, flow: Array, filling: Array, total: Array | None) -> Array:
+    """Mass flow (nz, nx - 1, ny) through the faces between the nodes along x, [kg/(m s)].
+
+    ``flow`` (nz, nx, ny) is the mass flow at the nodes and ``filling`` (nx, ny) the part of their gap that
+    oil fills.
+
+    It is the mean flow of both nodes, or the flow of the node that is filled less: oil that fills a part of
+    the gap passes the face to a full gap. A difference from the ``total`` of the film (nx - 1, ny) is the
+    flow of another pressure gradient, and a parabola across the film.
+    """
+    share = 0.5 * (1.0 + np.sign(filling[1:] - filling[:-1]))
+    flow = share * flow[:, :-1] + (1.0 - share) * flow[:, 1:]
+    if total is None:
+        return flow
+    zeta, weights = (each[:, np.newaxis, np.newaxis] for each in (across.zeta, across.weights))
+    missing = total - np.sum(weights * flow, axis=0)
+    return np.asarray(flow + 6.0 * zeta * (1.0 - zeta) * np.where(np.isnan(missing), 0.0, missing))
 
 
 def _parts(flow: Array) -> tuple[Array, Array]:
@@ -381,6 +435,7 @@ def stream_of(
     speed: float,
     stress: float,
     rubbing: tuple[Array | float, Array | float] = (1.0, 0.0),
+    through: tuple[Array, Array] | None = None,
 ) -> Stream:
     """Flow and properties of the oil, SI units.
 
@@ -389,7 +444,8 @@ def stream_of(
     ``pressure_scale``, ``speed`` and ``stress``, half-width b [m], Hertz pressure [Pa], entrainment speed
     [m/s], and scale of the stresses [Pa]; ``rubbing``, share of the oil in the pressure of each node,
     which is sheared in this part of the node, and the heat of asperities that rub [W/m^2], both of shape
-    (nx, ny). Returns velocities, properties and sources of heat.
+    (nx, ny); ``through``, mass flow through the faces, as in ``Stream``. Returns velocities, properties and
+    sources of heat.
     """
     u, v = speed * columns.speed
     viscosity = oil.log_viscosity(pressure, temperature)
@@ -419,6 +475,7 @@ def stream_of(
         compression_p=expansion * np.abs(u) / (mesh.dx * length),
         expansion=expansion,
         rubbed=rubbed,
+        through=through,
     )
 
 

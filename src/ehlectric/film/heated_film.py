@@ -89,6 +89,21 @@ _LEAST_FILLED = 1e-6
 _SLOWEST = 0.9
 
 
+@dataclass(frozen=True)
+class Unsettled:
+    """Node whose temperature changed most in the last turn of an iteration that did not converge."""
+
+    change: float  # change of its temperature [K]
+    place: tuple[float, float]  # its position X and Y
+
+    @classmethod
+    def of(cls, mesh: Mesh, weight: Array, heat: Heat, new: Heat) -> Unsettled:
+        """Node of the largest change between two temperatures, with the weights (nx, ny) of the changes."""
+        changes = np.max(np.abs(new.temperature - heat.temperature), axis=0)
+        i, j = np.unravel_index(int(np.argmax(weight * changes)), mesh.shape)
+        return cls(float(changes[i, j]), (float(mesh.x[i]), float(mesh.y[j])))
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class HeatedGrid(GridSolution):
     """Film with heat or shear on one grid; its status covers film and temperature together."""
@@ -97,6 +112,7 @@ class HeatedGrid(GridSolution):
     heat: Heat | None  # temperature and heat flow into the bodies; None for an isothermal film
     law: ShearedFlow  # flow law with the temperature of the film
     loops: int = 0  # number of outer loops
+    unsettled: Unsettled | None = None  # where the temperature still changed; None where it has converged
 
     @property
     def middle(self) -> Array | None:
@@ -282,7 +298,30 @@ class OuterIteration:
             speed=self.physics.mean_speed,
             stress=self.stress_scale,
             rubbing=self._rubbing(solution.state),
+            through=self._through(solution, thermal, filled),
         )
+
+    def _through(self, solution: GridSolution, thermal: Thermal, filled: Array) -> tuple[Array, Array]:
+        """Mass flow through the faces along x and across it [kg/(m s)]; NaN on the sides of the domain.
+
+        ``filled`` (nx, ny) is the part of the gap that oil fills.
+        The flow across is the flow of the Reynolds equation. The flow along x is the flow through the first
+        face and what the mass balance of each column adds to it.
+        """
+        mesh, flow, scales = self.level.mesh, solution.final.flow, self.problem.scales
+        mass = filled * flow.coefficients.density * solution.state.thickness
+        edge = np.where(filled[0] < 1.0, mass[0], 0.5 * (mass[0] + mass[1]))
+        edge = mass[0] if self.problem.wedge_order == 1 else edge
+        along = np.tile(edge - mesh.dx * flow.along.flux[0], (mesh.x.size - 1, 1))
+        across = np.zeros((mesh.x.size, mesh.y.size - 1))
+        if flow.across is not None and mesh.dy is not None:
+            lines = slice(0 if mesh.symmetric else 1, -1)
+            along[1:, lines] += mesh.dx * np.cumsum(flow.across.divergence().T[1:-1], axis=0)
+            across = -mesh.dy * flow.across.flux.T[:, -across.shape[1] :]
+            along[:, ~mesh.inner[1]] = np.nan
+        unit = scales.thickness * self.physics.mean_speed
+        unit *= float(thermal.oil.density(np.zeros(1), np.full(1, thermal.inlet_temperature)).value[0])
+        return unit * along, unit * across
 
     def _rubbing(self, state: State) -> tuple[Array, Array]:
         """Share of the oil in the pressure of each node, and the heat of asperities that rub [W/m^2], zero
@@ -323,7 +362,8 @@ class OuterIteration:
             return self._turns(state, heat, filled, spike=spike)
         if filled is not None:
             carried = self._carrying(state, heat, filled, first_order=False)
-            if carried.status == "converged":
+            # A film that is only a guess is not worth another iteration.
+            if carried.status == "converged" or self.most_loops < MOST_LOOPS:
                 return carried
         grid = self._turns(state, heat, None, spike=spike)
         full = grid.final.full_film
@@ -383,6 +423,7 @@ class OuterIteration:
         loose = self.posed.tolerance if carried is not None else max(self.posed.tolerance, _LOOSE)
         surfaces, mixing, taken = self.surfaces(thermal), _mixing(weight, heat), list[NewtonStep]()
         rises, films, central, ends, missed = list[float](), list[float](), np.inf, False, 0
+        unsettled: Unsettled | None = None
         for loop in range(self.most_loops):
             steps, tolerance = (most, self.posed.tolerance) if ends else (_STEPS, loose)
             solution, law, now = self.film(
@@ -411,6 +452,7 @@ class OuterIteration:
                 solution = replace(solution, status="diverged")
                 break
             rises.append(change_between(weight, heat, new, thermal))
+            unsettled = Unsettled.of(self.level.mesh, weight, heat, new)
             if goes_round(rises, self._allowed):
                 solution = replace(solution, status="stalled")
                 break
@@ -420,8 +462,10 @@ class OuterIteration:
             heat = _mixed(mixing, heat, new)
         else:
             solution = replace(solution, status="stalled")
-        solution = replace(solution, steps=tuple(taken))
-        return HeatedGrid(**vars(solution), iteration=self, heat=heat, law=law, loops=loop + 1)
+        grid = replace(solution, steps=tuple(taken))
+        # A film that misses its own residual has no temperature that could settle.
+        left = unsettled if grid.status == "stalled" and grid.final.norm <= loose else None
+        return HeatedGrid(**vars(grid), iteration=self, heat=heat, law=law, loops=loop + 1, unsettled=left)
 
     def _settled(self, grid: HeatedGrid, thermal: Thermal, weight: Array) -> HeatedGrid:
         """Film without upwind differences that it does not need, if its temperature stands there."""

@@ -459,4 +459,5 @@ def heated_result(
         max_temperature_rise=solution.max_temperature_rise,
         temperature_rise_error=solution.temperature_rise_error,
         energy_imbalance=solution.energy_imbalance,
+        unsettled=None if last.unsettled is None else (last.unsettled.change, *last.unsettled.place),
     )

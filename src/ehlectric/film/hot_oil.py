@@ -341,6 +341,9 @@ class HeatedFilm(Values):
     temperature_rise_error: float | None = field(default=None, metadata=number())
     # Heat that the film makes or loses by the discretisation, over the heat of compression and shear.
     energy_imbalance: float | None = field(default=None, metadata=number())
+    # Last change of temperature [K], and the position x and y over the half-width, of the node at which the
+    # temperature did not settle while the film of each turn converged; None of other films, and in files.
+    unsettled: tuple[float, float, float] | None = None
 
     @property
     def thermal(self) -> bool:
