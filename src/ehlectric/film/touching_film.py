@@ -68,6 +68,7 @@ from ehlectric.film.reynolds import (
     stencil_matrix,
     without_columns,
 )
+from ehlectric.film.stiff_nodes import StiffSolver, few_enough
 
 
 @dataclass(frozen=True)
@@ -191,7 +192,7 @@ class TouchingJacobian:
     """Jacobian on the finest grid, with the Jacobians of all grids that precondition it."""
 
     # Jacobians for Q and H00 on all grids, without the change of the oil where the surfaces touch. Rows
-    # behind cavities contain the last row of the cavity.
+    # behind cavities contain the last row of the cavity. None where the stiff nodes are solved directly.
     levels: list[Linearised]
     finest: Linearised  # Jacobian for Q and H00 on the finest grid, without the last rows of cavities
     # oil_by_p and oil_by_h: derivatives of the Reynolds residual by P and by H, of all nodes that oil fills.
@@ -209,6 +210,7 @@ class TouchingJacobian:
     open_nodes: Mask  # nodes apart from contact where the Poiseuille term dominates, shape (nx, ny)
     # Factorisation of the derivative of the Reynolds residual of ``open_nodes`` by their P at fixed gap.
     open_factors: scipy.sparse.linalg.SuperLU | None
+    stiff: StiffSolver | None  # direct solver of the nodes that are not open; None where they are too many
 
     @classmethod
     def of(
@@ -229,21 +231,15 @@ class TouchingJacobian:
         rest, by_rest = oil | hollow, _by_mass(level, oil_by_p, hollow, damping)
         factors = _factored(by_rest, rest) if rest.any() else None
         masks: tuple[Mask, ...] = (full_film, contact, plastic)
-        jacobians = [_linearised(level, (by_p, by_h), now.flow, now.thickness, masks, carried)]
-        finest = jacobians[0]
-        if carried is not None:
-            finest = _linearised(level, (by_p, by_h), now.flow, now.thickness, masks, None)
-        pressure, thickness = oil_pressure, now.thickness
-        for coarse in levels[1:]:
-            pressure, thickness = coarse.inject(pressure), coarse.inject(thickness)
-            masks = tuple(coarse.inside(mask) for mask in masks)
-            carried = None if carried is None else carried.on(coarse)
-            at_faces = flow(fluid, pressure, thickness, coarse.mesh)
-            stencils = _damped(coarse, at_faces, thickness, damping * level.rate / coarse.rate, carried)
-            jacobians.append(_linearised(coarse, stencils, at_faces, thickness, masks, carried))
-        opened = full_film & ~contact & (jacobians[0].poiseuille > level.rate)
+        finest = _linearised(level, (by_p, by_h), now.flow, now.thickness, masks, None)
+        opened = full_film & ~contact & (finest.poiseuille > level.rate)
         helps = contact.any() or (carried is not None and level.mesh.dy is not None)
         opened_factors = _factored(oil_by_p, opened) if opened.any() and helps else None
+        stiff_nodes, stiff, jacobians = finest.full_film & ~opened, None, []
+        if opened_factors is not None and few_enough(stiff_nodes):
+            stiff = StiffSolver.of(finest.gap, finest.by_p, finest.by_h, stiff_nodes)
+        else:
+            jacobians = _on_levels(fluid, levels, oil_pressure, now, (by_p, by_h), finest, damping)
         return cls(
             levels=jacobians,
             finest=finest,
@@ -256,6 +252,7 @@ class TouchingJacobian:
             factors=factors,
             open_nodes=opened,
             open_factors=opened_factors,
+            stiff=stiff,
         )
 
     def right_side(self, now: Touching, to_ambient: Array, given: Array) -> tuple[Array, Array]:
@@ -300,17 +297,61 @@ class TouchingJacobian:
         return np.append(finest.scale * r, load)
 
     def precondition(self, image: Array) -> Array:
-        """Approximate change of Q and H00 from a scaled residual and load, by one V-cycle.
+        """Approximate change of Q and H00 from a scaled residual and load.
 
-        Next to spots the mobility changes by orders of magnitude from node to node, which coarser grids do
-        not see. What the cycle leaves where the Poiseuille term dominates is solved at fixed gap.
+        The open nodes are solved at fixed gap. The stiff nodes follow directly if there are few of them.
+        Otherwise one V-cycle comes first: next to spots the mobility changes by orders of magnitude from node
+        to node, which coarser grids do not see.
         """
+        if self.stiff is not None:
+            change = np.zeros_like(image)
+            self._add_open(change, image)
+            left = image - self.image(change)
+            dq, dh00 = self.stiff(self._unscaled(left), float(left[-1]))
+            change[:-1] += dq.ravel()
+            change[-1] = dh00
+            return change
         change = cycled(self.levels, image)
         if self.open_factors is not None:
-            left = (image - self.image(change))[:-1].reshape(self.contact.shape)
-            dp = self.open_factors.solve((self.finest.unscale * left)[self.open_nodes])
-            change[:-1].reshape(self.contact.shape)[self.open_nodes] += dp
+            self._add_open(change, image - self.image(change))
         return change
+
+    def _add_open(self, change: Array, left: Array) -> None:
+        """Add what solves the rows of the open nodes at fixed gap to a change, as vectors of Q and H00."""
+        assert self.open_factors is not None
+        dp = self.open_factors.solve(self._unscaled(left)[self.open_nodes])
+        change[:-1].reshape(self.contact.shape)[self.open_nodes] += dp
+
+    def _unscaled(self, image: Array) -> Array:
+        """Residual (nx, ny) of a vector of scaled residual and load."""
+        residual: Array = self.finest.unscale * image[:-1].reshape(self.contact.shape)
+        return residual
+
+
+def _on_levels(
+    fluid: Fluid,
+    levels: list[Level],
+    oil_pressure: Array,
+    now: Touching,
+    stencils: tuple[Stencil, Stencil],
+    finest: Linearised,
+    damping: float,
+) -> list[Linearised]:
+    """Jacobians on all grids, from the stencils by P and by H and the Jacobian on the finest grid."""
+    level, carried = levels[0], now.carried
+    pressure, thickness = oil_pressure, now.thickness
+    masks: tuple[Mask, ...] = (now.full_film, now.contact, now.plastic)
+    jacobians = [finest]
+    if carried is not None:
+        jacobians = [_linearised(level, stencils, now.flow, thickness, masks, carried)]
+    for coarse in levels[1:]:
+        pressure, thickness = coarse.inject(pressure), coarse.inject(thickness)
+        masks = tuple(coarse.inside(mask) for mask in masks)
+        carried = None if carried is None else carried.on(coarse)
+        at_faces = flow(fluid, pressure, thickness, coarse.mesh)
+        on_coarse = _damped(coarse, at_faces, thickness, damping * level.rate / coarse.rate, carried)
+        jacobians.append(_linearised(coarse, on_coarse, at_faces, thickness, masks, carried))
+    return jacobians
 
 
 def _damped(
