@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from ehlectric.drive.measured_source import resample
-from ehlectric.drive.waveform_file import read_waveform
+from ehlectric.drive.waveform.waveform_file import read_waveform
 
 # Sampling interval [s] and samples that are written at once.
 STEP, CHUNK = 4e-9, 100_000

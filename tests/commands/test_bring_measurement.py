@@ -11,7 +11,7 @@ from ehlectric.bearing.duty_cycle import check_duty
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.duty_inputs import read_cycle
-from ehlectric.drive.waveform_file import read_waveform
+from ehlectric.drive.waveform.waveform_file import read_waveform
 from tests.axle.axles import two_stages
 from tests.helpers.places import EXAMPLES, ROOT
 

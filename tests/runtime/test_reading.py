@@ -9,7 +9,7 @@ import pytest
 
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
-from ehlectric.drive.waveform_file import read_waveform
+from ehlectric.drive.waveform.waveform_file import read_waveform
 from ehlectric.errors import InputError
 from ehlectric.runs.file_kinds import expect
 from ehlectric.runs.solve import case_of

@@ -39,7 +39,7 @@ from ehlectric.drive.netlist import (
 )
 from ehlectric.drive.netlist_files import check_targets, write_files
 from ehlectric.drive.source_pieces import edges
-from ehlectric.drive.waveform import Waveform
+from ehlectric.drive.waveform.waveform import Waveform
 from ehlectric.errors import InputError
 from ehlectric.quantities.formats import speed_text
 from ehlectric.quantities.inputs import ENDS

@@ -10,9 +10,9 @@ import scipy
 
 from ehlectric.arrays import Array, IntArray
 from ehlectric.cases.drive_inputs import Source
-from ehlectric.drive.waveform import Waveform
-from ehlectric.drive.waveform_file import read_waveform
-from ehlectric.drive.waveform_quality import edge_warnings, repeat_warnings
+from ehlectric.drive.waveform.sample_quality import edge_warnings, repeat_warnings
+from ehlectric.drive.waveform.waveform import Waveform
+from ehlectric.drive.waveform.waveform_file import read_waveform
 from ehlectric.errors import InputError
 from ehlectric.quantities.result_warnings import ResultWarning
 

@@ -13,8 +13,8 @@ import scipy
 from ehlectric.arrays import Array, IntArray, Mask
 from ehlectric.cases.measured_inputs import ShaftFile
 from ehlectric.drive.drive_record import event_rate
-from ehlectric.drive.waveform import Waveform
-from ehlectric.drive.waveform_file import read_waveform
+from ehlectric.drive.waveform.waveform import Waveform
+from ehlectric.drive.waveform.waveform_file import read_waveform
 from ehlectric.errors import InputError
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.result_warnings import ResultWarning

@@ -13,7 +13,7 @@ from ehlectric.drive.discharges.films_and_source import Measuring, Segments
 from ehlectric.drive.inverter import steps_of
 from ehlectric.drive.measured_source import measured_source
 from ehlectric.drive.source_pieces import Ringing, edges, ringing_of, sampled
-from ehlectric.drive.waveform import Waveform
+from ehlectric.drive.waveform.waveform import Waveform
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.results import LIMITS
 

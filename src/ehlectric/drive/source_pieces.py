@@ -11,7 +11,7 @@ from ehlectric.arrays import Array
 from ehlectric.cases.drive_inputs import Source
 from ehlectric.drive.discharges.films_and_source import Segments
 from ehlectric.drive.inverter import Steps
-from ehlectric.drive.waveform import Waveform
+from ehlectric.drive.waveform.waveform import Waveform
 
 # Samples of a measured waveform that are one chunk.
 _SAMPLES = 100_000

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import scipy
 
-from ehlectric.drive.waveform_file import read_waveform
+from ehlectric.drive.waveform.waveform_file import read_waveform
 from ehlectric.errors import InputError
 from tests.helpers import binary_waveforms as write
 from tests.helpers.each import each

@@ -10,7 +10,7 @@ import pytest
 
 from ehlectric.cases.drive_inputs import Source
 from ehlectric.drive.measured_source import measured_source
-from ehlectric.drive.waveform_file import read_waveform
+from ehlectric.drive.waveform.waveform_file import read_waveform
 from ehlectric.errors import InputError
 from tests.helpers.each import each
 

@@ -4,8 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.drive.waveform import Waveform
-from ehlectric.drive.waveform_quality import (
+from ehlectric.drive.waveform.sample_quality import (
     clipped_levels,
     few_levels,
     longest_run,
@@ -13,6 +12,7 @@ from ehlectric.drive.waveform_quality import (
     repeat_warnings,
     unresolved_edges,
 )
+from ehlectric.drive.waveform.waveform import Waveform
 from tests.helpers.each import each
 
 COUNT = 20_000

@@ -5,7 +5,7 @@ import pytest
 from scipy.signal import firwin, upfirdn
 
 from ehlectric.drive.measured_source import HALF, resample
-from ehlectric.drive.waveform import Waveform
+from ehlectric.drive.waveform.waveform import Waveform
 from ehlectric.errors import InputError
 from tests.helpers.each import each
 

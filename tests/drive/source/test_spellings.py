@@ -6,7 +6,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ehlectric.drive.waveform_file import read_waveform
+from ehlectric.drive.waveform.waveform_file import read_waveform
 from ehlectric.errors import InputError
 from tests.helpers.share import share_of
 

@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.drive.waveform_file import read_waveform
+from ehlectric.drive.waveform.waveform_file import read_waveform
 from ehlectric.errors import InputError
 from tests.helpers.each import each
 from tests.helpers.places import ROOT
@@ -438,7 +438,7 @@ def test_lines_of_several_blocks_are_counted(tmp_path):
 PEAK = """
 import sys
 from pathlib import Path
-from ehlectric.drive.waveform_file import read_waveform
+from ehlectric.drive.waveform.waveform_file import read_waveform
 read, _ = read_waveform(sys.argv[1])
 status = Path("/proc/self/status").read_text()
 print(read.values.size, 1024 * int(status.partition("VmHWM:")[2].split()[0]))

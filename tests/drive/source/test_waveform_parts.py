@@ -7,11 +7,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.drive import waveform_heads as reader
-from ehlectric.drive.waveform_choice import Choice
-from ehlectric.drive.waveform_heads import Head, parts_of, unit_of
-from ehlectric.drive.waveform_samples import Samples, line_of
-from ehlectric.drive.waveform_times import timing
+from ehlectric.drive.waveform import text_heads as reader
+from ehlectric.drive.waveform.chosen_columns import Choice
+from ehlectric.drive.waveform.sample_times import timing
+from ehlectric.drive.waveform.samples import Samples, line_of
+from ehlectric.drive.waveform.text_heads import Head, parts_of, unit_of
 from ehlectric.errors import InputError
 from ehlectric.runtime.text_table import layout_of
 from tests.helpers.each import each

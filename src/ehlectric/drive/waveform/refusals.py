@@ -13,9 +13,9 @@ from pathlib import Path
 import numpy as np
 
 from ehlectric.arrays import Array, IntArray
-from ehlectric.drive.waveform_choice import Keys, envelope
-from ehlectric.drive.waveform_heads import Labels
-from ehlectric.drive.waveform_samples import Samples, numbered_lines
+from ehlectric.drive.waveform.chosen_columns import Keys, envelope
+from ehlectric.drive.waveform.samples import Samples, numbered_lines
+from ehlectric.drive.waveform.text_heads import Labels
 from ehlectric.errors import InputError, shown
 from ehlectric.readable import readable
 from ehlectric.runtime.text_table import Layout

@@ -13,14 +13,14 @@ from pathlib import Path
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.drive.waveform import Waveform
-from ehlectric.drive.waveform_binaries import READERS, read_binary
-from ehlectric.drive.waveform_choice import Choice, Keys, choice_of
-from ehlectric.drive.waveform_heads import Labels, labels_of
-from ehlectric.drive.waveform_quality import quality_warnings
-from ehlectric.drive.waveform_refusals import refuse_counts, refuse_scpi, refuse_stated, refuse_words
-from ehlectric.drive.waveform_samples import LEAST_SAMPLES, MOST_BYTES, Samples, read_samples
-from ehlectric.drive.waveform_times import evened, timing
+from ehlectric.drive.waveform.binary_files import READERS, read_binary
+from ehlectric.drive.waveform.chosen_columns import Choice, Keys, choice_of
+from ehlectric.drive.waveform.refusals import refuse_counts, refuse_scpi, refuse_stated, refuse_words
+from ehlectric.drive.waveform.sample_quality import quality_warnings
+from ehlectric.drive.waveform.sample_times import evened, timing
+from ehlectric.drive.waveform.samples import LEAST_SAMPLES, MOST_BYTES, Samples, read_samples
+from ehlectric.drive.waveform.text_heads import Labels, labels_of
+from ehlectric.drive.waveform.waveform import Waveform
 from ehlectric.errors import InputError
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable

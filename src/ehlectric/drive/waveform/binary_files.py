@@ -19,10 +19,10 @@ import numpy as np
 import scipy
 
 from ehlectric.arrays import Array
-from ehlectric.drive.waveform_choice import Choice, Keys, choice_of, envelope
-from ehlectric.drive.waveform_heads import Head, Labels, Stated, parts_of
-from ehlectric.drive.waveform_refusals import exceeded, segments
-from ehlectric.drive.waveform_samples import MOST_BYTES, Samples
+from ehlectric.drive.waveform.chosen_columns import Choice, Keys, choice_of, envelope
+from ehlectric.drive.waveform.refusals import exceeded, segments
+from ehlectric.drive.waveform.samples import MOST_BYTES, Samples
+from ehlectric.drive.waveform.text_heads import Head, Labels, Stated, parts_of
 from ehlectric.errors import InputError, shown
 from ehlectric.readable import readable
 from ehlectric.runtime.file_kinds import PEEKED

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.drive.waveform_heads import Head, Labels, unit_of
+from ehlectric.drive.waveform.text_heads import Head, Labels, unit_of
 from ehlectric.errors import InputError, shown
 from ehlectric.quantities import units
 

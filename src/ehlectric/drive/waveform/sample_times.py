@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.drive.waveform_choice import Choice
-from ehlectric.drive.waveform_refusals import refuse_gaps, refuse_restarts
-from ehlectric.drive.waveform_samples import LEAST_SAMPLES, Samples
+from ehlectric.drive.waveform.chosen_columns import Choice
+from ehlectric.drive.waveform.refusals import refuse_gaps, refuse_restarts
+from ehlectric.drive.waveform.samples import LEAST_SAMPLES, Samples
 from ehlectric.errors import InputError
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ehlectric.arrays import Array, IntArray, Mask
-from ehlectric.drive.waveform import Waveform
+from ehlectric.drive.waveform.waveform import Waveform
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable
 
