@@ -51,6 +51,18 @@ def test_a_new_designation_keeps_what_the_axle_gives():
     assert not {"axial_load", "radial_load", "composite_rq"} & bearing.keys()
 
 
+@each("mesh", [1, 2])
+def test_a_new_drawing_of_a_mesh_has_no_dimensions_of_the_example(mesh):
+    """Its centre distance and tip diameters follow from the typed numbers, so that every step is valid."""
+    pair, inputs = f"mesh.{mesh}.pair.gear", AXLE
+    for key, value in {"teeth.2": 66, "normal_module": "2.25 mm", "helix_angle": "22 deg"}.items():
+        inputs = changed(inputs, {f"{pair}.{key}": value})
+        AxleCase.from_written(inputs.table)
+    for key in ("centre_distance", "profile_shift", "tip_diameter"):
+        assert inputs.value(f"{pair}.{key}") is None
+    assert inputs.value(f"mesh.{3 - mesh}.pair") == AXLE.value(f"mesh.{3 - mesh}.pair")
+
+
 def test_numbers_in_remedies_follow_a_removed_mesh():
     changes = [{"mesh.1.gear.flank_ra": "1 um"}, {"mesh.2.gear.flank_ra": "1 um"}]
     remedies = [{"title": str(n), "changes": each} for n, each in enumerate(changes)]

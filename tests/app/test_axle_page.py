@@ -208,6 +208,24 @@ def test_a_refusal_stands_next_to_the_field_of_its_element(axle):
 
 
 @pytest.mark.slow
+def test_a_drawing_is_typed_faster_than_its_answers(axle):
+    page = axle
+    opened(page, "gear-mesh-2")
+    # Each number is typed while the answer of the number before is being computed.
+    for key, value in {"normal_module": "2.5", "teeth.2": "66", "helix_angle": "22"}.items():
+        type_into(page, f"mesh.2.pair.gear.{key}", value)
+    wait_for_address(page, "22 deg")
+    answered(page)
+    assert not page.get_by_test_id("notice").is_visible()
+    more = page.get_by_test_id("group-gear-mesh-2").locator("details summary")
+    if not field(page, "mesh.2.pair.gear.tip_diameter.1").is_visible():
+        more.click()
+    for key in ("centre_distance", "profile_shift.1", "tip_diameter.1", "tip_diameter.2"):
+        assert field(page, f"mesh.2.pair.gear.{key}").input_value() == ""
+    assert field(page, "mesh.2.pair.gear.teeth.2").input_value() == "66"
+
+
+@pytest.mark.slow
 def test_an_axle_opens_with_its_gear_files(page):
     upload = page.get_by_test_id("upload-case").locator("input[type=file]")
     upload.set_input_files(EXAMPLES / "e_axle.toml")

@@ -296,7 +296,8 @@ def test_values_that_the_user_has_set_stay_in_a_new_drawing():
     assert after.value("gear.profile_shift") == [0.25]
     assert after.value("gear.centre_distance") == "87 mm"
     assert after.value("gear.tip_diameter") is None
-    # What is no number yet removes nothing.
+    # What is no number yet removes nothing, and the present number again changes nothing.
+    assert changed(inputs, {"gear.normal_module": "1.75 mm"}) == inputs
     assert changed(inputs, {"gear.teeth.1": "many"}).value("gear.centre_distance") == "87 mm"
 
 

@@ -124,6 +124,9 @@ def rq_of_flanks(inputs: Inputs) -> str | None:
 _SHARING = "gear.operation.load_sharing"
 _HELIX = "gear.helix_angle"
 
+# Examples whose drawings pages show first: gear pairs, and meshes of the axle.
+_DRAWINGS = (*GEAR_EXAMPLES.values(), "e_axle_stage_1", "e_axle_stage_2")
+
 # Inputs that a new drawing changes first, and inputs of the example that do not hold for a new drawing.
 _NEW = ("gear.normal_module", "gear.teeth", "gear.normal_pressure_angle", _HELIX)
 _FOLLOWING = ("gear.centre_distance", "gear.profile_shift", "gear.tip_diameter", "title")
@@ -140,8 +143,12 @@ def of_the_example(before: Inputs, changes: Mapping[str, Any], set_by_user: Coll
     >>> list(of_the_example(spur, {"gear.normal_module": "2 mm"}, {"gear.tip_diameter.1"}))
     ['gear.centre_distance', 'gear.profile_shift', 'title']
     """
-    new = {key: value for key, value in changes.items() if key in _NEW and _is_drawn(key, value)}
-    for example in map(example_inputs, GEAR_EXAMPLES.values()):
+    new = {
+        key: value
+        for key, value in changes.items()
+        if key in _NEW and _is_drawn(key, value) and value != before.value(key)
+    }
+    for example in map(example_inputs, _DRAWINGS):
         if new and all(before.value(key) == example.value(key) for key in _NEW):
             stay = {*changes, *map(key_of_list, set_by_user)}
             yield from (
