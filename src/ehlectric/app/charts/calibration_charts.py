@@ -29,7 +29,7 @@ _INTERVAL = 1.96
 
 
 def ranges_figure(result: Calibration) -> Figure:
-    """90 % ranges of the inputs before and after the measurement, as parts of their ranges [%]."""
+    """90 % ranges of the inputs before and after the measurement, in per cent of their ranges."""
     entries = [entry for entry in result.inputs if entry.posterior is not None and entry.high > entry.low]
     names = [entry.label.partition(" (")[0] for entry in entries]
 
@@ -46,9 +46,9 @@ def ranges_figure(result: Calibration) -> Figure:
                 _bars("before", names, before, LIGHT_GREY, _WIDE),
                 _bars("after", names, after, BLUE, _NARROW),
             ],
-            **_layout(names, "part of the range [%]"),
+            **_layout(names, "range [%]"),
         ),
-        caption="Bars extend from 5 % to 95 %.",
+        caption="Bars extend from 5 % to 95 %, in per cent of the range of each input.",
     )
 
 
