@@ -8,7 +8,7 @@ import pytest
 from ehlectric import AxleCase, solve, solve_axle, solve_bearing
 from ehlectric.axle.network import HOUSING, WINDING, Film, Network
 from ehlectric.axle.solution import AxleSolution, Element, solve_elements
-from ehlectric.axle.summary import axle_summary
+from ehlectric.axle.summary import axle_summary, ratio_word
 from ehlectric.cases.drive_inputs import Breakdown, Circuit
 from ehlectric.drive.drive_bearings import bearing_element
 from ehlectric.drive.motor_circuit import capacitive_divider
@@ -188,3 +188,13 @@ def test_solved_contacts_of_a_mesh_and_a_bearing():
     )
     assert solved.case.contacts == "solved"
     assert solved.solution.least_film == pytest.approx(quick.solution.least_film, rel=0.03)
+
+
+def test_without_a_strength_no_element_touches():
+    """Without a strength no breakdown voltage is known, whether summits touch or not: nothing is ranked."""
+    table = two_stages(remedies=[]).to_dict()
+    table.pop("discharge")
+    solution = solve_elements(AxleCase.from_dict(table))
+    assert not any(element.touching for element in solution.elements)
+    assert solution.ranking() == []
+    assert {*map(ratio_word, axle_summary(solution)["elements"])} == {"no V_b", "conducts"}

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Patch
@@ -9,13 +11,16 @@ from matplotlib.patches import Patch
 from ehlectric.axle import AxleDuty, AxleResult
 from ehlectric.errors import printable
 from ehlectric.figures.category_maps import colours_of_names
-from ehlectric.figures.style import legend_above, new_panels
+from ehlectric.figures.style import legend_above, new_panels, note
 from ehlectric.quantities.palette import BLACK
 from ehlectric.quantities.units import RPM
 from ehlectric.readable import capital, readable
 
 # Smallest ratio that is drawn.
 _LEAST = 0.05
+
+# Height of the dots for summits that touch, as a part of the panel, and room above and below the ratios.
+_TOUCHING, _ABOVE = 0.96, 0.2
 
 
 def axle_duty(result: AxleResult) -> Axes:
@@ -40,13 +45,23 @@ def axle_duty(result: AxleResult) -> Axes:
 
 
 def _ratios(duty: AxleDuty, ax: Axes) -> None:
-    """Draw U/V_b of the elements; the first element has dots, and the other elements have thin lines."""
+    """Draw U/V_b of the elements; the first element has dots, and the other elements have thin lines.
+
+    Dots in a row above all ratios belong to a first element whose summits touch.
+    """
     ratios = np.where(np.isfinite(duty.ratios) & (duty.ratios >= _LEAST), duty.ratios, np.nan)
     first = duty.first
     for number, colour in enumerate(colours_of_names(duty.names)):
         ax.plot(duty.time, ratios[:, number], color=colour, lw=0.5, alpha=0.6)
         rows = first == number
-        ax.plot(duty.time[rows], ratios[rows, number], color=colour, ls="none", marker="o", ms=2.5)
+        touching = rows & np.isinf(duty.ratios[:, number])
+        dots: dict[str, Any] = {"color": colour, "ls": "none", "marker": "o", "ms": 2.5}
+        ax.plot(duty.time[rows], ratios[rows, number], **dots)
+        above = np.full(np.count_nonzero(touching), _TOUCHING)
+        ax.plot(duty.time[touching], above, transform=ax.get_xaxis_transform(), **dots)
+    if np.any(np.isinf(duty.ratios)):
+        ax.margins(y=_ABOVE)
+        note(ax, 0.01, _TOUCHING - 0.03, "dots above: summits of the first element touch", va="top")
     ax.axhline(1.0, color=BLACK, ls="--", lw=1.0)
     ax.set(
         yscale="log",
