@@ -1,6 +1,9 @@
 """Fields of an axle: groups that follow its elements, and rules of its inputs, also for inputs of anybody."""
 
+import pytest
+
 from ehlectric.app.form_fields.axle_fields import (
+    asked_of_rows,
     axle_groups,
     names_of,
     other_inputs,
@@ -12,10 +15,12 @@ from ehlectric.app.form_fields.axle_fields import (
     without_shaft,
     without_table,
 )
+from ehlectric.app.form_fields.field_defaults import default_of
 from ehlectric.app.form_fields.field_rules import changed
 from ehlectric.app.form_fields.measured_fields import measured_fields
 from ehlectric.app.pages.frame import AXLE
 from ehlectric.cases.axle_case import AxleCase
+from ehlectric.errors import InputError
 from tests.helpers.each import each
 
 # Keys of the elements of the example.
@@ -61,6 +66,45 @@ def test_a_new_drawing_of_a_mesh_has_no_dimensions_of_the_example(mesh):
     for key in ("centre_distance", "profile_shift", "tip_diameter"):
         assert inputs.value(f"{pair}.{key}") is None
     assert inputs.value(f"mesh.{3 - mesh}.pair") == AXLE.value(f"mesh.{3 - mesh}.pair")
+
+
+def test_the_roughness_of_all_bearings_is_in_the_field_of_each_bearing():
+    groups = {group.title: group for group in axle_groups(AXLE)}
+    fields = {field.key: field for field in groups["Bearing 1 of rotor"].fields}
+    assert AXLE.value("bearing.1.composite_rq") is None
+    assert fields["bearing.1.composite_rq"].shown(AXLE)
+    assert default_of(AXLE, "bearing.1.composite_rq") == AXLE.value("bearings.composite_rq") == "0.03 um"
+    of_ra = AXLE.changed({"bearing.1.composite_ra": "0.02 um"})
+    way = fields["bearing.1.way_roughness"]
+    assert way.alternatives[way.alternative(of_ra)].label == "Ra and a factor"
+    assert [fields[f"bearing.1.composite_{name}"].shown(of_ra) for name in ("rq", "ra")] == [False, True]
+
+
+def test_two_tapered_bearings_are_typed_one_after_the_other():
+    """The first asks for the second, and both ask for preload or play; nothing else contradicts them."""
+    one = changed(AXLE, {"bearing.3.base": "32008"})
+    error = asked_of_rows(one, refusal(one))
+    assert (error.key, error.is_missing) == ("bearing.4.base", True)
+    both = changed(one, {"bearing.4.base": "32207"})
+    assert (refusal(both).key, refusal(both).is_missing) == ("shaft.2.adjustment.preload", True)
+    fields = [field for group in axle_groups(both) for field in group.fields]
+    asked = {field.key for field in fields if ".adjustment." in field.key and field.shown(both)}
+    assert asked == {f"shaft.2.adjustment.{name}" for name in ("arrangement", "preload", "axial_play")}
+    played = changed(both, {"shaft.2.adjustment.axial_play": "0 um"})
+    AxleCase.from_written(played.table)
+    preloaded = changed(played, {"shaft.2.adjustment.preload": "500 N"})
+    assert preloaded.value("shaft.2.adjustment") == {"arrangement": "O", "preload": "500 N"}
+    # Other bearings have no adjustment, and one of them carries the axial force.
+    balls = changed(changed(preloaded, {"bearing.3.base": "6307"}), {"bearing.4.base": "nu-207"})
+    assert (balls.value("shaft.2.adjustment"), balls.value("bearing.3.locating")) == (None, True)
+    AxleCase.from_written(balls.table)
+
+
+def refusal(inputs):
+    """Error of the inputs of an axle."""
+    with pytest.raises(InputError) as caught:
+        AxleCase.from_written(inputs.table)
+    return caught.value
 
 
 def test_numbers_in_remedies_follow_a_removed_mesh():

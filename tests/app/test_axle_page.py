@@ -226,6 +226,29 @@ def test_a_drawing_is_typed_faster_than_its_answers(axle):
 
 
 @pytest.mark.slow
+def test_tapered_bearings_are_typed_without_a_rejection(axle):
+    """Notices name the bearing, and what it keeps of the bearing before it."""
+    page, note = axle, axle.get_by_test_id("form-note")
+    opened(page, "bearing-1-of-intermediate")
+    assert field(page, "bearing.3.composite_rq").get_attribute("placeholder") == "0.03 µm"
+    choose(page, "bearing.3.base", "32008")
+    note.filter(has_text="Bearing 1 of intermediate, also removed: Radial clearance").wait_for()
+    note.filter(has_text="kept: Composite roughness Rq = 0.03 µm").wait_for()
+    asked = page.get_by_test_id("error-bearing-4-base")
+    asked.filter(has_text="a tapered roller bearing").wait_for()
+    assert "empty" in asked.get_attribute("class")
+    choose(page, "bearing.4.base", "32207")
+    note.filter(has_text="kept: Composite roughness Rq = 0.05 µm").wait_for()
+    asked = page.get_by_test_id("error-shaft-2-adjustment-preload")
+    asked.filter(has_text="an axial play").wait_for()
+    assert "empty" in asked.get_attribute("class")
+    type_into(page, "shaft.2.adjustment.axial_play", "0")
+    asked.wait_for(state="hidden")
+    answered(page)
+    assert "32008" in page.get_by_test_id("network").inner_text()
+
+
+@pytest.mark.slow
 def test_an_axle_opens_with_its_gear_files(page):
     upload = page.get_by_test_id("upload-case").locator("input[type=file]")
     upload.set_input_files(EXAMPLES / "e_axle.toml")

@@ -27,7 +27,7 @@ from ehlectric.cases.axle_inputs import (
     Shaft,
     SharedKeys,
 )
-from ehlectric.cases.axle_keys import element_keys, shaft_keys
+from ehlectric.cases.axle_keys import ADJUSTED, element_keys, shaft_keys
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.bearing_inputs import Bearing, base_of, typed_base
 from ehlectric.cases.bearing_kinds import KINDS_OF_BEARINGS
@@ -64,9 +64,6 @@ _ROUNDING = 1e-9
 
 # Keys of the circuit and the source that the static answer does not contain.
 _NOT_OF_AXLES = ("common_mode_inductance", "ground_inductance", "grounding_ring_table")
-
-# Kinds of bearings of which two on a shaft are adjusted against each other.
-_ADJUSTED = ("angular-contact ball", "tapered roller")
 
 # Tables whose keys displace their alternatives, also keys of all bearings.
 _DISPLACED = ("source", "circuit", "discharge", "breakdown")
@@ -500,7 +497,7 @@ class AxleCase(CaseFile, book="axle_file"):
         return [
             number
             for number, bearing in tables.items()
-            if bearing.kind in _ADJUSTED
+            if bearing.kind in ADJUSTED
             and bearing.pair is None
             and "axial_load" not in self.bearing[number].keys
         ]
@@ -538,7 +535,7 @@ class AxleCase(CaseFile, book="axle_file"):
         if locating:
             raise InputError.worded(
                 f"bearing.{locating[0] + 1}.locating",
-                f"is not used by {names}: both carry axial forces; see shaft.adjustment",
+                f"is not used by {names}: both carry axial forces",
             )
         return self.adjustment_of(shaft)
 

@@ -1,9 +1,12 @@
-"""Keys of bearings, meshes and shafts of an axle, for sweeps and measured values."""
+"""Keys of bearings, meshes and shafts of an axle, and kinds of bearings that are adjusted in pairs."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+
+# Kinds of bearings of which two on a shaft are adjusted against each other.
+ADJUSTED = ("angular-contact ball", "tapered roller")
 
 # Quantities of an element and of a shaft that a calibration compares, with their names for a bearing.
 OF_ELEMENTS = {name: name for name in ("capacitance", "breakdown_voltage", "conducting_share")}

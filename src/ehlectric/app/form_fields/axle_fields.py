@@ -19,11 +19,15 @@ from ehlectric.app.form_fields.field import (
     field_of,
     form_data,
     group_of,
+    kind_of,
 )
 from ehlectric.app.form_fields.field_defaults import field_at
 from ehlectric.app.form_fields.gear_fields import GEAR_GROUPS
 from ehlectric.app.page_inputs import Inputs
-from ehlectric.cases.axle_keys import element_keys, shaft_keys
+from ehlectric.cases.axle_keys import ADJUSTED, element_keys, shaft_keys
+from ehlectric.cases.bearing_kinds import KINDS_OF_BEARINGS
+from ehlectric.errors import InputError
+from ehlectric.quantities.alternatives import ALTERNATIVES
 from ehlectric.quantities.inputs import form
 from ehlectric.quantities.units import in_unit, rounded
 
@@ -169,21 +173,138 @@ def _fields(title: str, before: str, after: str) -> Iterator[Field]:
 def _shaft_fields(number: int) -> Iterator[Field]:
     for field in _fields("Shaft", "axle.", ""):
         table, name = field.key.split(".")
-        inner = "adjustment." if table == "adjustment" else ""
-        kind = "flag" if name == "rotor" else field.kind
-        yield replace(field, key=f"shaft.{number}.{inner}{name}", kind=kind)
+        if table == "adjustment":
+            yield replace(
+                field,
+                key=f"shaft.{number}.adjustment.{name}",
+                optional=False,
+                when=lambda inputs: _are_adjusted(inputs, number),
+            )
+        else:
+            kind = "flag" if name == "rotor" else field.kind
+            yield replace(field, key=f"shaft.{number}.{name}", kind=kind)
+
+
+def _mounted(inputs: Inputs, number: int) -> dict[int, str]:
+    """Kinds of the bearings on a shaft, by their numbers; all numbers are from 1. A kind is empty for a
+    bearing that carries its axial load without a second bearing, and for an unknown one.
+    """
+    names, bearings = names_of(inputs), _tables(inputs, "bearing")
+    kinds = {}
+    for n, bearing in enumerate(bearings, 1):
+        if number <= len(names) and str(bearing.get("shaft", "")) == names[number - 1]:
+            alone = bearing.get("pair") is not None or bearing.get("axial_load") is not None
+            kinds[n] = "" if alone else kind_of(Inputs({"bearing": bearing}))
+    return kinds
+
+
+def _are_adjusted(inputs: Inputs, number: int) -> bool:
+    """Whether both bearings of a shaft, by its number from 1, are adjusted against each other."""
+    kinds = [*_mounted(inputs, number).values()]
+    return len(kinds) == 2 and len({*kinds}) == 1 and kinds[0] in ADJUSTED
+
+
+def asked_of_rows(inputs: Inputs, error: InputError) -> InputError:
+    """Error that asks for the second of two adjusted bearings of a shaft, if only one has its designation,
+    or for their preload or play with the labels of the fields; any other error itself.
+
+    Examples
+    --------
+    >>> bearings = [{"base": base, "shaft": "a"} for base in ("32008", "6307")]
+    >>> error = InputError("bearing.2.base", got="tapered roller and ball bearings")
+    >>> asked_of_rows(Inputs({"shaft": [{"name": "a"}], "bearing": bearings}), error).text
+    'missing; expected a tapered roller bearing, which is adjusted against bearing 1 of a'
+    """
+    for number, name in enumerate(names_of(inputs), 1):
+        if error.key == f"shaft.{number}.adjustment.preload" and error.is_missing:
+            return InputError.missing(error.key, "a preload or an axial play; rows without play just touch")
+        kinds = _mounted(inputs, number)
+        inclined = [n for n, kind in kinds.items() if kind in ADJUSTED]
+        if len(kinds) != 2 or "" in kinds.values() or len({*kinds.values()}) == 1 or not inclined:
+            continue
+        if error.key in [f"bearing.{n}.base" for n in kinds]:
+            (other,) = kinds.keys() - {inclined[0]}
+            against = f"bearing {[*kinds].index(inclined[0]) + 1} of {name}"
+            takes = f"a {kinds[inclined[0]]} bearing, which is adjusted against {against}"
+            return InputError.missing(f"bearing.{other}.base", takes)
+    return error
+
+
+def _fitted_to_rows(before: Inputs, after: Inputs) -> Inputs:
+    """Inputs in which bearings that become adjusted against each other have an arrangement, and no locating
+    bearing; other bearings have no adjustment. A new preload replaces the axial play, and the reverse.
+
+    Examples
+    --------
+    >>> bearings = [{"base": base, "shaft": "a", "locating": True} for base in ("32008", "6307")]
+    >>> before = Inputs({"shaft": [{"name": "a"}], "bearing": bearings})
+    >>> after = fitted_axle(before, before.changed({"bearing.2.base": "32207"}))
+    >>> after.value("shaft.1.adjustment"), after.value("bearing.1.locating")
+    ({'arrangement': 'O'}, None)
+    """
+    if len(names_of(before)) != len(names_of(after)):
+        return after
+    changes: dict[str, Any] = {}
+    for number in range(1, len(names_of(after)) + 1):
+        key, kinds = f"shaft.{number}.adjustment", _mounted(after, number)
+        given = after.value(key) is not None
+        if _are_adjusted(after, number) and not _are_adjusted(before, number):
+            flags = (f"bearing.{n}.locating" for n in kinds)
+            changes |= {flag: None for flag in flags if after.value(flag) is not None}
+            changes |= {} if given else {f"{key}.arrangement": "O"}
+        elif given and "" not in kinds.values() and {*kinds.values()}.isdisjoint(ADJUSTED):
+            changes[key] = None
+            carrying = (n for n, kind in kinds.items() if KINDS_OF_BEARINGS[kind].axial)
+            if not any(after.value(f"bearing.{n}.locating") for n in kinds) and (n := next(carrying, None)):
+                changes[f"bearing.{n}.locating"] = True
+        names = [f"{key}.{name}" for name in ("preload", "axial_play")]
+        if given and None not in map(after.value, names):
+            changes |= {name: None for name in names if after.value(name) == before.value(name)}
+    return after.changed(changes) if changes else after
 
 
 def _bearing_group(number: int, title: str, names: Iterable[str]) -> Group:
     end = f"bearing.{number}"
     mounted = {field.key.rpartition(".")[2]: field for field in _fields("Bearing", "axle.bearing", end)}
     fields = [
-        replace(field_at(_OF_BEARING[key], end), optional=key in _BEARING_MORE, custom_label="")
+        replace(
+            field_at(_OF_BEARING[key], end),
+            optional=key in _BEARING_MORE,
+            custom_label="",
+            view=lambda inputs: with_common(inputs, number),
+        )
         for key in (*_BEARING, *_BEARING_MORE)
     ]
     placed = [mounted["at"], replace(mounted["locating"], kind="flag")]
     shaft = replace(mounted["shaft"], kind="choice", choices=tuple(names), optional=True)
-    return Group(title, (fields[0], *placed, *fields[1:], shaft), opened=False)
+    return Group(title, (fields[0], *placed, *fields[1:], shaft), opened=False, folds=True)
+
+
+def with_common(inputs: Inputs, number: int) -> Inputs:
+    """Inputs in which the keys of all bearings are also keys of a bearing, by its number from 1.
+
+    Keys of the bearing replace keys of all bearings and their alternatives.
+
+    Examples
+    --------
+    >>> axle = Inputs({"bearings": {"composite_rq": "0.1 um"}, "bearing": [{}, {"composite_ra": "0.2 um"}]})
+    >>> [with_common(axle, number).value(f"bearing.{number}") for number in (1, 2)]
+    [{'composite_rq': '0.1 um'}, {'composite_ra': '0.2 um'}]
+    """
+    common = inputs.value("bearings")
+    bearings = _tables(inputs, "bearing")
+    if not isinstance(common, Mapping) or number > len(bearings):
+        return inputs
+    given = bearings[number - 1]
+    replaced = {
+        key
+        for rows in ALTERNATIVES["bearing"]
+        if any(key in given for row in rows for key in row)
+        for row in rows
+        for key in row
+    }
+    bearings[number - 1] = {key: value for key, value in common.items() if key not in replaced} | given
+    return Inputs({**inputs.table, "bearing": bearings})
 
 
 def _mesh_group(number: int, names: Iterable[str]) -> Group:
@@ -322,7 +443,7 @@ def fitted_axle(before: Inputs, after: Inputs) -> Inputs:
         changed = [(a, b) for a, b in zip(old, new, strict=True) if a != b]
         if len(changed) == 1 and changed[0][1] not in old and changed[0][1]:
             after = _renamed(after, *changed[0])
-    after = _fitted_to_time(before, after)
+    after = _fitted_to_rows(before, _fitted_to_time(before, after))
     if before.value(MEASURED) == after.value(MEASURED):
         after = _with_measured(before, after)
     after = _single(before, after, "shaft", "rotor", lambda _: "")

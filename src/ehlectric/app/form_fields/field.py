@@ -147,6 +147,11 @@ def equal(key: str, *values: Any) -> When:
     return lambda inputs: inputs.value(key) in values
 
 
+def as_given(inputs: Inputs) -> Inputs:
+    """Inputs themselves, in which a field usually looks up its value."""
+    return inputs
+
+
 def unequal(key: str, *values: Any) -> When:
     """Condition that a key has none of the values; None stands for a key that is not given."""
     return lambda inputs: inputs.value(key) not in values
@@ -205,6 +210,8 @@ class Field:
     ignored: str = ""  # regular expression of the endings of a searched name that a search may drop
     no_match_text: str = ""  # text if a search finds nothing; ``{count}`` is the number of entries
     free: bool = False  # whether a search takes a text that no entry has
+    # Inputs in which the field and its alternatives are looked up, such as with values of all bearings.
+    view: Callable[[Inputs], Inputs] = as_given
 
     def at(self, place: float) -> float:
         """Value at a place of the slider from 0 to 1, with three digits."""
@@ -271,12 +278,14 @@ class Field:
 
     def shown(self, inputs: Inputs) -> bool:
         """Whether the field is shown with given inputs."""
+        inputs = self.view(inputs)
         if self.when(inputs):
             return True
         return not self.strict and self.kind != "alternatives" and inputs.value(self.key) is not None
 
     def alternative(self, inputs: Inputs) -> int:
         """Number of the alternative that the inputs use."""
+        inputs = self.view(inputs)
         return next(
             (place for place, alternative in enumerate(self.alternatives) if alternative.taken(inputs)), 0
         )
@@ -332,6 +341,7 @@ class Group:
     title: str
     fields: tuple[Field, ...]
     opened: bool = True  # whether the group is open at first
+    folds: bool = False  # whether its optional fields are folded away although some are given
     table: str = ""  # table that the group switches on and off; empty for a group that is always on
     start: Mapping[str, Any] = field(default_factory=dict)  # values of the table when it is switched on
     note: str = ""  # what a user must know about the group, such as that its first values are assumptions

@@ -13,6 +13,7 @@ from ehlectric.app.calls import AXLE_QUICK, AXLE_REMEDIED, AXLE_SIMULATED, AXLE_
 from ehlectric.app.form_fields.axle_fields import (
     LISTS,
     SIMULATED,
+    asked_of_rows,
     axle_groups,
     link_title,
     mesh_title,
@@ -346,6 +347,9 @@ class AxlePage(AnswerPage[AxleAnswer]):
             if shape_of(self.session.inputs) != self._shape:
                 self._build_groups()
             super().shown_again()
+
+    def _refuse(self, error: Exception) -> None:
+        super()._refuse(asked_of_rows(self.session.inputs, error) if isinstance(error, InputError) else error)
 
     async def change(self, key: str, value: Any) -> None:
         """Take over a changed input, and answer."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Awaitable, Callable, Mapping, Sequence
 from contextlib import nullcontext
 from functools import partial
@@ -66,7 +67,7 @@ class Form:
         self._boxes: dict[str, GroupBox] = {}
         self._mores: dict[str, GroupBox] = {}
         self._controls: list[tuple[Field, Control]] = []
-        with ui.element("div").classes("form").props(f'role="form" aria-label="{label}"'):
+        with ui.element("div").classes("form").props(f'role="form" aria-label="{label}"') as self._top:
             self.message = ui.label().classes("form-error").props('role="alert" data-testid="form-error"')
             self.note = ui.label().classes("form-note").props('aria-live="polite" data-testid="form-note"')
             for group in groups:
@@ -108,7 +109,8 @@ class Form:
         field = next((field for field, _ in self._controls if field.key == key), None)
         if field is None or not isinstance(error, InputError):
             return str(error)
-        return f"{field.label}: {in_field_unit(field, error.text)}"
+        words = f"{field.label}: {in_field_unit(field, error.text)}"
+        return ", ".join(filter(None, [self._place_of(field.key), words]))
 
     def go_to_wrong(self) -> None:
         """Move the page and the focus to the field that is wrong."""
@@ -166,7 +168,7 @@ class Form:
         fields = [field for field in group.fields if field.optional]
         if not fields:
             return
-        given = any(self._inputs.value(field.key) is not None for field in fields)
+        given = not group.folds and any(self._inputs.value(field.key) is not None for field in fields)
         box = GroupBox(f"{group.title} more", title="More", opened=given, first=True)
         self._mores[group.title] = box
         with box:
@@ -238,19 +240,24 @@ class Form:
         before, after = self._inputs, changed(self._inputs, changes, self._memory.given)
         self._memory.take(changes)
         self._inputs = after
-        self._tell_also(self._also(before, after, changes), stays=_is_of_kind(changes))
+        self._tell_also(self._also(before, after, changes), changes)
         self._show()
         session = session_here()
         with nullcontext() if session is None else session.history.step(drag):
             for key, value in _sent(before, after, changes).items():
                 await self._change(key, value)
 
-    def _tell_also(self, text: str, *, stays: bool) -> None:
-        """Show which further inputs changed: for a while, or until the kind of bearing changes again."""
-        if stays:
+    def _tell_also(self, text: str, changes: Mapping[str, Any]) -> None:
+        """Show which further inputs changed: for a while, or with a new kind of bearing in the group of the
+        bearing, until the kind changes again.
+        """
+        if _is_of_kind(changes):
+            titles = [group.title for group in self._groups for each in group.fields if each.key in changes]
+            self.note.move(self._boxes[titles[0]] if titles else self._top, 0)
             self.note.classes(add="stays")
             say(self.note, text)
         elif text or not self.note.visible or "stays" not in self.note.classes:
+            self.note.move(self._top, 0)
             self.note.classes(remove="stays")
             brief(self.note, text)
 
@@ -274,21 +281,59 @@ class Form:
             return shown_text(fields[key], str(value)) if key in fields else str(value)
 
         by_word = {
-            "removed": [labels.get(key, key) for key in old if key not in new and other(key)],
-            "assumed": [
-                f"{labels.get(key, key)} = {text(key, value)}"
+            "removed": {key: labels.get(key, key) for key in old if key not in new and other(key)},
+            "assumed": {
+                key: f"{labels.get(key, key)} = {text(key, value)}"
                 for key, value in new.items()
                 # A typed designation is no assumption.
                 if key not in old and other(key) and end_and_key(key)[1] != "bearing.designation"
-            ],
-            "changed": [
-                f"{labels.get(key, key)} from {text(key, old[key])} to {text(key, value)}"
+            },
+            "changed": {
+                key: f"{labels.get(key, key)} from {text(key, old[key])} to {text(key, value)}"
                 for key, value in new.items()
                 if key in old and old[key] != value and other(key)
-            ],
+            },
+            "kept": {
+                key: f"{labels[key]} = {text(key, value)}"
+                for key, value in self._kept(before, after, changes).items()
+            },
         }
-        parts = [f"{word}: {', '.join(items)}" for word, items in by_word.items() if items]
-        return f"Also {'; '.join(parts)}" if parts else ""
+        places = dict.fromkeys(self._place_of(key) for items in by_word.values() for key in items)
+        sentences = []
+        for place in places:
+            parts = [
+                f"{word}: {', '.join(said)}"
+                for word, items in by_word.items()
+                if (said := [each for key, each in items.items() if self._place_of(key) == place])
+            ]
+            sentences.append(f"{place}, also {'; '.join(parts)}" if place else f"Also {'; '.join(parts)}")
+        return ". ".join(sentences)
+
+    def _kept(self, before: Inputs, after: Inputs, changes: Mapping[str, Any]) -> dict[str, Any]:
+        """Roughness and clearance that another bearing gets from the bearing before it, by key."""
+        ends = {
+            end_and_key(key)[0]
+            for key in changes
+            if _is_of_kind({key: ""}) and before.value(key) != after.value(key)
+        }
+        kept = {}
+        for field, _ in self._controls:
+            end, key = end_and_key(field.key)
+            if end in ends and key in _OF_A_BEARING and field.key not in changes:
+                old, new = (field.view(inputs).value(field.key) for inputs in (before, after))
+                if old is not None and old == new:
+                    kept[field.key] = new
+        return kept
+
+    def _place_of(self, key: str) -> str:
+        """Name of the shaft, bearing, mesh or link of a key; empty for any other key."""
+        end = next(iter(_NUMBERED.findall(key)), end_and_key(key)[0])
+        if not end:
+            return ""
+        titles = (
+            group.title for group in self._groups for each in group.fields if each.key.startswith(f"{end}.")
+        )
+        return next(titles, "").partition(":")[0]
 
     def _show(self) -> None:
         """Show the present inputs in all fields."""
@@ -389,6 +434,15 @@ def shape_of_form(case: Inputs) -> Any:
     """Return what the groups of a case depend on, to be compared with the shape of an existing form."""
     return shape_of(case) if case.value("shaft") else groups_for(case)
 
+
+# Beginning of a key of a numbered table of an axle.
+_NUMBERED = re.compile(r"^(?:shaft|bearing|mesh|link)\.\d+")
+
+# Inputs of a bearing that another designation does not determine.
+_OF_A_BEARING = (
+    *("bearing.composite_rq", "bearing.composite_ra", "bearing.rq_over_ra"),
+    *("bearing.radial_clearance", "bearing.clearance_class"),
+)
 
 # Longest note that is shown in an empty box [characters].
 _LONGEST_PLACEHOLDER = 14
