@@ -3,11 +3,11 @@
 import pytest
 
 from ehlectric.app.form_fields.axle_fields import (
-    asked_of_rows,
     axle_groups,
     names_of,
     other_inputs,
     remedy_presets,
+    request_of_rows,
     summary_of,
     with_bearing,
     with_link,
@@ -83,7 +83,7 @@ def test_the_roughness_of_all_bearings_is_in_the_field_of_each_bearing():
 def test_two_tapered_bearings_are_typed_one_after_the_other():
     """The first asks for the second, and both ask for preload or play; nothing else contradicts them."""
     one = changed(AXLE, {"bearing.3.base": "32008"})
-    error = asked_of_rows(one, refusal(one))
+    error = request_of_rows(one, refusal(one))
     assert (error.key, error.is_missing) == ("bearing.4.base", True)
     both = changed(one, {"bearing.4.base": "32207"})
     assert (refusal(both).key, refusal(both).is_missing) == ("shaft.2.adjustment.preload", True)

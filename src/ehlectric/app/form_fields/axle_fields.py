@@ -204,7 +204,7 @@ def _are_adjusted(inputs: Inputs, number: int) -> bool:
     return len(kinds) == 2 and len({*kinds}) == 1 and kinds[0] in ADJUSTED
 
 
-def asked_of_rows(inputs: Inputs, error: InputError) -> InputError:
+def request_of_rows(inputs: Inputs, error: InputError) -> InputError:
     """Error that asks for the second of two adjusted bearings of a shaft, if only one has its designation,
     or for their preload or play with the labels of the fields; any other error itself.
 
@@ -212,7 +212,7 @@ def asked_of_rows(inputs: Inputs, error: InputError) -> InputError:
     --------
     >>> bearings = [{"base": base, "shaft": "a"} for base in ("32008", "6307")]
     >>> error = InputError("bearing.2.base", got="tapered roller and ball bearings")
-    >>> asked_of_rows(Inputs({"shaft": [{"name": "a"}], "bearing": bearings}), error).text
+    >>> request_of_rows(Inputs({"shaft": [{"name": "a"}], "bearing": bearings}), error).text
     'missing; expected a tapered roller bearing, which is adjusted against bearing 1 of a'
     """
     for number, name in enumerate(names_of(inputs), 1):

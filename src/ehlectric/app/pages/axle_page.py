@@ -13,13 +13,13 @@ from ehlectric.app.calls import AXLE_QUICK, AXLE_REMEDIED, AXLE_SIMULATED, AXLE_
 from ehlectric.app.form_fields.axle_fields import (
     LISTS,
     SIMULATED,
-    asked_of_rows,
     axle_groups,
     link_title,
     mesh_title,
     names_of,
     other_inputs,
     remedy_presets,
+    request_of_rows,
     shaft_title,
     shape_of,
     summary_of,
@@ -349,7 +349,9 @@ class AxlePage(AnswerPage[AxleAnswer]):
             super().shown_again()
 
     def _refuse(self, error: Exception) -> None:
-        super()._refuse(asked_of_rows(self.session.inputs, error) if isinstance(error, InputError) else error)
+        super()._refuse(
+            request_of_rows(self.session.inputs, error) if isinstance(error, InputError) else error
+        )
 
     async def change(self, key: str, value: Any) -> None:
         """Take over a changed input, and answer."""
