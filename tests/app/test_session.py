@@ -81,6 +81,17 @@ def test_a_link_to_a_folder_is_not_followed(temporary, tmp_path_factory):
     assert (precious / "lock").exists()
 
 
+def test_errors_have_the_names_that_users_gave_to_their_files(work):
+    session = Session(work, Inputs({}))
+    path = session.path_of(session.add("scope.csv", b"1 2"))
+    error = session.named_error(InputError(f"{path}: column", got="none", takes=f"a column of {path}"))
+    assert (error.key, str(error).count("scope.csv"), str(error).count("/")) == ("scope.csv: column", 2, 0)
+    assert str(session.named_error(LostError(f"{path} is lost"))) == "scope.csv is lost"
+    other = ValueError("a defect")
+    assert session.named_error(other) is other
+    session.close()
+
+
 def test_a_file_of_the_program_is_stored_as_an_uploaded_one(work, monkeypatch):
     given = Session(work, Inputs({}))
     name = given.add("cycle.csv", b"time [s]\n")

@@ -145,6 +145,21 @@ class Session:
         """Name of a file as its user knows it."""
         return self._names.get(file, shown_name(file))
 
+    def named(self, text: str) -> str:
+        """Text in which paths of uploaded files are the names that their users know."""
+        for file, name in self._names.items():
+            if (path := self.path_of(file)) is not None:
+                text = text.replace(str(path), name)
+        return text
+
+    def named_error(self, error: Exception) -> Exception:
+        """Error in which paths of uploaded files are the names that their users know."""
+        if self.named(str(error)) == str(error):
+            return error
+        if isinstance(error, InputError):
+            return error.with_text(error.key and self.named(error.key), self.named(error.text))
+        return LostError(self.named(str(error))) if isinstance(error, LostError) else error
+
     async def store(self, file: FileUpload, most: int = LARGEST) -> str:
         """Store an uploaded file of at most a size [bytes], and return its name relative to the folder of the
         session.

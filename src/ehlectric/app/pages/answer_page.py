@@ -254,6 +254,7 @@ class AnswerPage(Generic[A]):
         self._strip.dim(dimmed=dimmed)
 
     def _refuse(self, error: Exception) -> None:
+        error = self.session.named_error(error)
         self.form.tell(error)
         words = self.form.words(error)
         self.view.stop()

@@ -106,7 +106,7 @@ class CyclePage(AnswerPage[A], Generic[A]):
         super()._put(answer)
 
     def _show_cycle(self, answer: DutyAnswer) -> None:
-        self.cycle_view.duty.show(answer, self.duty.named)
+        self.cycle_view.duty.show(answer, self.session.named)
 
     def _refuse_cycle(self, error: Exception) -> None:
         if isinstance(error, InputError) and str(error.key).startswith(f"{VEHICLE_TABLE}."):

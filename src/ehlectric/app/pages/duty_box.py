@@ -111,20 +111,8 @@ class DutyField:
 
     def refuse(self, error: Exception | str) -> None:
         """Show why there is no cycle; each file with the name that its user gave."""
-        self._tell(self.named(str(error)))
-
-    def _tell(self, text: str) -> None:
-        say(self._error, text)
+        say(self._error, self._session.named(str(error)))
         self._group.turn(opened=True)
-
-    def named(self, text: str) -> str:
-        """Text in which the path of the file is the name that its user knows."""
-        return text if self.file is None else self._with_name(text, self.file)
-
-    def _with_name(self, text: str, file: str) -> str:
-        """Text in which the path of an uploaded file is the name that its user knows."""
-        path = self._session.path_of(file)
-        return text if path is None else text.replace(str(path), self._session.name_of(file))
 
     async def _example(self) -> None:
         try:
@@ -140,7 +128,7 @@ class DutyField:
         try:
             look = await self._session.work.quick(DUTY_LOOK, name, self._session.folder, self._kind)
         except (InputError, LostError) as error:
-            self._tell(self._with_name(str(error), name))
+            self.refuse(error)
             return
         self._sentences[name] = look.text
         vehicle = self._session.inputs.value(VEHICLE_TABLE) or form_data("first_values")["vehicle"]

@@ -249,10 +249,7 @@ class MeasuredBox:
 
     def refuse(self, text: str) -> None:
         """Show why there is no calibration; a file with the name that its user gave."""
-        path = None if self._file is None else self._session.path_of(self._file)
-        if self._file is not None and path is not None:
-            text = text.replace(str(path), self._session.name_of(self._file))
-        say(self._error, text)
+        say(self._error, self._session.named(text))
         self._group.turn(opened=True)
 
     def start(self) -> None:
@@ -279,9 +276,9 @@ class MeasuredBox:
         elif isinstance(job.error, InputError) and job.error.key:
             self._refuse(job.error)
             if not self._error.visible:
-                say(self._message, f"{self._texts['failed']}: {job.error}")
+                say(self._message, self._session.named(f"{self._texts['failed']}: {job.error}"))
         else:
-            say(self._message, f"{self._texts['failed']}: {job.error}")
+            say(self._message, self._session.named(f"{self._texts['failed']}: {job.error}"))
 
 
 class CalibrationView:
