@@ -6,10 +6,13 @@ import numpy as np
 import pytest
 
 from ehlectric import AxleCase, solve, solve_axle, solve_bearing
+from ehlectric.axle.axle_verdict import axle_verdict
+from ehlectric.axle.measurable import _Probable as Probable
 from ehlectric.axle.network import HOUSING, WINDING, Film, Network
 from ehlectric.axle.solution import AxleSolution, Element, solve_elements
 from ehlectric.axle.summary import axle_summary, ratio_word
 from ehlectric.cases.drive_inputs import Breakdown, Circuit
+from ehlectric.discharge.breakdown_rule import Chance
 from ehlectric.drive.drive_bearings import bearing_element
 from ehlectric.drive.motor_circuit import capacitive_divider
 from tests.axle.axles import ALONE, two_stages
@@ -198,3 +201,11 @@ def test_without_a_strength_no_element_touches():
     assert not any(element.touching for element in solution.elements)
     assert solution.ranking() == []
     assert {*map(ratio_word, axle_summary(solution)["elements"])} == {"no V_b", "conducts"}
+
+
+def test_a_margin_of_zero_recommends_no_measurement():
+    """The shares belong to a spread of the margin, which is 0 where summits touch at almost all points."""
+    for high, recommended in ((0.0, False), (0.3, True)):
+        chance = Chance(0.99, 0.01, 0.0, 0.0, high, first="torque", share=0.4, samples=512)
+        verdict = axle_verdict(by_hand(), Probable(chance))
+        assert ("measure-first" in [reason.code for reason in verdict.reasons]) == recommended

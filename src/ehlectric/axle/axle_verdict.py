@@ -89,7 +89,8 @@ def axle_verdict(
     facts: tuple[Fact, ...] = () if touching else (Fact("first.breakdown_voltage", limits[first]),)
     if uncertainty is not None:
         chance = uncertainty.chance
-        ranked = uncertainty.ranks_inputs
+        # A margin that is 0 at almost all points has no spread that a measurement would reduce.
+        ranked = uncertainty.ranks_inputs and chance.high > 0.0
         stated = (each for each in chance.statements() if ranked or not each.code.startswith("measure"))
         doubts = (*stated, *_firsts(uncertainty))
         interval = None if chance.failed or math.isinf(chance.high) else (chance.low, chance.high)
