@@ -148,6 +148,28 @@ def test_a_measured_waveform_takes_the_place_of_the_source(open_page, app_server
     wait_for_number(page, "end.voltage_at_peak", AT_PEAK)
 
 
+@pytest.mark.slow
+def test_a_missing_channel_is_named_at_its_field_as_soon_as_the_record_is_given(
+    open_page, app_server, tmp_path
+):
+    page = open_page(app_server, address_of("/drive", short()))
+    wait_for_number(page, "end.voltage_at_peak", AT_PEAK)
+    rows = "\n".join(
+        f"{2e-7 * k:.8e},{140 if k // 100 % 2 else -140},{5 if k // 100 % 2 else -5}" for k in range(2000)
+    )
+    record = tmp_path / "two_channels.csv"
+    record.write_text(f"TIME,CH1,CH2\ns,V,V\n{rows}\n", encoding="utf-8")
+    page.get_by_test_id("upload-waveform").set_input_files(record)
+    error = page.get_by_test_id("error-source-column")
+    error.filter(has_text="CH2").wait_for()
+    assert "two_channels.csv" in error.inner_text()
+    assert "surface-1" not in page.locator("body").inner_text()
+    type_into(page, "source.column", "CH1")
+    wait_for_number(page, "end.voltage_at_peak", 0.5 * AT_PEAK)
+    page.get_by_test_id("warnings").filter(has_text="not applicable").first.wait_for(state="attached")
+    assert "surface-1" not in page.locator("body").inner_text()
+
+
 # Height of the page of a simulated drive on a phone [px]; twice that with all figures below each other.
 TALLEST = 5000
 

@@ -231,6 +231,9 @@ class AnswerPage(Generic[A]):
         self._downloads.look()
 
     def _put(self, answer: A) -> None:
+        named = self.session.named
+        warnings = tuple(replace(warning, text=named(warning.text)) for warning in answer.warnings)
+        answer = replace(answer, warnings=warnings)
         self.view.show(answer)
         self._answer_shown = answer
         self._show_strip(answer)
