@@ -72,6 +72,9 @@ _CARRYING, _TOUCHING = 3, 40
 # near its limit.
 _MISSED, _PATIENCE, _NEAR = 5, 20, 10.0
 
+# Successive turns without a smaller change of the temperature after which the turns are not combined.
+_STALE = 6
+
 # Distance of the temperature, relative to its largest rise and absolute [K], and relative distance of the
 # central film thickness, at which film and temperature have converged. The multiples hold for the finest
 # grid, for the next coarser one, which gives the estimates of the errors, and for all others.
@@ -459,6 +462,9 @@ class OuterIteration:
             # Film and temperature that are close enough end with a film at the last temperature.
             ends = max(self._distance(rises), self._distance(films)) < self._allowed
             state = solution.state
+            if is_stale(rises):
+                # The combination of the last turns circles around a place without a solution.
+                mixing.forget()
             heat = _mixed(mixing, heat, new)
         else:
             solution = replace(solution, status="stalled")
@@ -527,6 +533,12 @@ class OuterIteration:
             return changes[-1]
         ratio = min(_SLOWEST, changes[-1] / max(changes[-2], 1e-300))
         return changes[-1] * ratio / (1.0 - ratio)
+
+
+def is_stale(changes: list[float]) -> bool:
+    """Whether the last turns of an iteration have not changed it by less than a turn before them."""
+    before, last = changes[:-_STALE], changes[-_STALE:]
+    return bool(before) and min(last) >= min(before)
 
 
 def goes_round(changes: list[float], allowed: float) -> bool:

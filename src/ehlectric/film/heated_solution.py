@@ -50,6 +50,10 @@ from ehlectric.runtime.threads import quiet_solution
 # belong together, even if both no longer change.
 _MOST_IMBALANCE = 0.1
 
+# Newton steps on a grid after which no further guess is tried for a starved film, on the finest grid and on
+# coarser ones, whose film is only a guess: 900 steps take about a minute on 65 x 65 nodes.
+_MOST_STEPS, _MOST_STEPS_OF_GUESS = 900, 300
+
 # Largest number of nodes for a film with shear or heat at a known temperature, and for one with its own
 # temperature: each takes about a minute on one core.
 _MOST_FROZEN, _MOST_WHOLE = 150_000.0, 40_000.0
@@ -316,6 +320,7 @@ def _with_supply(
         _solver(iteration),
         cold=cold,
         with_heat=True,
+        most_steps=_MOST_STEPS if iteration.finer == 0 else _MOST_STEPS_OF_GUESS,
         careful=_solver(replace(iteration, careful=True)) if hot and frozen is None else None,
     )
 

@@ -129,10 +129,6 @@ def _of_full_order(problem: GridProblem, film: GridSolution, supply: Supply) -> 
     return film
 
 
-# Newton steps on a grid after which no further guess is tried for a film with heat: about a minute on
-# 65 x 65 nodes. The films that converged after more of them are few.
-_MOST_HOT_STEPS = 900
-
 # Film on one grid from an initial guess and a supply of oil.
 Solver: TypeAlias = Callable[[Guess, Supply], GridSolution]
 
@@ -173,6 +169,7 @@ class StarvedProblem:
     # Whether the wedge term is of first order where the gap closes steeply, as in ``Supply``
     first_order: bool = False
     careful: Solver | None = None  # slower solver, which is tried where ``film`` finds no film with heat
+    most_steps: float = np.inf  # Newton steps after which no further guess is tried
 
     @property
     def order(self) -> int:
@@ -208,7 +205,7 @@ class StarvedProblem:
             if film.status == "converged":
                 return film
             steps += len(film.steps)
-            if self.with_heat and steps > _MOST_HOT_STEPS:
+            if steps > self.most_steps:
                 break
         assert best is not None
         return best
@@ -313,7 +310,7 @@ class StarvedProblem:
                 if fall > _LEAST_FALL or last is None:
                     return
             steps += len(film.steps)
-            if self.with_heat and steps > _MOST_HOT_STEPS:
+            if steps > self.most_steps:
                 return
             part = max(1.0, fall * part)
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from ehlectric.film.heated_film import goes_round
+from ehlectric.film.heated_film import goes_round, is_stale
 
 FALLING = [100.0 * 0.9**turn for turn in range(40)]
 
@@ -22,3 +22,18 @@ FALLING = [100.0 * 0.9**turn for turn in range(40)]
 )
 def test_changes_without_a_smaller_one(changes, allowed, expected):
     assert goes_round(changes, allowed) is expected
+
+
+@pytest.mark.parametrize(
+    ("changes", "expected"),
+    [
+        (FALLING, False),
+        (FALLING + [80.0] * 6, True),
+        (FALLING + [80.0] * 5, False),  # the last smaller one is 6 turns ago
+        ([300.0] * 6, False),  # nothing to compare with yet
+        ([300.0] * 7, True),
+        ([300.0] * 7 + [299.0], False),
+    ],
+)
+def test_turns_without_a_smaller_change_are_not_combined(changes, expected):
+    assert is_stale(changes) is expected
