@@ -6,7 +6,7 @@ import pytest
 
 from ehlectric.app import latest_answer
 from ehlectric.app.latest_answer import LatestAnswer
-from ehlectric.errors import InputError
+from ehlectric.errors import InputError, LostError
 
 
 class Lock(asyncio.Semaphore):
@@ -181,3 +181,29 @@ def test_a_closed_page_wants_no_answer():
 
     page = asyncio.run(use())
     assert (page.asked, page.shown, page.passed) == ([1], [], [])
+
+
+def test_a_lost_fuller_answer_leaves_the_answer_before_it():
+    async def use():
+        shown, lacks, refused = [], [], []
+
+        async def quick(inputs):
+            return inputs
+
+        async def lost(_):
+            raise LostError("took too long")
+
+        answers = LatestAnswer(
+            quick,
+            [quick, lost],
+            show=lambda _, answer: shown.append(answer),
+            passing=lambda *_: None,
+            refuse=refused.append,
+            behind=asyncio.Semaphore(1),
+            lack=lambda error, number: lacks.append((str(error), number)),
+        )
+        await answers.ask(1, at_once=True)
+        await until(lambda: lacks)
+        return shown, lacks, refused
+
+    assert asyncio.run(use()) == ([1, 1], [("took too long", 2)], [])

@@ -10,7 +10,7 @@ from multiprocessing.forkserver import _forkserver
 import pytest
 
 from ehlectric.app.calls import BEARING_QUICK, Call
-from ehlectric.app.work import Limits, Work, key_of, limits_of
+from ehlectric.app.work import Limits, Work, crowding, key_of, limits_of
 from ehlectric.errors import InputError, LostError
 from ehlectric.runs.example_files import example_text
 from tests.helpers import calls
@@ -90,12 +90,21 @@ def test_an_answer_that_takes_too_long_is_given_up():
         # The first answers wait until the processes have loaded the physics.
         await asyncio.gather(*(work.share().quick(calls.wait, 0.1) for _ in range(4)))
         work.limits = Limits(patience=0.5)
-        with pytest.raises(LostError, match=r"longer than 0\.5 s"):
+        with pytest.raises(LostError, match=r"longer than [0-9.]+ s"):
             await work.share().quick(calls.wait, 600.0)
         work.limits = Limits(patience=PATIENCE)
         return await work.share().quick(calls.double, 2)
 
     assert working(None, use) == 4
+
+
+def test_a_loaded_machine_has_more_patience(monkeypatch):
+    """Expected: processes by core, at most 6."""
+    loads = {0.5: 1.0, 2.0: 1.0, 7.0: 3.5, 100.0: 6.0}
+    monkeypatch.setattr("ehlectric.app.work.cores", lambda: 2)
+    for load, expected in loads.items():
+        monkeypatch.setattr("os.getloadavg", lambda load=load: (load, 0.0, 0.0), raising=False)
+        assert crowding() == expected
 
 
 @pytest.mark.slow

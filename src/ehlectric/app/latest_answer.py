@@ -48,7 +48,8 @@ class LatestAnswer(Generic[I, T]):
     ``prompt`` of them right after the immediate answer, the others when the inputs are quiet.
     ``known`` returns the number of the fullest answer that is computed already; those before are skipped.
     ``show`` shows an answer to the latest inputs, ``passing`` one to inputs that have changed meanwhile, and
-    ``refuse`` the error where the latest inputs have no answer.
+    ``refuse`` the error where the latest inputs have no answer. ``lack`` gets the number of a fuller answer
+    that was lost, as when it took too long; by default ``refuse`` gets its error.
     """
 
     def __init__(
@@ -62,7 +63,9 @@ class LatestAnswer(Generic[I, T]):
         behind: asyncio.Semaphore,
         prompt: int = 0,
         known: Callable[[I], int] = lambda _: 0,
+        lack: Callable[[LostError, int], None] | None = None,
     ) -> None:
+        self._lack = lack
         self._steps, self._known, self._refuse = (quick, *later), known, refuse
         self._show, self._pass = show, passing
         self._behind, self._prompt = behind, prompt
@@ -104,13 +107,18 @@ class LatestAnswer(Generic[I, T]):
         """Whether newer inputs wait for their answer."""
         return self._pending is not None
 
-    async def _answer(self, request: int, inputs: I, compute: Callable[[I], Awaitable[T]]) -> T | None:
+    async def _answer(
+        self, request: int, inputs: I, compute: Callable[[I], Awaitable[T]], number: int = 0
+    ) -> T | None:
         """Answer to inputs; None for an error, which is shown if they are still the latest."""
         try:
             return await compute(inputs)
         except (InputError, ConvergenceError, LostError) as error:
             if request == self._request:
-                self._refuse(error)
+                if number and self._lack is not None and isinstance(error, LostError):
+                    self._lack(error, number)
+                else:
+                    self._refuse(error)
             return None
 
     async def _follow(self, request: int, inputs: I, first: int, quiet: float) -> None:
@@ -121,7 +129,7 @@ class LatestAnswer(Generic[I, T]):
             async with self._behind:
                 if request != self._request:
                     return
-                answer = await self._answer(request, inputs, compute)
+                answer = await self._answer(request, inputs, compute, number)
             if answer is None or request != self._request:
                 return
             self._show(inputs, answer)

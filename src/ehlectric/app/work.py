@@ -218,7 +218,17 @@ class Limits:
     memory: float = field(default_factory=lambda: min(8e9, max(2e9, available_memory() / 2.0)))
     quick_memory: float = 4e9  # address space of a process of immediate answers [bytes]
     seconds: float = 3600.0  # time of a job [s]
-    patience: float = 30.0  # time of an immediate answer [s]
+    patience: float = 30.0  # time of an immediate answer if each process has a core [s]
+
+
+# Largest factor by which a loaded machine extends the time of an immediate answer.
+_MOST_CROWDING = 6.0
+
+
+def crowding() -> float:
+    """Return the number of running processes by core, from 1 to 6; 1 if the system does not count them."""
+    load = getattr(os, "getloadavg", None)
+    return 1.0 if load is None else min(_MOST_CROWDING, max(1.0, load()[0] / cores()))
 
 
 def limits_of(*, jobs: int | None, gigabytes: float | None, minutes: float) -> Limits:
@@ -319,16 +329,27 @@ class Work:
             worker.kill()
 
         def ended(_: object) -> None:
-            late.cancel()
+            timers[0].cancel()
             self._idle.put_nowait(worker)
+
+        begun = loop.time()
+
+        def look() -> None:
+            # Other processes of a loaded machine slow the answer down.
+            allowed = self.limits.patience * crowding()
+            if loop.time() - begun < allowed:
+                timers[:] = [loop.call_later(max(0.1, begun + allowed - loop.time()), look)]
+            else:
+                end()
 
         future = loop.run_in_executor(self._threads, worker.ask, function, values)
         # Call and process end in time also where nobody waits for the answer any more.
-        late = loop.call_later(self.limits.patience, end)
+        timers = [loop.call_later(self.limits.patience, look)]
         future.add_done_callback(ended)
         outcome = await asyncio.shield(future)
         if overdue.is_set():
-            return Raised(LostError(f"the answer took longer than {self.limits.patience:g} s"))
+            seconds = readable(loop.time() - begun, 2)
+            return Raised(LostError(f"the answer took longer than {seconds} s"))
         return outcome
 
     def add(self, job: Job) -> None:

@@ -28,7 +28,8 @@ from ehlectric.app.processes import Returned
 from ehlectric.app.session import Session
 from ehlectric.app.view_models import PENDING, CalibrationAnswer, PageAnswer, notes_of
 from ehlectric.app.work import Work, key_of
-from ehlectric.errors import InputError
+from ehlectric.errors import InputError, LostError
+from ehlectric.readable import capital
 
 A = TypeVar("A", bound=PageAnswer)
 
@@ -51,6 +52,8 @@ class AnswerPage(Generic[A]):
     # None for a page without one.
     quick: ClassVar[Call[Any]]
     later: ClassVar[Sequence[Call[Any]]] = ()
+    # What each of them adds, for a page that shows which part of its answer is missing.
+    parts: ClassVar[Sequence[str]] = ()
     prompt: ClassVar[int] = 0  # fuller answers that follow right after the immediate one
     solved: ClassVar[Call[Any] | None] = None
 
@@ -70,6 +73,7 @@ class AnswerPage(Generic[A]):
             behind=session.work.behind,
             prompt=self.prompt,
             known=self._known,
+            lack=self._lack if self.parts else None,
         )
 
     async def _answer(self, call: Call[A], inputs: Inputs) -> A:
@@ -136,6 +140,10 @@ class AnswerPage(Generic[A]):
         leads.bind_visibility_from(
             self._notice, "visible", lambda shown: shown and self.form.wrong is not None
         )
+        self._again = button(
+            "Compute again", "compute-again", lambda: self._ask(at_once=True), "no-caps dense"
+        )
+        self._again.set_visibility(False)
         self._calibration = CalibrationView(self.session, self.go_to)
         self._before = heading(page_texts("calibration")["before"], 2).props('data-testid="before"')
         self._before.set_visibility(False)
@@ -227,6 +235,7 @@ class AnswerPage(Generic[A]):
         self._dim(dimmed=False)
         self.form.tell(None)
         self._notice.set_visibility(False)
+        self._again.set_visibility(False)
         self.solving.show(answer)
         self._downloads.look()
 
@@ -266,7 +275,16 @@ class AnswerPage(Generic[A]):
         self.solving.show(None, error)
         earlier = " The answer below is that of earlier inputs." if self.view.shown else ""
         mark(self._notice, "wrong", on=not is_to_type(error))
-        say(self._notice, f"{words}.{earlier}")
+        say(self._notice, f"{capital(words)}.{earlier}")
+        self._again.set_visibility(isinstance(error, LostError))
+
+    def _lack(self, error: LostError, number: int) -> None:
+        """Show which part of the answer is missing; the other parts belong to the present inputs."""
+        self.view.lack()
+        mark(self._notice, "wrong", on=True)
+        part = self.parts[number - 1]
+        say(self._notice, f"{part} not computed: {error}. The values below belong to the present inputs.")
+        self._again.set_visibility(True)
 
 
 _AT_POINT = "Numbers belong to the operating point of the form, unless they name the duty cycle."
@@ -330,6 +348,10 @@ class AnswerView(Generic[A]):
         mark(self.body, "stopped", on=True)
         self.panel.wait("This figure is not computed.")
 
+    def lack(self) -> None:
+        """Show that what was to follow is not computed; the rest of the answer belongs to its inputs."""
+        self.panel.wait("This figure is not computed.")
+
     def show(self, answer: A) -> None:
         """Show an answer."""
         self.shown = True
@@ -371,6 +393,15 @@ class ProbableView(AnswerView[A]):
     def stop(self) -> None:
         """Show that the probability is not computed, as after a wrong input."""
         super().stop()
+        self._end_pending()
+
+    def lack(self) -> None:
+        """Show that the probability is not computed."""
+        super().lack()
+        self._end_pending()
+
+    def _end_pending(self) -> None:
+        """Show the pending answer without the words that its probability follows."""
         if self._pending is not None:
             facts = tuple(fact for fact in self._pending.deciding.facts if fact[1] != PENDING)
             said = tuple(code for code in self._pending.deciding.said if code != self.without)

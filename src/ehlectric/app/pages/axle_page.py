@@ -134,6 +134,23 @@ class AxleView(ProbableView[AxleAnswer]):
             self._chances.content = "" if chances is None else table_html(chances)
         self._shafts.content = behind("Speeds, torques and voltages of the shafts", table_html(answer.shafts))
 
+    def stop(self) -> None:
+        """Show that nothing follows, without the parts of inputs before those of the answer."""
+        super().stop()
+        self._drop_earlier()
+
+    def lack(self) -> None:
+        """Show that a part does not follow; the other parts belong to the present inputs."""
+        super().lack()
+        self._drop_earlier()
+
+    def _drop_earlier(self) -> None:
+        """Remove parts that belong to other inputs than the rest of the answer."""
+        for part in (self._remedies, self._chances):
+            if "follows" in part.classes:
+                part.content = ""
+                follow(part, on=False)
+
     def _show_simulated(self, answer: AxleAnswer) -> None:
         """Show the discharges over time, if they are simulated."""
         self._simulated.set_visibility(answer.simulation is not None)
@@ -257,6 +274,7 @@ class AxlePage(AnswerPage[AxleAnswer]):
     short: ClassVar[Mapping[str, str]] = {"first.margin": "margin", "first.voltage": "U"}
     wait = 0.6
     quick, later, solved = AXLE_QUICK, (AXLE_REMEDIED, AXLE_WHOLE), AXLE_SIMULATED
+    parts = ("Mitigation measures and probabilities are", "Probabilities are")
 
     async def prepare(self) -> None:
         """Switch the simulated time on, before a simulation."""
