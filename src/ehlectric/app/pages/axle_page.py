@@ -135,7 +135,7 @@ class AxleView(ProbableView[AxleAnswer]):
         self._shafts.content = behind("Speeds, torques and voltages of the shafts", table_html(answer.shafts))
 
     def stop(self) -> None:
-        """Show that nothing follows, without the parts of inputs before those of the answer."""
+        """Show that nothing follows, without parts that belong to other inputs than the answer."""
         super().stop()
         self._drop_earlier()
 
