@@ -16,7 +16,7 @@ import numpy as np
 import scipy
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.bearing import Names
+from ehlectric.bearing import FILMS, Names
 from ehlectric.calibration.models import Model
 from ehlectric.calibration.posterior import (
     Nearest,
@@ -38,9 +38,12 @@ from ehlectric.runtime.progress import Progress
 # Largest number of measured values that may contradict the others, and largest number of causes.
 _COMPARED, _CAUSES = 6, 3
 
-# Steps of an input beyond its range, in parts of its width: least, largest and number; least number of these
-# steps; number of steps between the neighbours of the best one, and of steps to which these are interpolated.
-_STEPS, _LEAST_STEPS, _REFINED, _BETWEEN = (0.02, 20.0, 9), 3, 7, 2001
+# Steps of an input beyond its range, in parts of its width: least, largest and number; number of steps
+# between the neighbours of the best one, and of steps to which these are interpolated.
+_STEPS, _REFINED, _BETWEEN = (0.02, 20.0, 9), 7, 2001
+
+# Largest part of the distance to 0 by which an input leaves its range.
+_KEPT = 0.98
 
 # Largest step of a temperature beyond its range [K] (engineering judgement: an error of a thermometer).
 _WARMER = 60.0
@@ -73,11 +76,12 @@ _OF_PEAK = (
     *_PROBE,
     *_PREFIXES,
 )
+_OF_BREAKDOWN = ((2.0, "factor-peak-to-peak"), *_PROBE, *_PREFIXES)
 FACTORS: Mapping[str, tuple[tuple[float, str], ...]] = MappingProxyType(
     {
         "capacitance": ((2.0, "factor-two-bearings"), *_DECIMAL, *_PREFIXES),
-        "first_breakdown_voltage": _OF_PEAK,
-        "breakdown_voltage": _OF_PEAK,
+        "first_breakdown_voltage": _OF_BREAKDOWN,
+        "breakdown_voltage": _OF_BREAKDOWN,
         "shaft_voltage": _OF_PEAK,
         "voltage": _OF_PEAK,
         "shaft_voltage_rms": (
@@ -236,64 +240,97 @@ class CauseSearch:
         for place in np.flatnonzero(posterior.active).tolist():
             name = names[place]
             self.progress(0, 0, f"searching for a cause: {name.label.partition(' (')[0]}")
-            best: tuple[float, float, Nearest] | None = None
-            for start, sign in product(starts, (1.0, -1.0)):
-                step, nearest = self._step(start, place, sign)
-                if nearest is not None and (best is None or step < best[0]):
-                    best = step, sign, nearest
-            if best is None:
+            steps = self._steps(place, [*product(starts, (1.0, -1.0))])
+            if not steps:
                 continue
-            step, sign, nearest = best
+            step, sign, nearest = min(steps, key=lambda each: each[0])
             needed = float(self.model.values(place, np.array([0.5 + sign * (0.5 + step)]))[0])
             left = _left(self._judged(nearest, values, errors))
-            cause = Cause("input", name.key, name.label, needed, _ends(name), *left)
+            label = f"factor on the {name.label}" if name.key.partition(".")[0] == FILMS else name.label
+            cause = Cause("input", name.key, label, needed, _ends(name), *left)
             yield (0.0 if step <= _NEAR else 3.0), nearest.chi2, cause
 
-    def _step(self, start: Array, place: int, sign: float) -> tuple[float, Nearest | None]:
-        """Step of an input beyond an end of its range with the smallest chi2, in parts of the range, and the
-        prediction there; None if this step does not explain the measurement.
+    def _steps(self, place: int, ways: Sequence[tuple[Array, float]]) -> list[tuple[float, float, Nearest]]:
+        """Steps of an input beyond its range with the smallest chi2, in parts of the range, their signs and
+        the predictions there; one for each start and sign that explains the measurement.
         """
         values, errors = self.values, self.errors
-        steps = np.concatenate([[0.0], np.geomspace(*_STEPS)])
-        steps, predictions = self._on_line(start, place, sign, steps)
-        if len(steps) < _LEAST_STEPS:
-            return np.inf, None
-        best = int(np.argmin(chi_squares(predictions, values, errors)))
-        low, high = steps[max(best - 1, 0)], steps[min(best + 1, len(steps) - 1)]
-        steps, predictions = self._on_line(start, place, sign, np.linspace(low, high, _REFINED))
-        fine = np.linspace(steps[0], steps[-1], _BETWEEN)
-        line = np.stack([np.interp(fine, steps, column) for column in predictions.T], axis=-1)
-        step = fine[[int(np.argmin(chi_squares(line, values, errors)))]]
-        _, predictions = self._on_line(start, place, sign, step)
-        if not len(predictions):
-            return np.inf, None
-        chi2 = float(chi_squares(predictions, values, errors)[0])
-        nearest = replace(self.posterior.nearest, predictions=predictions[0], chi2=chi2)
-        return float(step[0]), nearest if self._judged(nearest, values, errors).explained else None
+        least, most, number = _STEPS
+        first = [
+            np.concatenate([[0.0], np.geomspace(least, max(self._most(place, sign, most), least), number)])
+            for _, sign in ways
+        ]
+        better, requested = [*ways], first
+        lines = self._on_lines(place, better, requested)
+        # The second time also between the last step that is computed and the first one that is refused.
+        for _ in range(2):
+            kept, brackets = [], []
+            for way, line, (steps, predictions) in zip(better, requested, lines, strict=True):
+                best = int(np.argmin(chi_squares(predictions, values, errors))) if len(steps) else 0
+                if best:
+                    kept.append(way)
+                    high = line[min(best + 1, len(line) - 1)]
+                    brackets.append(np.linspace(steps[best - 1], high, _REFINED))
+            better, requested = kept, brackets
+            lines = self._on_lines(place, better, requested)
+        ends = []
+        for steps, predictions in lines:
+            fine = np.linspace(steps[0], steps[-1], _BETWEEN)
+            between = np.stack([np.interp(fine, steps, column) for column in predictions.T], axis=-1)
+            ends.append(fine[[int(np.argmin(chi_squares(between, values, errors)))]])
+        explained = []
+        for (_, sign), (step, predictions) in zip(better, self._on_lines(place, better, ends), strict=True):
+            if len(step):
+                chi2 = float(chi_squares(predictions, values, errors)[0])
+                nearest = replace(self.posterior.nearest, predictions=predictions[0], chi2=chi2)
+                if self._judged(nearest, values, errors).explained:
+                    explained.append((float(step[0]), sign, nearest))
+        return explained
 
-    def _on_line(self, start: Array, place: int, sign: float, steps: Array) -> tuple[Array, Array]:
-        """Steps of an input beyond its range, and the predictions there, shape (n,) and (n, m).
-
-        They end before a point that is refused or has no prediction, and where the input changes its sign.
-        """
-        ends = 0.5 + sign * (0.5 + steps)
-        middle = self.model.values(place, np.array([0.5]))
-        inside = np.sign(self.model.values(place, ends)) == np.sign(middle)
+    def _most(self, place: int, sign: float, most: float) -> float:
+        """Largest step of an input beyond an end of its range, in parts of the range: it keeps its sign."""
+        low, high = self.model.values(place, np.array([0.0, 1.0])).tolist()
+        end = high if sign > 0.0 else low
+        if sign * end * (high - low) < 0.0:
+            most = min(most, _KEPT * abs(end / (high - low)))
         if self.model.names()[place].key.endswith("temperature"):
-            end = self.model.values(place, np.array([0.5 + 0.5 * sign]))
-            inside &= np.abs(self.model.values(place, ends) - end) <= _WARMER
-        steps, ends = steps[inside], ends[inside]
-        at = np.tile(start, (steps.size, 1))
-        at[:, place] = ends
-        for count in range(steps.size, 0, -1):
+            most = min(most, _WARMER / abs(high - low))
+        return most
+
+    def _on_lines(
+        self, place: int, ways: Sequence[tuple[Array, float]], lines: Sequence[Array]
+    ) -> list[tuple[Array, Array]]:
+        """Steps of an input beyond its range, and the predictions there, shape (n,) and (n, m), of lines from
+        starts in directions. Steps end before a point that is refused or has no prediction.
+        """
+        rows = []
+        for (start, sign), steps in zip(ways, lines, strict=True):
+            at = np.tile(start, (steps.size, 1))
+            at[:, place] = 0.5 + sign * (0.5 + steps)
+            rows.append(at)
+        if not rows:
+            return []
+        try:
+            predictions = self.predict(np.concatenate(rows))
+        except InputError:
+            parts = [self._before_refusal(at) for at in rows]
+        else:
+            parts = np.split(predictions, np.cumsum([len(at) for at in rows])[:-1])
+        answers = []
+        for steps, part in zip(lines, parts, strict=True):
+            known = np.all(np.isfinite(part), axis=1)
+            count = len(part) if np.all(known) else int(np.argmin(known))
+            answers.append((steps[:count], part[:count]))
+        return answers
+
+    def _before_refusal(self, at: Array) -> Array:
+        """Predictions at the first points of a line, before a point that is refused, shape (<= n, m)."""
+        for count in range(len(at), 0, -1):
             try:
-                predictions = self.predict(at[:count])
+                return self.predict(at[:count])
             except InputError:
                 continue
-            known = np.all(np.isfinite(predictions), axis=1)
-            count = count if np.all(known) else int(np.argmin(known))
-            return steps[:count], predictions[:count]
-        return np.empty(0), np.empty((0, self.values.size))
+        return np.empty((0, self.values.size))
 
     def _quantities(self) -> Iterator[tuple[str, Mask]]:
         """Measured quantities, each with its rows, shape (m,)."""

@@ -81,8 +81,8 @@ _PARALLEL = "parallel_capacitance"
 # note names.
 _EQUAL, _NAMED = 16, 4
 
-# Measured divided by computed value above which a deviation is stated as a factor.
-_AS_FACTOR = 3.0
+# Measured divided by computed value, or its inverse, between which a deviation is stated as a factor.
+_AS_FACTOR, _MOST_FACTOR = 3.0, 1e9
 
 # Largest number of quantities to measure next, and least margin of which the logarithm counts.
 _NEXT, _LEAST_MARGIN = 3, 0.05
@@ -493,8 +493,8 @@ def _refused(rows: Sequence[Compared], unexplained: Unexplained) -> Verdict:
         "measured": (row.measured, row.unit),
         "nearest": (row.nearest, row.unit),
     }
-    factor = row.measured / row.nearest if row.nearest and row.unit != "K" else 1.0
-    if factor > _AS_FACTOR or 0.0 < factor < 1.0 / _AS_FACTOR:
+    factor = row.measured / row.nearest if row.nearest and row.measured and row.unit != "K" else 1.0
+    if _AS_FACTOR < max(factor, 1.0 / factor) < _MOST_FACTOR:
         answer = Statement.of("unexplained-factor", factor=factor, **values)
     else:
         answer = Statement.of("unexplained", off=abs(row.residual), **values)
