@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from ehlectric.drive.waveform import text_heads as reader
@@ -103,6 +103,7 @@ def spaced(times, digit=0.0):
     return timing(PATH, Samples(np.zeros(times.size), times, digit), choice, None)[1]
 
 
+@example(step=2.0**-14, first=0, count=3)
 @given(st.floats(1e-12, 1e3), st.integers(-10_000, 10_000), st.integers(3, 70_000))
 def test_the_step_of_even_times(step, first, count):
     assert spaced((first + np.arange(count)) * step) == pytest.approx(step, rel=1e-9)

@@ -59,7 +59,9 @@ def timing(
         return start, step, ()
     _check_order(path, read, each, single)
     _check_even(path, read, each, single, None)
-    interval = float(f"{_shortest(each, single / last) * factor:.15g}")
+    # Exactly equal steps, such as 2^-14 s, are not rounded to fewer digits.
+    exact = _worst(times, each)[1] == 0.0
+    interval = float(f"{_shortest(each, 0.0 if exact else single / last) * factor:.15g}")
     if interval > _SLOW and f"{choice.time} is in s" in choice.assumed:
         raise InputError.worded(
             "time_unit",
