@@ -169,6 +169,13 @@ class AxleSolution:
         """Ratios U/V_b of the elements with a breakdown voltage that do not conduct, the largest first."""
         return {name: ratio for name, ratio in self.ranking(conduction) if name in self.breakdown_voltages}
 
+    def ratio_ends(self, name: str) -> tuple[float, float] | None:
+        """Smallest and largest ratio U/V_b of an element, with the meshes that conduct by their films, with
+        all meshes conducting, and with no mesh conducting; None if the element has no ratio in one of them.
+        """
+        values = [self.ratios(conduction).get(name, 0.0) for conduction in CONDUCTIONS]
+        return (min(values), max(values)) if min(values) > 0.0 else None
+
     def voltages_and_limits(self) -> tuple[Array, Array]:
         """Return voltages and breakdown voltages of all elements after the edge of the case [V].
 

@@ -125,6 +125,10 @@ def share_interval(share: float, number: int) -> tuple[float, float]:
     return max(0.0, middle - error), min(1.0, middle + error)
 
 
+# Sampling error of the margin above which a statement contains no interval, as part of the margin.
+_ROUGH = 0.2
+
+
 def _margin_error(*quantiles: tuple[Array, float]) -> float:
     """Largest relative sampling error of quantiles of margins, at a confidence of 95 %.
 
@@ -257,11 +261,12 @@ class Chance:
             about = {"failed": self.failed, "samples": self.samples}
         # The margin is 0 where surfaces touch.
         touch = not self.failed and self.high == 0.0
+        rough = self.margin_error > _ROUGH
         return (
             Statement.of("probability-of-touching", probability=self.stated)
             if touch
             else Statement.of(
-                "probability-between" if self.failed else "probability",
+                "probability-between" if self.failed else "probability-rough" if rough else "probability",
                 probability=self.stated,
                 doubts=without,
                 **about,

@@ -51,8 +51,8 @@ def elements(result: AxleResult, ax: Axes) -> None:
         ratio, colour = ratios.get(name, 0.0), ORANGE if name == first else BLUE
         if ratio > 0.0:
             ax.barh(place, ratio - low, _HEIGHT, left=low, color=colour)
-        ends = [table[name] for table in bounds if table.get(name, 0.0) > 0.0]
-        if len(ends) == 2:
+        ends = solution.ratio_ends(name)
+        if ends is not None:
             ax.plot(ends, [place, place], color=BLACK, lw=1.6, marker="|", ms=8.0)
         if name in rest:
             element = next(each for each in solution.elements if each.name == name)

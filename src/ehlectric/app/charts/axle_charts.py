@@ -106,8 +106,8 @@ def _voltages_figure(result: AxleResult) -> Figure:
 
 
 def ratios_figure(result: AxleResult) -> Figure:
-    """Bar of each element that can discharge, the first element on top; a line extends between the values for
-    all meshes conducting and no mesh conducting. Hatched bars without an end belong to summits that touch.
+    """Bar of each element that can discharge, the first element on top; a line extends to the values for all
+    meshes conducting and no mesh conducting. Hatched bars without an end belong to summits that touch.
     """
     solution = result.solution
     ranking = dict(solution.discharging())
@@ -133,13 +133,13 @@ def ratios_figure(result: AxleResult) -> Figure:
         }
     ]
     for name in names:
-        both = [table[name] for table in bounds if table.get(name, 0.0) > 0.0]
-        if len(both) == 2:
+        both = solution.ratio_ends(name)
+        if both is not None:
             data.append(
                 {
                     "type": "scatter",
                     "mode": "lines+markers",
-                    "x": both,
+                    "x": [*both],
                     "y": [labels[name]] * 2,
                     "line": {"color": INK, "width": 2},
                     "marker": {"symbol": "line-ns-open", "size": 9, "color": INK},
@@ -165,6 +165,6 @@ def ratios_figure(result: AxleResult) -> Figure:
             shapes=[limit | {"line": {"color": INK, "width": 1, "dash": "dash"}}],
             bargap=0.35,
         ),
-        caption=f"Above 1 the element breaks down.{touching} A line extends between the values for all "
+        caption=f"Above 1 the element breaks down.{touching} A line extends to the values for all "
         "meshes conducting and no mesh conducting.",
     )

@@ -186,6 +186,7 @@ _SAID = (
     "bearing-voltages",
     "probability",
     "probability-between",
+    "probability-rough",
     "probability-unknown",
     "probability-follows",
     "breakdown-expected",

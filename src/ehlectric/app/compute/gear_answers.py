@@ -185,7 +185,7 @@ def _how(result: GearResult) -> str:
 
 
 # Statements of the verdict that say no more than the margin with its voltages and its probability.
-_SAID = ("mesh-voltages", "probability", "probability-between", WITHOUT_PROBABILITY)
+_SAID = ("mesh-voltages", "probability", "probability-between", "probability-rough", WITHOUT_PROBABILITY)
 
 _PROBABILITY = "uncertainty.breakdown_probability"
 
