@@ -94,7 +94,7 @@ def test_the_report_shows_the_rows_of_the_terminal(result, rows):
 
 @pytest.mark.slow
 def test_the_page_shows_the_rows_of_the_terminal(result, rows):
-    answer, named = answer_of(result, whole=True), {row.key: row for row in rows}
+    answer, named = answer_of(result), {row.key: row for row in rows}
     assert [line.name for line in answer.lines if line.text] == [row.name for row in rows]
     for number in answer.shown:
         assert number.label.lower() == BEARING_BOOK[number.key].label.lower()

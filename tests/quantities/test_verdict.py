@@ -52,7 +52,7 @@ def solved(request):
     """A result with its page."""
     if request.param == "bearing":
         case = BearingCase.from_toml(EXAMPLES / "bearing_6208.toml").replace({"contacts": "atlas"})
-        return solve_bearing(case, workers=1), lambda result: bearing_page(result, whole=True)
+        return solve_bearing(case, workers=1), lambda result: bearing_page(result)
     case = Case.from_toml(EXAMPLES / "discharge.toml").replace({"grid.nodes": 257})
     return solve(case), contact_page
 
