@@ -221,7 +221,29 @@ class AxleRemedies:
 
 
 def _text(changes: Mapping[str, Any]) -> str:
-    return ", ".join(f"{key} = {value}" for key, value in changes.items())
+    """Text of the changes of a remedy.
+
+    Examples
+    --------
+    >>> _text({"link": [{"between": ["rotor", "housing"], "kind": "ring", "resistance": "1 ohm"}]})
+    'ring between rotor and housing, 1 ohm'
+    """
+    return ", ".join(
+        _link_texts(value) if key == "link" else f"{key} = {value}" for key, value in changes.items()
+    )
+
+
+def _link_texts(links: Any) -> str:
+    """Text of the links of a remedy, or of a value that lists no tables."""
+    if not isinstance(links, list) or not all(isinstance(link, Mapping) for link in links):
+        return str(links)
+    texts = []
+    for link in links:
+        nodes = link.get("between")
+        ends = " and ".join(map(str, nodes)) if isinstance(nodes, list) else str(nodes)
+        values = [str(link[name]) for name in ("resistance", "capacitance") if name in link]
+        texts.append(", ".join([f"{link.get('kind', '')} between {ends}", *values]))
+    return "; ".join(texts)
 
 
 class GearFileField:
