@@ -76,6 +76,11 @@ def nested_iteration(
     return solutions
 
 
+def mixed_from_dry(problem: FilmProblem, levels: list[Level]) -> list[GridSolution]:
+    """Solutions on the first of ``levels`` alone, from the dry contact, the best one last."""
+    return _mixed(problem, levels, None, None, None)
+
+
 def _full_film(
     problem: FilmProblem, levels: list[Level], coarse: GridSolution | None, progress: Progress | None
 ) -> list[GridSolution]:
@@ -205,9 +210,26 @@ def _mixed(
         return grids
     *others, best = conserving.from_full(full, thorough=finest)
     if best.status == "converged":
-        return _replaced([*others, *grids], best)
+        return _replaced([*others, *grids], _apart(problem, levels, best, progress))
     # A film that creates oil is better than none; a warning reports it.
     return [*others, best, *grids]
+
+
+def _apart(
+    problem: FilmProblem, levels: list[Level], film: GridSolution, progress: Progress | None
+) -> GridSolution:
+    """Film with the equations of surfaces apart, if a film of surfaces that may touch has no contact.
+
+    Where the gap closes steeply, the mass at a face differs between the two. The film of surfaces apart is the
+    more accurate one, and the film from any other start.
+    """
+    if film.touches:
+        return film
+    start = film.state, with_inlet(film.final.full_film)
+    apart = _conserving(problem, levels, start, progress, times=1)
+    if apart.status != "converged" or float(apart.state.thickness.min()) < problem.boundary_film:
+        return film
+    return replace(apart, steps=film.steps + apart.steps)
 
 
 def _replaced(grids: list[GridSolution], better: GridSolution) -> list[GridSolution]:
