@@ -49,6 +49,11 @@ class Steepness:
     # shape (nx, ny); zero on coarser grids.
     by_before: Array
     by_node: Array
+    # Part of the mass at the face behind a node that is the mass of the node, because the gap opens steeply to
+    # the next node, and its derivatives by the full mass of the node and of the next one, (nx - 1, ny).
+    opening: Array
+    opening_by_node: Array
+    opening_by_next: Array
 
     @classmethod
     def of(cls, full: Array) -> Steepness:
@@ -61,14 +66,73 @@ class Steepness:
         """
         ratio = np.ones_like(full)
         ratio[1:] = full[:-1] / full[1:]
-        above = np.maximum(ratio - _STEEP, 0.0) / _HALF
-        slope = 2.0 * above / _HALF / (1.0 + above**2) ** 2
-        return cls(above**2 / (1.0 + above**2), slope / full, -slope * ratio / full)
+        part, slope = _part_of(ratio)
+        rise = full[1:] / full[:-1]
+        opening, by_rise = _part_of(rise)
+        return cls(
+            part=part,
+            by_before=slope / full,
+            by_node=-slope * ratio / full,
+            opening=opening,
+            opening_by_node=-by_rise * rise / full[:-1],
+            opening_by_next=by_rise / full[:-1],
+        )
 
     def injected(self, level: Level) -> Steepness:
         """Steepness on the next coarser grid, for its wedge term only."""
         part = level.inject(self.part)
-        return Steepness(part, np.zeros_like(part), np.zeros_like(part))
+        # The opening to the next node of a coarser grid is larger.
+        opening = level.inject(np.concatenate([self.opening, self.opening[-1:]]))[:-1]
+        none, no_opening = np.zeros_like(part), np.zeros_like(opening)
+        return Steepness(part, none, none, opening, no_opening, no_opening)
+
+
+def _part_of(ratio: Array) -> tuple[Array, Array]:
+    """Part of a face that is of lower order at a ratio of the full gaps of two nodes, and its derivative."""
+    above = np.maximum(ratio - _STEEP, 0.0) / _HALF
+    return above**2 / (1.0 + above**2), 2.0 * above / _HALF / (1.0 + above**2) ** 2
+
+
+# Pressure at which a node counts as half full, as a part of the pressure that drives back across one spacing
+# what the surfaces carry, and its largest value over p_h.
+_HALF_FULL, _MOST_HALF_FULL = 0.1, 1e-2
+
+
+@dataclass(frozen=True)
+class Fullness:
+    """How far filled nodes are from cavitation, which weighs their mass in formulas of a higher order.
+
+    A node is filled or cavitated. If the formula of a face depended on this alone, the flow would jump where
+    a node changes at ambient pressure, and several sets of filled nodes could fulfil the equations. The
+    weight of a node, P^2/(P^2 + P_s^2) with its excess pressure P, vanishes at ambient pressure, so that the
+    flow is continuous.
+    """
+
+    weight: Array  # weight w of each node, from 0 to 1, shape (nx, ny)
+    slope: Array  # derivative of w by the pressure of the node, shape (nx, ny)
+
+    @classmethod
+    def of(cls, excess: Array, mass: Array, poiseuille: Array, rate: float) -> Fullness:
+        """Fullness at an excess pressure, for the mass rho H and the diagonal of the Poiseuille term.
+
+        All are dimensionless, shape (nx, ny).
+
+        Examples
+        --------
+        >>> one = np.ones((1, 1))
+        >>> Fullness.of(1e-3 * one, one, 1e3 * one, 10.0).weight.round(3).item()
+        0.5
+        """
+        with np.errstate(divide="ignore"):
+            scale = np.minimum(_HALF_FULL * rate * mass / poiseuille, _MOST_HALF_FULL)
+        ratio = np.maximum(excess, 0.0) / scale
+        weight = ratio**2 / (1.0 + ratio**2)
+        return cls(weight, 2.0 * ratio / (1.0 + ratio**2) ** 2 / scale)
+
+    def injected(self, level: Level) -> Fullness:
+        """Fullness on the next coarser grid, for its wedge term only."""
+        weight = level.inject(self.weight)
+        return Fullness(weight, np.zeros_like(weight))
 
 
 @dataclass(frozen=True)
@@ -80,6 +144,7 @@ class Supply:
     # Nodes whose mass enters no formula of a higher order, although they may be filled, shape (nx, ny).
     upwind: Mask | bool = False
     steepness: Steepness | None = None  # of the gap at the state; None where surfaces cannot touch
+    fullness: Fullness | None = None  # of the nodes at the state; None if all filled nodes are full
     # Whether the mass downstream of nodes to which the gap closes steeply is the mass of the node instead of
     # the mean.
     first_order: bool = False
@@ -91,15 +156,61 @@ class Supply:
         wedge term by this mass.
         """
         high = filled & ~np.asarray(self.upwind)
-        faces = Faces.of(high, self.order)
-        if self.steepness is not None:
-            faces = faces.steep(high, self.steepness, full, first_order=self.first_order)
+        before, ahead = self._weights(high)
+        faces = Faces.weighted(before, ahead, self.order)
+        steepness = self.steepness
+        if steepness is None:
+            return faces.difference(mesh)
+        mean = 0.0 * ahead if self.first_order else 0.5 * ahead
+        faces = faces.steep(high, steepness, full, mean)
+        if full is not None and self.order > 1:
+            # The weight ahead falls where the gap opens more steeply.
+            change = -self._by_weights(high, full)[1] * _ahead(high, self.fullness)
+            near = faces.near + change * steepness.opening_by_node
+            faces = replace(faces, near=near, ahead=faces.ahead + change * steepness.opening_by_next)
         return faces.difference(mesh)
+
+    def _weights(self, high: Mask) -> tuple[Array, Array]:
+        """Weights (nx - 1, ny) of the node before and of the node behind each face."""
+        ahead = _ahead(high, self.fullness)
+        if self.steepness is not None:
+            ahead = ahead * (1.0 - self.steepness.opening)
+        return _before(high, self.fullness), ahead
+
+    def _by_weights(self, high: Mask, mass: Array) -> tuple[Array, Array]:
+        """Derivatives of the mass at the faces (nx - 1, ny) by both weights."""
+        before, ahead = self._weights(high)
+        by_before, by_ahead = (
+            Faces.weighted(1.0, ahead, self.order)(mass) - Faces.weighted(0.0, ahead, self.order)(mass),
+            Faces.weighted(before, 1.0, self.order)(mass) - Faces.weighted(before, 0.0, self.order)(mass),
+        )
+        if self.steepness is None:
+            return by_before, by_ahead
+        part = np.where(high, self.steepness.part, 0.0)[:-1]
+        mean = 0.0 if self.first_order else 0.5 * np.diff(mass, axis=0)
+        return (1.0 - part) * by_before, (1.0 - part) * by_ahead + part * mean
+
+    def by_fullness(self, mesh: Mesh, filled: Mask, mass: Array) -> Stencil | None:
+        """Derivative of the wedge term by the pressure that decides how full nodes are; None without it.
+
+        ``mass`` (nx, ny) is the mass rho H of filled nodes, zero where the gap is cavitated.
+        """
+        if self.fullness is None or self.order == 1:
+            return None
+        high = filled & ~np.asarray(self.upwind)
+        by_before, by_ahead = self._by_weights(high, mass)
+        if self.steepness is not None:
+            by_ahead = by_ahead * (1.0 - self.steepness.opening)
+        weight, slope = self.fullness.weight * high, self.fullness.slope * high
+        far = np.zeros_like(by_before)
+        far[1:] = by_before[1:] * slope[:-2] * high[1:-1]
+        near, ahead = by_ahead * slope[:-1] * weight[1:], by_ahead * weight[:-1] * slope[1:]
+        return Faces(far, near, ahead).difference(mesh)
 
     @property
     def of_full_order(self) -> Supply:
         """Supply whose nodes all enter formulas of a higher order."""
-        return replace(self, upwind=False, steepness=None)
+        return replace(self, upwind=False, steepness=None, fullness=None)
 
     def at_gap(self, full: Array) -> Supply:
         """Supply with the steepness of a gap whose mass rho H is ``full`` (nx, ny)."""
@@ -120,7 +231,9 @@ class Supply:
         high[1:] &= (filled & not_upwind)[:-1]
         before: Array = np.concatenate([mass[:1], mass[:-1]])
         part: Array = high * (1.0 if self.steepness is None else 1.0 - self.steepness.part)
-        return mass + part * (before - mass) / 3.0
+        if self.fullness is not None:
+            part[1:] *= self.fullness.weight[:-1]
+        return mass + part / (2.0 + part) * (before - mass)
 
     def injected(self, level: Level) -> Supply:
         """Supply on the next coarser grid, for its wedge term only."""
@@ -129,7 +242,8 @@ class Supply:
             upwind = level.inject(upwind.astype(float)) > 0.0
         if steepness is not None:
             steepness = steepness.injected(level)
-        return replace(self, upwind=upwind, steepness=steepness)
+        fullness = None if self.fullness is None else self.fullness.injected(level)
+        return replace(self, upwind=upwind, steepness=steepness, fullness=fullness)
 
 
 @dataclass(frozen=True)
@@ -183,30 +297,28 @@ class Faces:
     ahead: Array
 
     @classmethod
-    def of(cls, filled: Mask, order: int) -> Faces:
-        """Formula of highest order, up to ``order``, whose nodes are all filled, a mask (nx, ny).
+    def weighted(cls, before: Array | float, ahead: Array | float, order: int) -> Faces:
+        """Formula for weights, 0 to 1, of the node before and of the node and the one behind the face.
 
-        Behind the first filled node it is the mean of the two nodes, and behind a cavitated node this node.
+        Both at 1 give the formula of ``order``, and both at 0 the upwind formula.
         """
-        far = np.zeros((filled.shape[0] - 1, filled.shape[1]))
-        near, ahead = np.ones_like(far), np.zeros_like(far)
-        if order > 1:
-            # Behind a meniscus there is no second filled node: the face takes the mean of its two nodes.
-            first = filled[:-1] & filled[1:]
-            first[1:] &= ~filled[:-2]
-            near[first] = ahead[first] = 0.5
-            second = filled[1:-1] & filled[:-2]
-            far[1:][second], near[1:][second] = -0.5, 1.5
-            if order == 3:
-                third = second & filled[2:]
-                far[1:][third], near[1:][third], ahead[1:][third] = -0.125, 0.75, 0.375
-        return cls(far, near, ahead)
+        before, ahead = np.broadcast_arrays(np.asarray(before, dtype=float), np.asarray(ahead, dtype=float))
+        if order == 1:
+            return cls(0.0 * before, 1.0 + 0.0 * before, 0.0 * before)
+        alone = (1.0 - before) * ahead
+        far, near, behind = -0.5 * before, 1.0 + 0.5 * before - 0.5 * alone, 0.5 * alone
+        if order == 3:
+            third = before * ahead
+            far, near, behind = far + 0.375 * third, near - 0.75 * third, behind + 0.375 * third
+        return cls(far, near, behind)
 
-    def steep(self, filled: Mask, steepness: Steepness, full: Array | None, *, first_order: bool) -> Faces:
-        """Weights where the gap closes steeply; with ``full`` the weights of the derivatives by the mass."""
-        mean = np.where(filled[1:] & (not first_order), 0.5, 0.0)
+    def steep(self, filled: Mask, steepness: Steepness, full: Array | None, ahead: Array) -> Faces:
+        """Weights where the gap closes steeply; with ``full`` the weights of the derivatives by the mass.
+
+        ``ahead`` (nx - 1, ny) is the weight of the node behind the face there.
+        """
         part = np.where(filled, steepness.part, 0.0)[:-1]
-        off = Faces(-self.far, 1.0 - mean - self.near, mean - self.ahead)
+        off = Faces(-self.far, 1.0 - ahead - self.near, ahead - self.ahead)
         far, near, ahead = (
             self.far + part * off.far,
             self.near + part * off.near,
@@ -230,7 +342,8 @@ class Faces:
         The mass at the two last faces is extrapolated from the two nodes before:
 
         >>> filled = np.array([[False], [True], [True], [True], [True]])
-        >>> Faces.of(filled, 2).difference(Mesh.over(5, 0.0, 4.0)).coefficients[:, 3, 0].tolist()
+        >>> faces = Faces.weighted(_before(filled, None), _ahead(filled, None), 2)
+        >>> faces.difference(Mesh.over(5, 0.0, 4.0)).coefficients[:, 3, 0].tolist()
         [0.5, -2.0, 1.5, 0.0]
         """
         c = np.zeros((ALONG, *mesh.shape))
@@ -239,6 +352,19 @@ class Faces:
         c[2, 1:-1] = self.near[1:] - self.ahead[:-1]
         c[3, 1:-1] = self.ahead[1:]
         return Stencil(c / mesh.dx)
+
+
+def _before(high: Mask, fullness: Fullness | None) -> Array:
+    """Weight (nx - 1, ny) of the node before the node upstream of each face."""
+    weight = np.zeros((high.shape[0] - 1, high.shape[1]))
+    weight[1:] = (high[1:-1] & high[:-2]) * (1.0 if fullness is None else fullness.weight[:-2])
+    return weight
+
+
+def _ahead(high: Mask, fullness: Fullness | None) -> Array:
+    """Weight (nx - 1, ny) of the two nodes beside each face."""
+    both = high[:-1] & high[1:]
+    return both * (1.0 if fullness is None else fullness.weight[:-1] * fullness.weight[1:])
 
 
 def of_filled(flow: Flow, filled: Mask) -> Flow:

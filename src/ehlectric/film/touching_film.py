@@ -54,6 +54,7 @@ from ehlectric.film.newton import (
 )
 from ehlectric.film.oil_content import (
     Carried,
+    Fullness,
     MaskMemory,
     behind_cavities,
     filled_anew,
@@ -61,6 +62,7 @@ from ehlectric.film.oil_content import (
     with_row_before,
 )
 from ehlectric.film.reynolds import (
+    ALONG,
     Stencil,
     linearise,
     poiseuille_weight,
@@ -144,8 +146,11 @@ def assess_touching(
             full_film |= with_refilled_nodes(full_film, r) & contact
     else:
         before = carried.filled
+        full = k.density * thickness
         if boundary_film:
-            carried = replace(carried, supply=carried.supply.at_gap(k.density * thickness))
+            carried = replace(carried, supply=carried.supply.at_gap(full))
+        fullness = Fullness.of(excess, full, poiseuille, level.rate)
+        carried = replace(carried, supply=replace(carried.supply, fullness=fullness))
         carried, r = filled_anew(level, at_faces, thickness, poiseuille, excess, carried)
         full_film, settled = carried.filled & mesh.inner, bool(np.array_equal(carried.filled, before))
     compliance = node_compliance(level)
@@ -368,6 +373,10 @@ def _damped(
         wedge = carried.supply.wedge(level.mesh, carried.filled, full)
     by_p, by_h = linearise(at_faces, wedge, thickness, level.mesh)
     k, inner = at_faces.coefficients, level.mesh.inner
+    if carried is not None:
+        by_fullness = carried.supply.by_fullness(level.mesh, carried.filled, full)
+        if by_fullness is not None:
+            by_p.coefficients[:ALONG] += by_fullness.coefficients
     by_p.coefficients[2][inner] += damping * level.rate * (k.density_p * thickness)[inner]
     by_h.coefficients[2][inner] += damping * level.rate * k.density[inner]
     return by_p, by_h
