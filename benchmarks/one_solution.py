@@ -138,22 +138,40 @@ def mean_film(film: MixedFilm) -> float:
     return float(np.vdot(weights, film.gap) / np.sum(weights)) * film.problem.scales.thickness
 
 
+def row(name: str, outcomes: dict[str, Outcome], *, verbose: bool) -> str:
+    """Row of the table: largest differences from the usual way, and the change from half the nodes."""
+    usual, coarse = outcomes["nested"], outcomes["half the nodes"]
+    others = [o for way, o in outcomes.items() if way not in ("nested", "half the nodes")]
+    failed = [way for way, o in outcomes.items() if o.status != "converged"]
+    making = [way for way, o in outcomes.items() if o.status == "converged" and not o.conserves]
+    share = max(abs(o.share - usual.share) for o in others)
+    mean = max(abs(o.mean / usual.mean - 1.0) for o in others)
+    entries = [name, f"{usual.share:.4g}", f"{share:.1e}", f"{abs(coarse.share - usual.share):.1e}"]
+    entries += [f"{1e9 * usual.mean:.5g}", f"{mean:.1e}", f"{abs(coarse.mean / usual.mean - 1.0):.1e}"]
+    entries += [f"{sum(o.seconds for o in outcomes.values()):.1f}", " ".join(failed), " ".join(making)]
+    if verbose:
+        entries += [f"{way}: {o.share:.6g}, {1e9 * o.mean:.6g} nm" for way, o in outcomes.items()]
+    return "| " + " | ".join(entries) + " |"
+
+
 def main() -> None:
-    """Solve the contacts and print a row for each way."""
+    """Solve the contacts and print a row for each."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("kind", choices=NUMBERS)
     parser.add_argument("--limit", type=float, default=60.0, help="processor time of a film [s]")
     parser.add_argument("--only", type=int, nargs="*", help="numbers of contacts")
+    parser.add_argument("--verbose", action="store_true", help="print all ways")
     asked = parser.parse_args()
-    print("| contact | way | status | share | mean film [nm] | conserves oil | time [s] |", flush=True)
+    print(
+        "| contact | share | other ways | half the nodes | mean film [nm] | other ways | half the nodes "
+        "| time of all [s] | not converged | not conserving |",
+        flush=True,
+    )
     for number, (contact, problem) in enumerate(contacts(asked.kind)):
-        if asked.only and number not in asked.only:
-            continue
-        print(f"# {number} lambda {contact.ratio:.3g} boundary film {contact.boundary_film:.2g} m", flush=True)
-        for name, solve in ways(problem).items():
-            o = Outcome.of(solve, asked.limit)
-            entries = (number, name, o.status, f"{o.share:.6g}", f"{1e9 * o.mean:.6g}", o.conserves)
-            print("| " + " | ".join(map(str, entries)) + f" | {o.seconds:.1f} |", flush=True)
+        if asked.only is None or number in asked.only:
+            outcomes = {way: Outcome.of(solve, asked.limit) for way, solve in ways(problem).items()}
+            name = f"{number}: lambda {contact.ratio:.2g}, {1e9 * contact.boundary_film:.2g} nm"
+            print(row(name, outcomes, verbose=asked.verbose), flush=True)
 
 
 if __name__ == "__main__":

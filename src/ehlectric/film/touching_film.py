@@ -500,7 +500,8 @@ def touching_newton(
             best, best_step = now.norm, len(steps)
         close = linear_tolerance(now.norm, before, 0.0)
         before = now.norm
-        step = newton_step(fluid, problem.levels, state, now, asperities, close, damping)
+        part = _part(best, len(steps) - best_step)
+        step = newton_step(fluid, problem.levels, state, now, asperities, close, damping, part)
         steps.append(step.record)
         assessed = step.now
         thinnest = max(float(np.min(step.state.thickness)), asperities.boundary_film)
@@ -522,6 +523,23 @@ def touching_newton(
     return grid_solution(level, projected(fluid, state, now.contact), now, steps, status)
 
 
+# Residual below which Newton steps are shortened where it does not fall, the number of steps in which it has to
+# halve, and the factor and the least part of a step.
+_CLOSE_TO, _WITHIN, _SHORTER, _LEAST_PART = 1e-2, 4, 0.5, 0.05
+
+
+def _part(best: float, waited: int) -> float:
+    """Largest part of the next Newton step, smaller where the last steps go in a circle.
+
+    ``best`` is the smallest residual that was half of the one before, and ``waited`` the number of steps since
+    then. The weight of a node changes with its pressure, so that full steps may alternate between two states
+    on either side of the solution.
+    """
+    if best > _CLOSE_TO:
+        return 1.0
+    return max(_LEAST_PART, float(_SHORTER ** (waited // _WITHIN)))
+
+
 @dataclass(frozen=True)
 class Stepped:
     """Film after one Newton step."""
@@ -540,8 +558,12 @@ def newton_step(
     asperities: Asperities,
     close: float,
     damping: float = 0.0,
+    part: float = 1.0,
 ) -> Stepped:
-    """Film on the first of ``levels`` after the part of a Newton step that keeps P and H within limits."""
+    """Film on the first of ``levels`` after the part of a Newton step that keeps P and H within limits.
+
+    ``part`` is the largest part of the step that is taken.
+    """
     level = levels[0]
     state = projected(fluid, state, now.contact)
     try:
@@ -549,7 +571,7 @@ def newton_step(
     except np.linalg.LinAlgError:
         return Stepped(state, replace(now, norm=np.inf), 0.0, NewtonStep(level.nodes, now.norm, 0))
     step = _direction(fluid, jacobian, state, now, close)
-    length = _length(level, now, step, asperities.boundary_film)
+    length = min(part, _length(level, now, step, asperities.boundary_film))
     moved = _moved(level, state, now.contact, step, length)
     state = _released(level, moved, projected(fluid, moved, now.contact), asperities.boundary_film)
     record = NewtonStep(level.nodes, now.norm, step.krylov)
