@@ -192,7 +192,7 @@ def _mixed(
         filled = filled_on(level.mesh, coarse.level.mesh, with_inlet(coarse.final.full_film))
         grids.append(conserving.near(near, filled))
         if grids[-1].status == "converged":
-            return grids
+            return [*grids[:-1], _apart(problem, levels, grids[-1], progress)]
     dry = np.broadcast_to(problem.geometry.dry_pressure(level.mesh.x, level.mesh.y), level.mesh.shape)
     if not np.any(dry):
         # The dry contact lies between two nodes of this grid.

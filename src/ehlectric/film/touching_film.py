@@ -524,8 +524,8 @@ def touching_newton(
 
 
 # Residual below which Newton steps are shortened where it does not fall, the number of steps in which it has to
-# halve, and the factor and the least part of a step.
-_CLOSE_TO, _WITHIN, _SHORTER, _LEAST_PART = 1e-2, 4, 0.5, 0.05
+# halve, and the parts of the steps after each of these numbers, which begin again after the last one.
+_CLOSE_TO, _WITHIN, _PARTS = 1e-2, 4, (1.0, 0.5, 0.25, 0.1)
 
 
 def _part(best: float, waited: int) -> float:
@@ -537,7 +537,7 @@ def _part(best: float, waited: int) -> float:
     """
     if best > _CLOSE_TO:
         return 1.0
-    return max(_LEAST_PART, float(_SHORTER ** (waited // _WITHIN)))
+    return _PARTS[waited // _WITHIN % len(_PARTS)]
 
 
 @dataclass(frozen=True)
