@@ -49,8 +49,8 @@ class Steepness:
     # shape (nx, ny); zero on coarser grids.
     by_before: Array
     by_node: Array
-    # Part of the mass at the face behind a node that is the mass of the node, because the gap opens steeply to
-    # the next node, and its derivatives by the full mass of the node and of the next one, (nx - 1, ny).
+    # Part of the mass at the face behind a node that is the mass of the node, because the gap opens steeply
+    # to the next node, and its derivatives by the full mass of the node and of the next one, (nx - 1, ny).
     opening: Array
     opening_by_node: Array
     opening_by_next: Array
@@ -145,6 +145,8 @@ class Supply:
     upwind: Mask | bool = False
     steepness: Steepness | None = None  # of the gap at the state; None where surfaces cannot touch
     fullness: Fullness | None = None  # of the nodes at the state; None if all filled nodes are full
+    # Whether the flow is continuous where a node changes from filled to cavitated, as rough surfaces need it.
+    continuous: bool = True
     # Whether the mass downstream of nodes to which the gap closes steeply is the mass of the node instead of
     # the mean.
     first_order: bool = False
@@ -215,6 +217,12 @@ class Supply:
     def at_gap(self, full: Array) -> Supply:
         """Supply with the steepness of a gap whose mass rho H is ``full`` (nx, ny)."""
         return replace(self, steepness=Steepness.of(full))
+
+    def at_state(self, excess: Array, full: Array, poiseuille: Array, rate: float) -> Supply:
+        """Supply with the fullness of the nodes at an excess pressure, as in ``Fullness.of``."""
+        if not self.continuous:
+            return self
+        return replace(self, fullness=Fullness.of(excess, full, poiseuille, rate))
 
     def at_rupture(self, filled: Mask, mass: Array) -> Array:
         """Mass of oil (nx, ny) from the flow out of cavitated nodes, whose first one has a higher order.

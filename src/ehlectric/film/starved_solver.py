@@ -254,7 +254,9 @@ class StarvedProblem:
     def _under(self, layer: Array, guess: Guess) -> GridSolution:
         """Film under a layer of oil (ny,), from a guess."""
         ambient = self.posed.fluid.ambient_density
-        return self.film(guess, Supply(ambient * layer, self.order, first_order=self.first_order))
+        rough = self.problem.added_gap is not None
+        supply = Supply(ambient * layer, self.order, continuous=rough, first_order=self.first_order)
+        return self.film(guess, supply)
 
     def _from_flooded(self, layer: Array) -> Guess:
         """Flooded film whose surfaces are brought together until its centre is as thick as the layer."""

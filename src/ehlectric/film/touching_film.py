@@ -54,7 +54,6 @@ from ehlectric.film.newton import (
 )
 from ehlectric.film.oil_content import (
     Carried,
-    Fullness,
     MaskMemory,
     behind_cavities,
     filled_anew,
@@ -149,8 +148,7 @@ def assess_touching(
         full = k.density * thickness
         if boundary_film:
             carried = replace(carried, supply=carried.supply.at_gap(full))
-        fullness = Fullness.of(excess, full, poiseuille, level.rate)
-        carried = replace(carried, supply=replace(carried.supply, fullness=fullness))
+        carried = replace(carried, supply=carried.supply.at_state(excess, full, poiseuille, level.rate))
         carried, r = filled_anew(level, at_faces, thickness, poiseuille, excess, carried)
         full_film, settled = carried.filled & mesh.inner, bool(np.array_equal(carried.filled, before))
     compliance = node_compliance(level)
@@ -523,17 +521,17 @@ def touching_newton(
     return grid_solution(level, projected(fluid, state, now.contact), now, steps, status)
 
 
-# Residual below which Newton steps are shortened where it does not fall, the number of steps in which it has to
-# halve, and the parts of the steps after each of these numbers, which begin again after the last one.
+# Residual below which Newton steps are shortened where it does not fall, the number of steps in which it has
+# to halve, and the parts of the steps after each of these numbers, which begin again after the last one.
 _CLOSE_TO, _WITHIN, _PARTS = 1e-2, 4, (1.0, 0.5, 0.25, 0.1)
 
 
 def _part(best: float, waited: int) -> float:
     """Largest part of the next Newton step, smaller where the last steps go in a circle.
 
-    ``best`` is the smallest residual that was half of the one before, and ``waited`` the number of steps since
-    then. The weight of a node changes with its pressure, so that full steps may alternate between two states
-    on either side of the solution.
+    ``best`` is the smallest residual that was half of the one before, and ``waited`` the number of steps
+    since then. The weight of a node changes with its pressure, so that full steps may alternate between two
+    states on either side of the solution.
     """
     if best > _CLOSE_TO:
         return 1.0
