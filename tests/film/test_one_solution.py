@@ -1,15 +1,15 @@
-"""One film of a contact in mixed lubrication, from any start, on half or the whole contact, and by any rounding."""
+"""One film of a contact in mixed lubrication: from any start, on half or the whole of it, by any rounding."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.helpers.mixed_films import MixedFilm, gaussian, mixed_film, posed, rough_line, rough_point
 
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.nested import levels_of, mixed_from_dry
 from ehlectric.film.oil_content import Supply
 from ehlectric.runtime.threads import quiet_solution
+from tests.helpers.mixed_films import MixedFilm, gaussian, mixed_film, posed, rough_line, rough_point
 
 BALL = rough_point(gaussian(200e-9, 30e-6, seed=3), speed=0.02, boundary_film=3e-9)
 

@@ -220,8 +220,8 @@ def _apart(
 ) -> GridSolution:
     """Film with the equations of surfaces apart, if a film of surfaces that may touch has no contact.
 
-    Where the gap closes steeply, the mass at a face differs between the two. The film of surfaces apart is more
-    accurate, and any other start leads to it.
+    Where the gap closes steeply, the mass at a face differs between the two. The film of surfaces apart is
+    more accurate, and any other start leads to it.
     """
     if film.touches:
         return film

@@ -371,8 +371,8 @@ def _before(high: Mask, fullness: Fullness | None) -> Array:
 
 def _ahead(high: Mask, fullness: Fullness | None) -> Array:
     """Weight (nx - 1, ny) of the two nodes beside each face."""
-    both = high[:-1] & high[1:]
-    return both * (1.0 if fullness is None else fullness.weight[:-1] * fullness.weight[1:])
+    both: Array = (high[:-1] & high[1:]).astype(float)
+    return both if fullness is None else both * fullness.weight[:-1] * fullness.weight[1:]
 
 
 def of_filled(flow: Flow, filled: Mask) -> Flow:

@@ -72,13 +72,17 @@ class Conserving:
     def from_full(self, solution: GridSolution, *, thorough: bool) -> Iterator[GridSolution]:
         """Films from a converged one that counts its cavities as full: at once, and ``thorough`` in steps.
 
-        They end with the first that converges.
+        They end with the first that converges. A film with upwind differences is a guess for the usual
+        scheme, and the result only if the usual scheme does not converge from it.
         """
         yield (film := self.near(solution.state, solution.final.full_film))
         if thorough and film.status != "converged":
             yield (film := self._in_steps(solution))
         if film.status != "converged" and not self.first_order:
-            yield from replace(self, first_order=True).from_full(solution, thorough=thorough)
+            for film in replace(self, first_order=True).from_full(solution, thorough=thorough):
+                usual = self.near(film.state, film.final.full_film) if film.status == "converged" else film
+                better = usual.status == "converged" and usual is not film
+                yield replace(usual, steps=film.steps + usual.steps) if better else film
 
     def _in_steps(self, solution: GridSolution) -> GridSolution:
         """Film from which the oil that its cavities make is taken away in steps."""
