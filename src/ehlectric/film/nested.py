@@ -77,7 +77,7 @@ def nested_iteration(
 
 
 def mixed_from_dry(problem: FilmProblem, levels: list[Level]) -> list[GridSolution]:
-    """Solutions on the first of ``levels`` alone, from the dry contact, the best one last."""
+    """Solutions on the first of ``levels`` only, from the dry contact, the best one last."""
     return _mixed(problem, levels, None, None, None)
 
 

@@ -88,7 +88,7 @@ class Steepness:
 
 
 def _part_of(ratio: Array) -> tuple[Array, Array]:
-    """Part of a face that is of lower order at a ratio of the full gaps of two nodes, and its derivative."""
+    """Part of lower order at a ratio of two full gaps, and its derivative by the ratio."""
     above = np.maximum(ratio - _STEEP, 0.0) / _HALF
     return above**2 / (1.0 + above**2), 2.0 * above / _HALF / (1.0 + above**2) ** 2
 
@@ -102,8 +102,8 @@ _HALF_FULL, _MOST_HALF_FULL = 0.1, 1e-2
 class Fullness:
     """How far filled nodes are from cavitation, which weighs their mass in formulas of a higher order.
 
-    A node is filled or cavitated. If the formula of a face depended on this alone, the flow would jump where
-    a node changes at ambient pressure, and several sets of filled nodes could fulfil the equations. The
+    A node is filled or cavitated. If only this decided the formula of a face, the flow would jump where a node
+    changes at ambient pressure, and several sets of filled nodes could fulfil the equations. The
     weight of a node, P^2/(P^2 + P_s^2) with its excess pressure P, vanishes at ambient pressure, so that the
     flow is continuous.
     """
