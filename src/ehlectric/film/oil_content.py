@@ -102,10 +102,10 @@ _HALF_FULL, _MOST_HALF_FULL = 0.1, 1e-2
 class Fullness:
     """How far filled nodes are from cavitation, which weighs their mass in formulas of a higher order.
 
-    A node is filled or cavitated. If only this decided the formula of a face, the flow would jump where a node
-    changes at ambient pressure, and several sets of filled nodes could fulfil the equations. The
-    weight of a node, P^2/(P^2 + P_s^2) with its excess pressure P, vanishes at ambient pressure, so that the
-    flow is continuous.
+    A node is filled or cavitated. If only this decided the formula of a face, the flow would jump where a
+    node changes at ambient pressure, and several sets of filled nodes could fulfil the equations. The weight
+    of a node, P^2/(P^2 + P_s^2) with its excess pressure P, vanishes at ambient pressure, so that the flow is
+    continuous.
     """
 
     weight: Array  # weight w of each node, from 0 to 1, shape (nx, ny)
@@ -370,7 +370,7 @@ def _before(high: Mask, fullness: Fullness | None) -> Array:
 
 
 def _ahead(high: Mask, fullness: Fullness | None) -> Array:
-    """Weight (nx - 1, ny) of the two nodes beside each face."""
+    """Weight (nx - 1, ny) of the two nodes next to each face."""
     both: Array = (high[:-1] & high[1:]).astype(float)
     return both if fullness is None else both * fullness.weight[:-1] * fullness.weight[1:]
 
