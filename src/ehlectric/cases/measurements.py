@@ -18,7 +18,6 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.cases.amounts import Amount
-from ehlectric.cases.axle_keys import OF_ELEMENTS, OF_SHAFTS, name_of_quantity
 from ehlectric.errors import InputError, printable, short, shown
 from ehlectric.quantities import units
 from ehlectric.quantities.grouped_digits import doubt_of_column, readings
@@ -117,6 +116,8 @@ def calibrated(quantity: str) -> Measurable:
     >>> calibrated("elements.rotor_1.capacitance").usual, calibrated("shafts.rotor.voltage").usual
     ('pF', 'V')
     """
+    from ehlectric.cases.axle_keys import name_of_quantity  # late: contacts do not need it
+
     return CALIBRATED[name_of_quantity(quantity)]
 
 
@@ -149,6 +150,8 @@ GEAR_POINTS = _points(GEAR_CYCLE, "'torque [N m]', 'capacitance [pF]' and 'uncer
 
 def axle_points(elements: Iterable[str], shafts: Iterable[str]) -> ColumnBook:
     """Columns of a file of operating points of an axle; ``elements`` and ``shafts``, their keys."""
+    from ehlectric.cases.axle_keys import OF_ELEMENTS, OF_SHAFTS  # late: contacts do not need it
+
     quantities = {}
     for place, keys, names in (("elements", elements, OF_ELEMENTS), ("shafts", shafts, OF_SHAFTS)):
         for key, (name, known) in product(keys, names.items()):

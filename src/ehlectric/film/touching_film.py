@@ -29,6 +29,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 import scipy
@@ -69,7 +70,9 @@ from ehlectric.film.reynolds import (
     stencil_matrix,
     without_columns,
 )
-from ehlectric.film.stiff_nodes import StiffSolver, few_enough
+
+if TYPE_CHECKING:
+    from ehlectric.film.stiff_nodes import StiffSolver
 
 
 @dataclass(frozen=True)
@@ -239,9 +242,13 @@ class TouchingJacobian:
         helps = contact.any() or (carried is not None and level.mesh.dy is not None)
         opened_factors = _factored(oil_by_p, opened) if opened.any() and helps else None
         stiff_nodes, stiff, jacobians = finest.full_film & ~opened, None, []
-        if opened_factors is not None and few_enough(stiff_nodes):
-            stiff = StiffSolver.of(finest.gap, finest.by_p, finest.by_h, stiff_nodes)
-        else:
+        if opened_factors is not None:
+            # late: films without spots and cavities do not need it
+            from ehlectric.film.stiff_nodes import StiffSolver, few_enough
+
+            if few_enough(stiff_nodes):
+                stiff = StiffSolver.of(finest.gap, finest.by_p, finest.by_h, stiff_nodes)
+        if stiff is None:
             jacobians = _on_levels(fluid, levels, oil_pressure, now, (by_p, by_h), finest, damping)
         return cls(
             levels=jacobians,
