@@ -10,7 +10,7 @@ from ehlectric.film.face_flow import flow
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.nested import levels_of, nested_iteration
 from ehlectric.film.newton import Asperities, State
-from ehlectric.film.oil_content import Carried, Runs, Supply, carried_rows, filled_anew
+from ehlectric.film.oil_content import Carried, Runs, Scheme, Supply, carried_rows, filled_anew
 from ehlectric.film.reynolds import poiseuille_weight
 from ehlectric.film.starved_solver import first_layer
 from ehlectric.film.touching_film import TouchingJacobian, assess_touching
@@ -145,7 +145,7 @@ def test_mass_behind_a_steep_node(first_order, behind):
     The other half is the mean of 1 and 0.8, or 1. Before, it is extrapolated from 2.3 and 2.3.
     """
     mass = np.array([[2.3], [2.3], [2.3], [1.0], [0.8]])
-    supply = Supply(np.array([np.inf]), 3, first_order=first_order).at_gap(mass)
+    supply = Supply(np.array([np.inf]), 3, scheme=Scheme(first_order=first_order)).at_gap(mass)
     wedge = supply.wedge(Mesh.over(5, 0.0, 4.0), np.ones(mass.shape, dtype=bool))
     assert wedge(mass)[3, 0] == pytest.approx(behind - 1.8125, abs=1e-14)
 
@@ -158,7 +158,7 @@ def test_derivative_of_the_wedge_where_gaps_close_steeply(order, first_order):
     full, change = np.exp(random.normal(size=(40, 1))), random.normal(size=(40, 1))
     filled = random.random((40, 1)) < 0.8
     full, change = full * filled, change * filled
-    supply = Supply(np.array([np.inf]), order, first_order=first_order)
+    supply = Supply(np.array([np.inf]), order, scheme=Scheme(first_order=first_order))
 
     def wedge(mass):
         return supply.at_gap(np.where(filled, mass, 1.0)).wedge(mesh, filled)(mass)

@@ -176,22 +176,24 @@ def unconverged_heat(heated: HeatedFilm, max_pressure: float, *, rough: bool) ->
             "lubricant.eyring_stress, and set film.rheology to 'eyring'"
         )
     if heated.unsettled is not None:
-        return unsettled_heat(heated.unsettled, rough=rough)
+        return unsettled_heat(heated.unsettled, reached_rise(heated), rough=rough)
     return (
         f"Temperature and pressure do not converge together ({reached_rise(heated)}), also with more Newton "
         "steps. Try another number of grid.nodes, or film.thermal = false"
     )
 
 
-def unsettled_heat(unsettled: tuple[float, float, float], *, rough: bool) -> str:
+def unsettled_heat(unsettled: tuple[float, float, float], reached: str, *, rough: bool) -> str:
     """Reason and advice about a film that converges in each turn while its temperature does not.
 
-    ``unsettled`` is the change of temperature [K] and the position, as in ``HeatedFilm``.
+    ``unsettled`` is the change of temperature [K] and the position, as in ``HeatedFilm``, and ``reached`` the
+    temperature rise in words.
 
     Examples
     --------
-    >>> unsettled_heat((17.3, 0.28, 0.0), rough=False).split(": ")[0]
-    'The film converges, and its temperature (energy equation) still changes by 17 K at x/b = 0.28'
+    >>> text = unsettled_heat((17.3, 0.28, 0.0), "last rise 90 K", rough=False)
+    >>> text.split("temperature ")[1].split(": ")[0]
+    '(energy equation) still changes by 17 K at x/b = 0.28 (last rise 90 K)'
     """
     change, x, y = unsettled
     place = f"(x, y)/b = ({x:.2f}, {y:.2f})" if y else f"x/b = {x:.2f}"
@@ -200,7 +202,7 @@ def unsettled_heat(unsettled: tuple[float, float, float], *, rough: bool) -> str
         advice = f"use a longer cutoff_short or a lower roughness, or {advice}"
     return (
         f"The film converges, and its temperature (energy equation) still changes by {readable(change, 2)} K "
-        f"at {place}: {advice}"
+        f"at {place} ({reached}): {advice}"
     )
 
 

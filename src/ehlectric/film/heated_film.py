@@ -37,7 +37,7 @@ from ehlectric.film.newton import (
     State,
     newton,
 )
-from ehlectric.film.oil_content import Carried, Supply
+from ehlectric.film.oil_content import USUAL, Carried, Scheme, Supply
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.shear_flow import Columns, ShearedFlow, filled_part
 from ehlectric.film.shear_laws import UNBOUNDED
@@ -364,7 +364,7 @@ class OuterIteration:
         if self.supply is not None:
             return self._turns(state, heat, filled, spike=spike)
         if filled is not None:
-            carried = self._carrying(state, heat, filled, first_order=False)
+            carried = self._carrying(state, heat, filled, USUAL)
             # A film that is only a guess is not worth another iteration.
             if carried.status == "converged" or self.most_loops < MOST_LOOPS:
                 return carried
@@ -372,16 +372,18 @@ class OuterIteration:
         full = grid.final.full_film
         if grid.status != "converged" or not forms_again(full):
             return grid
-        for first_order in (False, True):
-            again = self._carrying(grid.state, grid.heat, full, first_order=first_order)
+        scheme: Scheme | None = USUAL
+        while scheme is not None:
+            again = self._carrying(grid.state, grid.heat, full, scheme)
             if again.status == "converged":
                 return replace(again, steps=grid.steps + again.steps, loops=grid.loops + again.loops)
+            scheme = scheme.simpler
         # A film that creates oil is better than none; a warning reports it.
         return grid
 
-    def _carrying(self, state: State, heat: Heat | None, filled: Mask, *, first_order: bool) -> HeatedGrid:
+    def _carrying(self, state: State, heat: Heat | None, filled: Mask, scheme: Scheme) -> HeatedGrid:
         """Flooded film with mass-conserving cavitation, from a guess and its filled nodes (nx, ny)."""
-        supply = flooded_inlet(self.level, self.problem.wedge_order, first_order=first_order)
+        supply = flooded_inlet(self.level, self.problem.wedge_order, scheme)
         return replace(self, supply=supply)._turns(state, heat, with_inlet(filled), spike=False)
 
     def _turns(self, state: State, heat: Heat | None, filled: Mask | None, *, spike: bool) -> HeatedGrid:

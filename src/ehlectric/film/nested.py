@@ -188,6 +188,7 @@ def _mixed(
     posed = replace(posed, levels=levels)
     conserving = Conserving(posed, problem.wedge_order)
     grids: list[GridSolution] = []
+    filled = None
     if near is not None and near.touching.any() and coarse is not None and coarse.fraction is not None:
         filled = filled_on(level.mesh, coarse.level.mesh, with_inlet(coarse.final.full_film))
         grids.append(conserving.near(near, filled))
@@ -211,6 +212,10 @@ def _mixed(
     *others, best = conserving.from_full(full, thorough=finest)
     if best.status == "converged":
         return _replaced([*others, *grids], _apart(problem, levels, best, progress))
+    if near is not None and filled is not None:
+        simpler = conserving.near_simpler(near, filled)
+        if simpler.status == "converged":
+            return _replaced([*others, best, *grids], simpler)
     # A film that creates oil is better than none; a warning reports it.
     return [*others, best, *grids]
 

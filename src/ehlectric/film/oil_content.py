@@ -119,20 +119,43 @@ class Fullness:
 
         Examples
         --------
-        >>> one = np.ones((1, 1))
-        >>> Fullness.of(1e-3 * one, one, 1e3 * one, 10.0).weight.round(3).item()
-        0.5
+        >>> ones = np.ones((2, 1))
+        >>> Fullness.of(1e-3 * ones, ones, 1e3 * ones, 10.0).weight[:, 0].round(3).tolist()
+        [1.0, 0.5]
         """
         with np.errstate(divide="ignore"):
             scale = np.minimum(_HALF_FULL * rate * mass / poiseuille, _MOST_HALF_FULL)
         ratio = np.maximum(excess, 0.0) / scale
-        weight = ratio**2 / (1.0 + ratio**2)
-        return cls(weight, 2.0 * ratio / (1.0 + ratio**2) ** 2 / scale)
+        weight, slope = ratio**2 / (1.0 + ratio**2), 2.0 * ratio / (1.0 + ratio**2) ** 2 / scale
+        # Oil floods the inlet edge at ambient pressure.
+        weight[0], slope[0] = 1.0, 0.0
+        return cls(weight, slope)
 
     def injected(self, level: Level) -> Fullness:
         """Fullness on the next coarser grid, for its wedge term only."""
         weight = level.inject(self.weight)
         return Fullness(weight, np.zeros_like(weight))
+
+
+@dataclass(frozen=True)
+class Scheme:
+    """Formulas of the mass at the faces next to cavities and to steep edges of the gap."""
+
+    # Whether the flow is continuous where a node changes from filled to cavitated, as rough surfaces need it.
+    continuous: bool = True
+    # Whether the mass downstream of nodes to which the gap closes steeply is the mass of the node instead of
+    # the mean.
+    first_order: bool = False
+
+    @property
+    def simpler(self) -> Scheme | None:
+        """Less accurate scheme that may converge where this one does not; None if there is none."""
+        if self.continuous:
+            return replace(self, continuous=False)
+        return None if self.first_order else replace(self, first_order=True)
+
+
+USUAL = Scheme()
 
 
 @dataclass(frozen=True)
@@ -145,11 +168,7 @@ class Supply:
     upwind: Mask | bool = False
     steepness: Steepness | None = None  # of the gap at the state; None where surfaces cannot touch
     fullness: Fullness | None = None  # of the nodes at the state; None if all filled nodes are full
-    # Whether the flow is continuous where a node changes from filled to cavitated, as rough surfaces need it.
-    continuous: bool = True
-    # Whether the mass downstream of nodes to which the gap closes steeply is the mass of the node instead of
-    # the mean.
-    first_order: bool = False
+    scheme: Scheme = USUAL  # formulas of the mass at the faces
 
     def wedge(self, mesh: Mesh, filled: Mask, full: Array | None = None) -> Stencil:
         """Operator of the wedge term, an upstream difference, with given filled nodes, a mask (nx, ny).
@@ -163,9 +182,9 @@ class Supply:
         steepness = self.steepness
         if steepness is None:
             return faces.difference(mesh)
-        mean = 0.0 * ahead if self.first_order else 0.5 * ahead
+        mean = 0.0 * ahead if self.scheme.first_order else 0.5 * ahead
         faces = faces.steep(high, steepness, full, mean)
-        if full is not None and self.order > 1:
+        if full is not None and self.order > 1 and self.scheme.continuous:
             # The weight ahead falls where the gap opens more steeply.
             change = -self._by_weights(high, full)[1] * _ahead(high, self.fullness)
             near = faces.near + change * steepness.opening_by_node
@@ -175,7 +194,7 @@ class Supply:
     def _weights(self, high: Mask) -> tuple[Array, Array]:
         """Weights (nx - 1, ny) of the node before and of the node behind each face."""
         ahead = _ahead(high, self.fullness)
-        if self.steepness is not None:
+        if self.steepness is not None and self.scheme.continuous:
             ahead = ahead * (1.0 - self.steepness.opening)
         return _before(high, self.fullness), ahead
 
@@ -189,7 +208,7 @@ class Supply:
         if self.steepness is None:
             return by_before, by_ahead
         part = np.where(high, self.steepness.part, 0.0)[:-1]
-        mean = 0.0 if self.first_order else 0.5 * np.diff(mass, axis=0)
+        mean = 0.0 if self.scheme.first_order else 0.5 * np.diff(mass, axis=0)
         return (1.0 - part) * by_before, (1.0 - part) * by_ahead + part * mean
 
     def by_fullness(self, mesh: Mesh, filled: Mask, mass: Array) -> Stencil | None:
@@ -220,7 +239,7 @@ class Supply:
 
     def at_state(self, excess: Array, full: Array, poiseuille: Array, rate: float) -> Supply:
         """Supply with the fullness of the nodes at an excess pressure, as in ``Fullness.of``."""
-        if not self.continuous:
+        if not self.scheme.continuous:
             return self
         return replace(self, fullness=Fullness.of(excess, full, poiseuille, rate))
 

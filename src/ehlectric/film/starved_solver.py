@@ -19,7 +19,7 @@ from ehlectric.film.dry_contact import dry_contact
 from ehlectric.film.levels import Level
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.newton import Asperities, GridProblem, GridSolution, Guess, State
-from ehlectric.film.oil_content import Carried, Supply, carried_rows
+from ehlectric.film.oil_content import USUAL, Carried, Scheme, Supply, carried_rows
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.touching_film import touching_newton
 
@@ -60,17 +60,19 @@ def conserving_film(problem: GridProblem, start: tuple[State, Mask], order: int)
     """
     state, filled = start
     guess = Guess(replace(state, contact_pressure=0.0), with_inlet(filled))
-    apart, supply = replace(problem, asperities=Asperities()), flooded_inlet(problem.level, order)
-    film = isothermal(apart)(guess, supply)
-    if film.status == "converged":
-        return film
-    damped = isothermal(apart, first_damping=_FIRST_DAMPING)(guess, supply)
-    return damped if damped.status == "converged" else film
+    apart, films = replace(problem, asperities=Asperities()), []
+    for scheme in (USUAL, Scheme(continuous=False)):
+        for damping in (0.0, _FIRST_DAMPING):
+            solved = isothermal(apart, first_damping=damping)
+            films.append(solved(guess, flooded_inlet(problem.level, order, scheme)))
+            if films[-1].status == "converged":
+                return films[-1]
+    return films[0]
 
 
-def flooded_inlet(level: Level, order: int, *, first_order: bool = False) -> Supply:
-    """Supply of more oil than any gap takes, at the lines of a grid; ``first_order`` as in ``Supply``."""
-    return Supply(np.full(level.mesh.y.size, np.inf), order, first_order=first_order)
+def flooded_inlet(level: Level, order: int, scheme: Scheme = USUAL) -> Supply:
+    """Supply of more oil than any gap takes, at the lines of a grid."""
+    return Supply(np.full(level.mesh.y.size, np.inf), order, scheme=scheme)
 
 
 def with_inlet(filled: Mask) -> Mask:
@@ -166,8 +168,7 @@ class StarvedProblem:
     # one.
     cold: GridSolution | None = None
     with_heat: bool = False  # whether ``film`` finds films with heat or shear
-    # Whether the wedge term is of first order where the gap closes steeply, as in ``Supply``
-    first_order: bool = False
+    scheme: Scheme = USUAL  # formulas of the mass at the faces
     careful: Solver | None = None  # slower solver, which is tried where ``film`` finds no film with heat
     most_steps: float = np.inf  # Newton steps after which no further guess is tried
 
@@ -224,8 +225,8 @@ class StarvedProblem:
         if self.posed.asperities.boundary_film:
             yield self._under(layer, self._from_contact(layer))
         yield from self._in_steps(layer)
-        if self.posed.asperities.boundary_film and not self.first_order:
-            yield from replace(self, first_order=True)._attempts(layer, near)
+        if self.posed.asperities.boundary_film and self.scheme.simpler is not None:
+            yield from replace(self, scheme=self.scheme.simpler)._attempts(layer, near)
 
     def _with_heat(self, layer: Array, near: Guess | None) -> Iterator[GridSolution]:
         """Films with heat from the guesses near the film, as one from further away takes long to fail.
@@ -241,7 +242,7 @@ class StarvedProblem:
             fall = ambient * at_centre_line(self.level, layer) / supplied
             # The spots of a film on a coarser grid are others.
             guesses.insert(0 if cold.touches else len(guesses), self._follow(cold, fall))
-            scheme = replace(self, first_order=cold.content.supply.first_order)
+            scheme = replace(self, scheme=cold.content.supply.scheme)
         guesses.append(self._from_dry(layer))
         for solver in (self.film, self.careful):
             if solver is not None:
@@ -254,9 +255,10 @@ class StarvedProblem:
     def _under(self, layer: Array, guess: Guess) -> GridSolution:
         """Film under a layer of oil (ny,), from a guess."""
         ambient = self.posed.fluid.ambient_density
+        # The filled nodes of smooth films are one region.
         rough = self.problem.added_gap is not None
-        supply = Supply(ambient * layer, self.order, continuous=rough, first_order=self.first_order)
-        return self.film(guess, supply)
+        scheme = self.scheme if rough else replace(self.scheme, continuous=False)
+        return self.film(guess, Supply(ambient * layer, self.order, scheme=scheme))
 
     def _from_flooded(self, layer: Array) -> Guess:
         """Flooded film whose surfaces are brought together until its centre is as thick as the layer."""

@@ -505,7 +505,8 @@ def touching_newton(
             best, best_step = now.norm, len(steps)
         close = linear_tolerance(now.norm, before, 0.0)
         before = now.norm
-        part = _part(best, len(steps) - best_step)
+        weighted = now.carried is not None and now.carried.supply.scheme.continuous
+        part = _part(best, len(steps) - best_step) if weighted else 1.0
         step = newton_step(fluid, problem.levels, state, now, asperities, close, damping, part)
         steps.append(step.record)
         assessed = step.now

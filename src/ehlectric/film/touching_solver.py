@@ -33,7 +33,7 @@ from ehlectric.film.dry_contact import dry_contact, relieved
 from ehlectric.film.face_flow import Fluid
 from ehlectric.film.levels import Level
 from ehlectric.film.newton import Asperities, GridProblem, GridSolution, Guess, NewtonStep, State
-from ehlectric.film.oil_content import Carried, Supply, carried_rows
+from ehlectric.film.oil_content import USUAL, Carried, Scheme, Supply, carried_rows
 from ehlectric.film.reynolds import Stencil
 from ehlectric.film.starved_solver import flooded_inlet, isothermal, with_inlet
 from ehlectric.film.touching_film import (
@@ -62,24 +62,34 @@ class Conserving:
 
     problem: GridProblem  # lubricant, grids, asperities and stopping rule
     order: int  # order of the wedge term where oil fills the gap: 1, 2 or 3
-    # Whether the wedge term is of first order where the gap closes steeply, as in ``Supply``
-    first_order: bool = False
+    scheme: Scheme = USUAL  # formulas of the mass at the faces
 
     def near(self, state: State, filled: Mask) -> GridSolution:
         """Film from a state that is likely to be close, with the nodes (nx, ny) that oil fills in it."""
         return self._solved(self.problem, state, filled, NEAR_DAMPING)
 
+    def near_simpler(self, state: State, filled: Mask) -> GridSolution:
+        """Film of the first simpler scheme that converges from a state that is likely to be close."""
+        scheme = self.scheme.simpler
+        assert scheme is not None
+        simpler = replace(self, scheme=scheme)
+        film = simpler.near(state, filled)
+        if film.status == "converged" or scheme.simpler is None:
+            return film
+        return simpler.near_simpler(state, filled)
+
     def from_full(self, solution: GridSolution, *, thorough: bool) -> Iterator[GridSolution]:
         """Films from a converged one that counts its cavities as full: at once, and ``thorough`` in steps.
 
-        They end with the first that converges. A film with upwind differences is a guess for the usual
-        scheme, and the result only if the usual scheme does not converge from it.
+        They end with the first that converges. The film of a simpler scheme is a guess for the usual scheme,
+        and the result only if the usual scheme does not converge from it.
         """
         yield (film := self.near(solution.state, solution.final.full_film))
         if thorough and film.status != "converged":
             yield (film := self._in_steps(solution))
-        if film.status != "converged" and not self.first_order:
-            for film in replace(self, first_order=True).from_full(solution, thorough=thorough):
+        if film.status != "converged" and self.scheme.simpler is not None:
+            simpler = replace(self, scheme=self.scheme.simpler)
+            for film in simpler.from_full(solution, thorough=thorough):
                 usual = self.near(film.state, film.final.full_film) if film.status == "converged" else film
                 better = usual.status == "converged" and usual is not film
                 yield replace(usual, steps=film.steps + usual.steps) if better else film
@@ -119,7 +129,7 @@ class Conserving:
     @property
     def _supply(self) -> Supply:
         """Flooded inlet."""
-        return flooded_inlet(self.problem.level, self.order, first_order=self.first_order)
+        return flooded_inlet(self.problem.level, self.order, self.scheme)
 
 
 # Inverse time steps, as the spacing dX over the distance that oil travels in the step: the first one, the one

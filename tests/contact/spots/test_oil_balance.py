@@ -56,8 +56,15 @@ def test_what_enters_leaves():
     """Surfaces apart: 35 % of the flow would appear if cavitated gaps counted as full."""
     case = rough_line(gaussian(0.2e-6, 30e-6, seed=3), nodes=801, speed=0.02)
     result = solve(case, beside_smooth=False)
-    assert not np.any(result.film.contact)
-    assert abs(gained(result)) < 1e-6
+    film = result.film
+    assert not np.any(film.contact)
+    # Far from cavities the weights of the formula are 1 within 1e-4, and its orders differ by less than 1e-2.
+    high = film.pressure > 0.3 * np.max(film.pressure)
+    faces = np.flatnonzero(high & np.roll(high, 1) & np.roll(high, -1))
+    first, last = faces[0], faces[-1]
+    assert np.any(film.cavitated[first:last])
+    flow = result.conditions.entrainment_speed * np.mean((film.density * film.thickness)[first:last])
+    assert abs(flux_behind(result, last) - flux_behind(result, first)) < 1e-5 * flow
     assert oil_balance(case, result.conditions, result.film).mass_error < 1e-6
 
 
