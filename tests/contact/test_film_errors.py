@@ -166,7 +166,7 @@ def test_advice_for_a_thick_film_at_high_l_helps(paper_case):
     case = paper_case.replace(oil | keys)
     stalled = solve(case)
     (text,) = (str(warning) for warning in stalled.warnings if warning.code == "not-converged")
-    assert text.endswith("solver.max_iterations = 200")
+    assert text.endswith("solver.max_iterations = 200.")
     assert not solve(case.replace({"grid.nodes": 1601})).converged
     assert solve(case.replace({"solver.max_iterations": 200})).converged
 

@@ -137,3 +137,17 @@ def _passed_on(supply, filled, mass, node):
         content = float(supply.at_rupture(filled, flow)[node, 0])
         low, high = (middle, high) if content < mass[node, 0] else (low, middle)
     return 0.5 * (low + high)
+
+
+def test_oil_through_the_inlet_is_the_oil_through_the_contact():
+    """The first face takes the mean mass of its two nodes, as the layer that a flooded film takes does."""
+    film = mixed_film(posed(rough_line(gaussian(200e-9, 20e-6, seed=1), nodes=401, speed=0.5)))
+    final = film.last.final
+    mass = (final.coefficients.density * film.gap)[:, 0]
+    driven = film.mesh.dx * final.flow.along.flux[:, 0]
+    through_inlet = 0.5 * (mass[0] + mass[1]) - driven[0]
+    # Of third order, where the pressure is far above ambient pressure.
+    i = int(np.argmax(film.oil_pressure[:, 0]))
+    through = (3.0 * mass[i + 1] + 6.0 * mass[i] - mass[i - 1]) / 8.0 - driven[i]
+    assert film.last.content is not None
+    assert through_inlet == pytest.approx(through, rel=1e-4)

@@ -37,7 +37,7 @@ from ehlectric.film.newton import (
     State,
     newton,
 )
-from ehlectric.film.oil_content import USUAL, Carried, Scheme, Supply
+from ehlectric.film.oil_content import SCHEMES, USUAL, Carried, Scheme, Supply
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.shear_flow import Columns, ShearedFlow, filled_part
 from ehlectric.film.shear_laws import UNBOUNDED
@@ -372,12 +372,10 @@ class OuterIteration:
         full = grid.final.full_film
         if grid.status != "converged" or not forms_again(full):
             return grid
-        scheme: Scheme | None = USUAL
-        while scheme is not None:
+        for scheme in SCHEMES:
             again = self._carrying(grid.state, grid.heat, full, scheme)
             if again.status == "converged":
                 return replace(again, steps=grid.steps + again.steps, loops=grid.loops + again.loops)
-            scheme = scheme.simpler
         # A film that creates oil is better than none; a warning reports it.
         return grid
 
@@ -539,14 +537,19 @@ class OuterIteration:
 
 def is_stale(changes: list[float]) -> bool:
     """Whether the last turns of an iteration have not changed it by less than a turn before them."""
-    before, last = changes[:-_STALE], changes[-_STALE:]
-    return bool(before) and min(last) >= min(before)
+    return _least_without_fall(changes, _STALE) is not None
 
 
 def goes_round(changes: list[float], allowed: float) -> bool:
     """Whether an iteration changes by far more than what is allowed, and has long not changed by less."""
-    before, last = changes[:-_PATIENCE], changes[-_PATIENCE:]
-    return bool(before) and min(last) >= max(min(before), _NEAR * allowed)
+    least = _least_without_fall(changes, _PATIENCE)
+    return least is not None and least >= _NEAR * allowed
+
+
+def _least_without_fall(changes: list[float], turns: int) -> float | None:
+    """Least change of the last turns, if no change of them is less than all before them; None otherwise."""
+    before, last = changes[:-turns], changes[-turns:]
+    return min(last) if before and min(last) >= min(before) else None
 
 
 def change_between(weight: Array, heat: Heat, new: Heat, thermal: Thermal) -> float:

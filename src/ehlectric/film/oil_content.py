@@ -119,16 +119,16 @@ class Fullness:
 
         Examples
         --------
-        >>> ones = np.ones((2, 1))
+        >>> ones = np.ones((3, 1))
         >>> Fullness.of(1e-3 * ones, ones, 1e3 * ones, 10.0).weight[:, 0].round(3).tolist()
-        [1.0, 0.5]
+        [1.0, 1.0, 0.5]
         """
         with np.errstate(divide="ignore"):
             scale = np.minimum(_HALF_FULL * rate * mass / poiseuille, _MOST_HALF_FULL)
         ratio = np.maximum(excess, 0.0) / scale
         weight, slope = ratio**2 / (1.0 + ratio**2), 2.0 * ratio / (1.0 + ratio**2) ** 2 / scale
-        # Oil floods the inlet edge at ambient pressure.
-        weight[0], slope[0] = 1.0, 0.0
+        # Oil floods the inlet edge at ambient pressure, and the first face takes the mean of its two nodes.
+        weight[:2], slope[:2] = 1.0, 0.0
         return cls(weight, slope)
 
     def injected(self, level: Level) -> Fullness:
@@ -150,12 +150,12 @@ class Scheme:
     @property
     def simpler(self) -> Scheme | None:
         """Less accurate scheme that may converge where this one does not; None if there is none."""
-        if self.continuous:
-            return replace(self, continuous=False)
-        return None if self.first_order else replace(self, first_order=True)
+        return next(iter(SCHEMES[SCHEMES.index(self) + 1 :]), None)
 
 
-USUAL = Scheme()
+# All schemes, each less accurate than the one before, which it replaces where that one does not converge.
+SCHEMES = (Scheme(), Scheme(continuous=False), Scheme(continuous=False, first_order=True))
+USUAL = SCHEMES[0]
 
 
 @dataclass(frozen=True)

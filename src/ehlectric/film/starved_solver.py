@@ -19,7 +19,7 @@ from ehlectric.film.dry_contact import dry_contact
 from ehlectric.film.levels import Level
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.newton import Asperities, GridProblem, GridSolution, Guess, State
-from ehlectric.film.oil_content import USUAL, Carried, Scheme, Supply, carried_rows
+from ehlectric.film.oil_content import SCHEMES, USUAL, Carried, Scheme, Supply, carried_rows
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.touching_film import touching_newton
 
@@ -61,7 +61,8 @@ def conserving_film(problem: GridProblem, start: tuple[State, Mask], order: int)
     state, filled = start
     guess = Guess(replace(state, contact_pressure=0.0), with_inlet(filled))
     apart, films = replace(problem, asperities=Asperities()), []
-    for scheme in (USUAL, Scheme(continuous=False)):
+    # The last scheme differs only where surfaces may touch.
+    for scheme in SCHEMES[:-1]:
         for damping in (0.0, _FIRST_DAMPING):
             solved = isothermal(apart, first_damping=damping)
             films.append(solved(guess, flooded_inlet(problem.level, order, scheme)))
@@ -225,8 +226,8 @@ class StarvedProblem:
         if self.posed.asperities.boundary_film:
             yield self._under(layer, self._from_contact(layer))
         yield from self._in_steps(layer)
-        if self.posed.asperities.boundary_film and self.scheme.simpler is not None:
-            yield from replace(self, scheme=self.scheme.simpler)._attempts(layer, near)
+        if self.posed.asperities.boundary_film and self._taken.simpler is not None:
+            yield from replace(self, scheme=self._taken.simpler)._attempts(layer, near)
 
     def _with_heat(self, layer: Array, near: Guess | None) -> Iterator[GridSolution]:
         """Films with heat from the guesses near the film, as one from further away takes long to fail.
@@ -255,10 +256,13 @@ class StarvedProblem:
     def _under(self, layer: Array, guess: Guess) -> GridSolution:
         """Film under a layer of oil (ny,), from a guess."""
         ambient = self.posed.fluid.ambient_density
-        # The filled nodes of smooth films are one region.
+        return self.film(guess, Supply(ambient * layer, self.order, scheme=self._taken))
+
+    @property
+    def _taken(self) -> Scheme:
+        """Scheme of the films: the filled nodes of smooth films are one region, where the flow may jump."""
         rough = self.problem.added_gap is not None
-        scheme = self.scheme if rough else replace(self.scheme, continuous=False)
-        return self.film(guess, Supply(ambient * layer, self.order, scheme=scheme))
+        return self.scheme if rough else replace(self.scheme, continuous=False)
 
     def _from_flooded(self, layer: Array) -> Guess:
         """Flooded film whose surfaces are brought together until its centre is as thick as the layer."""

@@ -242,8 +242,8 @@ class TouchingJacobian:
         helps = contact.any() or (carried is not None and level.mesh.dy is not None)
         opened_factors = _factored(oil_by_p, opened) if opened.any() and helps else None
         stiff_nodes, stiff, jacobians = finest.full_film & ~opened, None, []
-        if opened_factors is not None:
-            # late: films without spots and cavities do not need it
+        if opened_factors is not None and level.mesh.dy is not None:
+            # late: line contacts do not need it
             from ehlectric.film.stiff_nodes import StiffSolver, few_enough
 
             if few_enough(stiff_nodes):

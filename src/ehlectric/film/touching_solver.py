@@ -33,7 +33,7 @@ from ehlectric.film.dry_contact import dry_contact, relieved
 from ehlectric.film.face_flow import Fluid
 from ehlectric.film.levels import Level
 from ehlectric.film.newton import Asperities, GridProblem, GridSolution, Guess, NewtonStep, State
-from ehlectric.film.oil_content import USUAL, Carried, Scheme, Supply, carried_rows
+from ehlectric.film.oil_content import SCHEMES, USUAL, Carried, Scheme, Supply, carried_rows
 from ehlectric.film.reynolds import Stencil
 from ehlectric.film.starved_solver import flooded_inlet, isothermal, with_inlet
 from ehlectric.film.touching_film import (
@@ -70,13 +70,11 @@ class Conserving:
 
     def near_simpler(self, state: State, filled: Mask) -> GridSolution:
         """Film of the first simpler scheme that converges from a state that is likely to be close."""
-        scheme = self.scheme.simpler
-        assert scheme is not None
-        simpler = replace(self, scheme=scheme)
-        film = simpler.near(state, filled)
-        if film.status == "converged" or scheme.simpler is None:
-            return film
-        return simpler.near_simpler(state, filled)
+        for scheme in SCHEMES[1:]:
+            film = replace(self, scheme=scheme).near(state, filled)
+            if film.status == "converged":
+                break
+        return film
 
     def from_full(self, solution: GridSolution, *, thorough: bool) -> Iterator[GridSolution]:
         """Films from a converged one that counts its cavities as full: at once, and ``thorough`` in steps.
