@@ -170,8 +170,12 @@ class CauseSearch:
                 nearest = self._nearest(self.predict, self.posterior.prior_predictions, values, errors)
                 judged = self._judged(nearest, values, errors)
                 if judged.explained:
-                    cause = Cause("factor", quantity, quantity_text(quantity), factor, None, *_left(judged))
-                    yield 2.0, nearest.chi2, replace(cause, meaning=meaning)
+                    label, left = quantity_text(quantity), _left(judged)
+                    yield (
+                        2.0,
+                        nearest.chi2,
+                        Cause("factor", quantity, label, factor, None, *left, meaning=meaning),
+                    )
                     break
 
     def _evidence(self, mask: Mask, factor: float) -> float:
@@ -247,7 +251,7 @@ class CauseSearch:
             needed = float(self.model.values(place, np.array([0.5 + sign * (0.5 + step)]))[0])
             left = _left(self._judged(nearest, values, errors))
             label = f"factor on the {name.label}" if name.key.partition(".")[0] == FILMS else name.label
-            cause = Cause("input", name.key, label, needed, _ends(name), *left)
+            cause = Cause("input", name.key, label, needed, ends_of(name), *left)
             yield (0.0 if step <= _NEAR else 3.0), nearest.chi2, cause
 
     def _steps(self, place: int, ways: Sequence[tuple[Array, float]]) -> list[tuple[float, float, Nearest]]:
@@ -353,7 +357,7 @@ def _left(judged: Posterior) -> tuple[float, float]:
     return float(np.max(np.abs(judged.residuals))), judged.nearest.p_value
 
 
-def _ends(name: Names) -> tuple[float, float]:
-    """Ends of the range of an input."""
+def ends_of(name: Names) -> tuple[float, float]:
+    """Ends of the range of an input; NaN of an input without a range."""
     low, high = (float("nan") if end is None else end for end in (name.low, name.high))
     return low, high

@@ -11,7 +11,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.bearing import MARGIN, is_factor
-from ehlectric.calibration.causes import CauseSearch
+from ehlectric.calibration.causes import CauseSearch, ends_of
 from ehlectric.calibration.models import Model, model_of, points_of
 from ehlectric.calibration.posterior import (
     LEAST_EFFECTIVE,
@@ -307,12 +307,13 @@ class _Compared:
         explained, names = posterior.explained, self.model.names()
         changed = posterior.active & (reductions > np.maximum(_DECIDES, _CERTAIN * spreads))
         for place, (name, after) in enumerate(zip(names, quantiles, strict=True)):
+            low, high = ends_of(name)
             yield CalibratedInput(
                 key=name.key,
                 label=name.label,
                 assumed=name.assumed,
-                low=_end(name.low),
-                high=_end(name.high),
+                low=low,
+                high=high,
                 prior=self._values(place, np.array(INTERVAL)),
                 posterior=self._values(place, after) if explained else None,
                 reduction=float(reductions[place]) if explained else None,
@@ -556,10 +557,6 @@ def _with_first(chance: Chance, inputs: Sequence[CalibratedInput], at: Array, ma
     squares = {k: float(np.corrcoef(at[known, k], logs)[0, 1]) ** 2 for k in varied}
     first = max(squares, key=lambda k: squares[k])
     return replace(chance, first=inputs[first].label, share=squares[first])
-
-
-def _end(value: float | None) -> float:
-    return float("nan") if value is None else value
 
 
 def _quantiles(values: Array, weights: Array) -> Quantiles:

@@ -277,10 +277,7 @@ class AxleCase(CaseFile, book="axle_file"):
             table["contacts"] = self.drive.contacts
         table["gear"]["operation"] |= self.gear_operation(number, turning)
         if self.mesh[number].contact_resistance is not None:
-            table["gear"]["contact"] = {
-                **table["gear"].get("contact", {}),
-                _CONTACT: self.mesh[number].contact_resistance,
-            }
+            set_keys(table, {f"gear.contact.{_CONTACT}": self.mesh[number].contact_resistance})
         with within(f"mesh.{number + 1}.pair"):
             return GearCase.from_dict(
                 table | {"lubricant": self.lubricant.model_copy(), "discharge": self._discharge()}

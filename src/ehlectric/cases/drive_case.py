@@ -232,7 +232,7 @@ def with_files(table: Mapping[str, Any], folder: Path) -> dict[str, Any]:
     for end in ENDS:
         if isinstance(tables.get(end), Mapping) and "file" in tables[end]:
             tables[end] = _bearing_of(tables[end], folder, end)
-    for name in ("source", "duty", "measured"):
+    for name in ("source", "duty"):
         holder = tables.get(name)
         if isinstance(holder, Mapping) and isinstance(holder.get("file"), str):
             # It then stays valid where the case is written to another folder.

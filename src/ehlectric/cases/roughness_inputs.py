@@ -189,13 +189,13 @@ def check_geometry(tables: Iterable[Roughness], geometry: str) -> None:
             table.check_geometry(geometry)
 
 
-def shaft_table(table: dict[str, Any]) -> dict[str, Any] | None:
-    """Table of the record of a shaft voltage, also for a text that stands for its file; None without one."""
-    measured = table.get("measured")
-    record = measured.get("shaft_record") if isinstance(measured, dict) else None
-    if isinstance(measured, dict) and isinstance(record, str):
-        record = measured["shaft_record"] = {"file": record}
-    return record if isinstance(record, dict) else None
+def _file_table(holder: Any, key: str) -> Any:
+    """Value of a key of a table, in which a text becomes a table with this file; None without the table."""
+    if not isinstance(holder, dict):
+        return None
+    if isinstance(holder.get(key), str):
+        holder[key] = {"file": holder[key]}
+    return holder.get(key)
 
 
 def find_files(table: dict[str, Any], folder: Path) -> None:
@@ -204,12 +204,12 @@ def find_files(table: dict[str, Any], folder: Path) -> None:
 
     They then stay valid if the case is written to another folder.
     """
-    rough = table.get("roughness")
-    oil = table.get("lubricant")
-    if isinstance(oil, dict) and isinstance(oil.get("viscosity_table"), str):
-        oil["viscosity_table"] = {"file": oil["viscosity_table"]}
-    viscosities = oil.get("viscosity_table") if isinstance(oil, dict) else None
-    tables = (table.get("duty"), table.get("measured"), shaft_table(table), viscosities)
+    rough, measured = table.get("roughness"), table.get("measured")
+    record, viscosities = (
+        _file_table(holder, key)
+        for holder, key in ((measured, "shaft_record"), (table.get("lubricant"), "viscosity_table"))
+    )
+    tables = (table.get("duty"), measured, record, viscosities)
     for holder in (*(rough if isinstance(rough, list) else []), *tables):
         if not isinstance(holder, dict) or not isinstance(holder.get("file"), str):
             continue

@@ -246,13 +246,14 @@ def solve_drive(
         (remedy.title, dict(remedy.changes), solve(variant, next(parts), workers=workers))
         for (_, remedy), variant in zip(case.numbered_remedies, variants, strict=True)
     )
-    numbers = (number for number, _ in case.numbered_remedies)
     duty, *others = _duties(
         [
             (0, case, solution),
             *(
                 (number, variant, solved)
-                for number, variant, (*_, solved) in zip(numbers, variants, remedies, strict=True)
+                for (number, _), variant, (*_, solved) in zip(
+                    case.numbered_remedies, variants, remedies, strict=True
+                )
             ),
         ],
         partial(solve, workers=workers),

@@ -85,7 +85,6 @@ class ShaftRecord:
     step: float  # sampling interval [s]
     duration: float  # [s]
     noise: float  # standard deviation of the noise and of the resolution [V]
-    largest: float  # largest absolute voltage [V]
     threshold: float  # least voltage before a collapse that is counted [V]
     slow: bool  # whether the samples are too slow to distinguish collapses from edges
     times: Array  # times of the collapses from the first sample [s], shape (m,)
@@ -168,12 +167,14 @@ def shaft_record(
     """
     noise = _noise(shaft)
     largest = float(np.max(np.abs(shaft)))
-    ratio = None if common_mode is None else _ratio(shaft, common_mode, noise)
-    explained = np.zeros_like(shaft) if ratio is None or common_mode is None else ratio.value * common_mode
-    doubt = noise
-    if ratio is not None and common_mode is not None:
-        # The change that the source explains has the noise of two samples.
-        doubt = math.hypot(noise, math.sqrt(2.0) * ratio.value * _noise(common_mode))
+    ratio, explained, doubt = None, np.zeros_like(shaft), noise
+    if common_mode is not None:
+        noise_of_source = _noise(common_mode)
+        ratio = _ratio(shaft, common_mode, noise, noise_of_source)
+        if ratio is not None:
+            explained = ratio.value * common_mode
+            # The change that the source explains has the noise of two samples.
+            doubt = math.hypot(noise, math.sqrt(2.0) * ratio.value * noise_of_source)
     least = max(_NOISE * doubt, _LEAST * largest) if threshold is None else threshold
     widths = _widths(step)
     if ratio is None:
@@ -189,7 +190,6 @@ def shaft_record(
         step=step,
         duration=duration,
         noise=noise,
-        largest=largest,
         threshold=least,
         slow=slow,
         times=step * places.astype(np.float64),
@@ -267,7 +267,7 @@ def _groups(places: IntArray, distance: int) -> list[IntArray]:
     return np.split(places, np.flatnonzero(np.diff(places) > distance) + 1) if places.size else []
 
 
-def _ratio(shaft: Array, common_mode: Array, noise: float) -> Estimate | None:
+def _ratio(shaft: Array, common_mode: Array, noise: float, noise_of_source: float) -> Estimate | None:
     """Change of the shaft voltage divided by the change of the common-mode voltage, at most of its edges.
     None if edges have no ratio in common, as where all films break down within a sample.
 
@@ -278,7 +278,7 @@ def _ratio(shaft: Array, common_mode: Array, noise: float) -> Estimate | None:
     if common_mode.shape != shaft.shape:
         what = f"{common_mode.size} samples"
         raise InputError("common_mode", got=what, takes=f"{shaft.size} samples, as the shaft voltage has")
-    width = _width_of_edges(common_mode)
+    width = _width_of_edges(common_mode, noise_of_source)
     rise, moved = (values[width:] - values[:-width] for values in (common_mode, shaft))
     largest = float(np.max(np.abs(rise), initial=0.0))
     if largest == 0.0:
@@ -292,7 +292,7 @@ def _ratio(shaft: Array, common_mode: Array, noise: float) -> Estimate | None:
         return None
     ratios = moved[edges] / rise[edges]
     mode = _half_sample_mode(np.sort(ratios))
-    doubt = math.hypot(noise, mode * _noise(common_mode))
+    doubt = math.hypot(noise, mode * noise_of_source)
     near = np.abs(ratios - mode) <= max(3.0 * math.sqrt(2.0) * doubt / (_HIGH * largest), 0.02 * abs(mode))
     size = np.abs(rise[edges][near])
     value = float(np.sum(ratios[near] * size) / np.sum(size))
@@ -307,9 +307,9 @@ def _ratio(shaft: Array, common_mode: Array, noise: float) -> Estimate | None:
     return Estimate(value, math.hypot(scatter, max(upper - value, 0.0)))
 
 
-def _width_of_edges(common_mode: Array) -> int:
+def _width_of_edges(common_mode: Array, noise: float) -> int:
     """Number of samples in which edges change by much more than the noise, but not as a whole."""
-    width, least = _SHORTEST, _CLEAR * _noise(common_mode)
+    width, least = _SHORTEST, _CLEAR * noise
     while 4 * width < common_mode.size:
         now, then = (_largest_change(common_mode, each) for each in (width, 2 * width))
         if now >= least or then < _GROWS * now:
@@ -387,7 +387,7 @@ def _peak(
     """Peak of the shaft voltage without discharges [V]: of a record without any, or by the ratio."""
     if ratio is not None and common_mode is not None:
         highest = _smooth_peak(common_mode)
-        return statistics.with_gain(ratio.value * highest, ratio.uncertainty * highest, channels=1)
+        return statistics.with_gain(ratio.value * highest, ratio.uncertainty * highest)
     if not undisturbed:
         return None
     return statistics.with_gain(_smooth_peak(shaft), statistics.noise)
@@ -415,8 +415,8 @@ def measured_shaft(record: ShaftFile) -> tuple[dict[str, Estimate], tuple[Result
         shaft, warnings = _read(record, record.column, record.scale)
         common_mode = None
         if record.common_mode_column is not None:
-            with_key = _read(record, record.common_mode_column, record.common_mode_scale)
-            common_mode = with_key[0].values
+            source, _ = _read(record, record.common_mode_column, record.common_mode_scale)
+            common_mode = source.values
     except InputError as error:
         if error.key == str(Path(record.file)):
             raise error.with_text(f"{key}.file", f"{error.key} {error.text}") from None
