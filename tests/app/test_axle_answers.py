@@ -146,8 +146,7 @@ def test_a_line_of_the_figure_contains_its_bar():
     """Also if one of two meshes conducts, which is neither all of them nor none."""
     solution = solve_axle(AxleCase.from_written(AXLE.table), remedies=False, probable=False).solution
     ratios = solution.ratios()
-    ends = {name: solution.ratio_ends(name) for name in ratios}
-    lines = {name: both for name, both in ends.items() if both is not None}
+    lines = solution.ratio_ends()
     assert lines
     for name, (low, high) in lines.items():
         assert 0.0 < low <= ratios[name] <= high

@@ -202,8 +202,8 @@ def _films_in_time(solved: SolvedFilms, breakdown: Breakdown, conducting: set[st
                 films.append(TimedFilm(name, bearing.shaft, HOUSING, _few_positions(element), stream))
     for number, (name, mesh) in enumerate(zip(case.names_of_meshes(), case.mesh, strict=True)):
         if name not in conducting:
-            with _collecting(missing, f"mesh.{number + 1}"):
-                film = _few_positions(mesh_film(solved.meshes[number], breakdown))
+            with _collecting(missing):
+                film = _few_positions(mesh_film(solved.meshes[number], breakdown, f"mesh.{number + 1}"))
                 stream = f"mesh of {' and '.join(sorted(mesh.gears))}"
                 films.append(TimedFilm(name, mesh.gears[0], mesh.gears[1], film, stream))
     if missing:
@@ -212,14 +212,14 @@ def _films_in_time(solved: SolvedFilms, breakdown: Breakdown, conducting: set[st
 
 
 @contextmanager
-def _collecting(missing: list[InputError], mesh: str = "") -> Iterator[None]:
-    """Context in which the error of a missing value is added to a list, a key of a mesh with its place."""
+def _collecting(missing: list[InputError]) -> Iterator[None]:
+    """Context in which the error of a missing value is added to a list."""
     try:
         yield
     except InputError as error:
         if not error.is_missing:
             raise
-        missing.append(error.under(mesh) if mesh and error.key == "contact_resistance" else error)
+        missing.append(error)
 
 
 def _stream_of_bearing(case: AxleCase, number: int) -> int | str:
@@ -241,8 +241,8 @@ def _few_positions(film: BearingElement) -> BearingElement:
     return replace(film, capacitance=capacitance, breakdown=np.where(limit >= 1e299, math.inf, limit))
 
 
-def mesh_film(gears: GearSolution, breakdown: Breakdown) -> BearingElement:
-    """Film of a solved mesh, at positions over one pitch.
+def mesh_film(gears: GearSolution, breakdown: Breakdown, mesh: str) -> BearingElement:
+    """Film of a solved mesh, at positions over one pitch; ``mesh``, key of its table.
 
     Under high summits it breaks down at the lowest voltage of an arc. Oil passes the Hertz zone in the time
     2 b_H/u_m, in which a contact stays closed, and other oil with another threshold arrives. Raises
@@ -256,7 +256,7 @@ def mesh_film(gears: GearSolution, breakdown: Breakdown) -> BearingElement:
     touching = share if gear.contact.conduction == "by-film" and share > _NEVER else 0.0
     if touching and gear.contact.contact_resistance is None:
         raise InputError.missing(
-            "contact_resistance", "the resistance of the mesh while it conducts, about 1 ohm"
+            f"{mesh}.contact_resistance", "the resistance of the mesh while it conducts, about 1 ohm"
         )
     phases = np.arange(_PHASES) * limits.size // _PHASES
     capacitance, tau = np.asarray(gears.capacitance)[phases], gears.relaxation_time

@@ -202,7 +202,7 @@ class AxleModel:
 def _quick(case: AxleCase) -> AxleCase:
     """Axle whose films are not solved, without measured values and remedies."""
     alone = case.model_copy(update={"measured": None, "remedies": ()})
-    return alone.replace({"drive.contacts": "atlas"}) if case.solves_films else alone
+    return alone.quick
 
 
 def _margin(solution: AxleSolution, strength: float) -> float:

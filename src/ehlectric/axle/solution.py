@@ -101,6 +101,14 @@ class AxleSolution:
 
     def network(self, conduction: Conduction = "by-film") -> Network:
         """Network of all elements, links and capacitances of the machine."""
+        return self._networks[conduction]
+
+    @cached_property
+    def _networks(self) -> dict[Conduction, Network]:
+        """Networks by the assumption about the meshes; a network keeps its solution."""
+        return {conduction: self._network(conduction) for conduction in CONDUCTIONS}
+
+    def _network(self, conduction: Conduction) -> Network:
         case, given = self.case, self.case.circuit.capacitances
         rotor = case.rotor
         films = [
@@ -167,14 +175,16 @@ class AxleSolution:
 
     def ratios(self, conduction: Conduction = "by-film") -> dict[str, float]:
         """Ratios U/V_b of the elements with a breakdown voltage that do not conduct, the largest first."""
-        return {name: ratio for name, ratio in self.ranking(conduction) if name in self.breakdown_voltages}
+        known = self.breakdown_voltages
+        return {name: ratio for name, ratio in self.ranking(conduction) if name in known}
 
-    def ratio_ends(self, name: str) -> tuple[float, float] | None:
-        """Smallest and largest ratio U/V_b of an element, with the meshes that conduct by their films, with
-        all meshes conducting, and with no mesh conducting; None if the element has no ratio in one of them.
+    def ratio_ends(self) -> dict[str, tuple[float, float]]:
+        """Smallest and largest ratio U/V_b of the elements, with the meshes that conduct by their films, with
+        all meshes conducting, and with no mesh conducting; only of elements with a ratio in all of them.
         """
-        values = [self.ratios(conduction).get(name, 0.0) for conduction in CONDUCTIONS]
-        return (min(values), max(values)) if min(values) > 0.0 else None
+        first, *others = (self.ratios(conduction) for conduction in CONDUCTIONS)
+        values = {name: (ratio, *(each.get(name, 0.0) for each in others)) for name, ratio in first.items()}
+        return {name: (min(each), max(each)) for name, each in values.items() if min(each) > 0.0}
 
     def voltages_and_limits(self) -> tuple[Array, Array]:
         """Return voltages and breakdown voltages of all elements after the edge of the case [V].

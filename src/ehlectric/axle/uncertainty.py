@@ -194,7 +194,7 @@ class AxleDesign:
     def of(cls, solution: AxleSolution, films: SolvedFilms | None = None) -> AxleDesign:
         """Design of a solved axle. ``films`` of the atlas or of formulas; by default they are solved."""
         case = solution.case
-        alone = case.model_copy(update={"ranges": None, "remedies": (), "measured": None})
+        quick = case.model_copy(update={"ranges": None, "remedies": (), "measured": None}).quick
         stated = {entry.key: entry for entry in case.ranges or ()}
         usual = {each.change.key: each for each in _usual(case)}
         for key, entry in stated.items():
@@ -208,9 +208,8 @@ class AxleDesign:
             max((each.film_error for each in solution.elements if each.kind == kind), default=0.0)
             for kind in ("bearing", "mesh")
         )
-        quick = alone.replace({"drive.contacts": "atlas"}) if alone.solves_films else alone
         return cls(
-            alone,
+            quick,
             tuple(
                 each
                 for each in changes
@@ -419,8 +418,6 @@ def uncertainty_of(
     Raises InputError where no point has a result.
     """
     design = AxleDesign.of(solution)
-    if design.case.solves_films:
-        design = _quick(design)
     rows = _Rows(tuple(each.name for each in solution.elements))
 
     at = sobol_points(design.width, stages[-1], seed)
@@ -456,13 +453,6 @@ def _inputs(design: AxleDesign, at: Array, computed: Array) -> tuple[tuple[Uncer
         for names, first, total in zip(design.names(), shares.first, shares.total, strict=True)
     ]
     return tuple(sorted(inputs, key=lambda each: -each.total)), float(shares.predicted)
-
-
-def _quick(design: AxleDesign) -> AxleDesign:
-    """Design whose films are not solved."""
-    case = design.case.replace({"drive.contacts": "atlas"})
-    values = {each.name: getattr(design, each.name) for each in fields(design)}
-    return AxleDesign(**values | {"case": case})
 
 
 def _add(rows: _Rows, design: AxleDesign, at: Array) -> None:

@@ -192,6 +192,11 @@ class AxleCase(CaseFile, book="axle_file"):
         return "solved" in ([mesh.pair.contacts for mesh in self.mesh] if chosen is None else [chosen])
 
     @property
+    def quick(self) -> AxleCase:
+        """Axle with films from the atlas or from formulas instead of solved ones."""
+        return self.replace({"drive.contacts": "atlas"}) if self.solves_films else self
+
+    @property
     def edge(self) -> float:
         """Largest edge of the common-mode voltage [V]: a third of the voltage of the DC link."""
         assert self.source.dc_link is not None

@@ -47,13 +47,13 @@ def elements(result: AxleResult, ax: Axes) -> None:
     first = next((name for name, _ in solution.discharging()), None)
     positive = [value for table in (ratios, *bounds) for value in table.values() if value > 0.0]
     low, high = min([*positive, 1.0]) / _ROOM, max([*positive, 1.0]) * _ROOM
+    lines = solution.ratio_ends()
     for place, name in enumerate(names):
         ratio, colour = ratios.get(name, 0.0), ORANGE if name == first else BLUE
         if ratio > 0.0:
             ax.barh(place, ratio - low, _HEIGHT, left=low, color=colour)
-        ends = solution.ratio_ends(name)
-        if ends is not None:
-            ax.plot(ends, [place, place], color=BLACK, lw=1.6, marker="|", ms=8.0)
+        if name in lines:
+            ax.plot(lines[name], [place, place], color=BLACK, lw=1.6, marker="|", ms=8.0)
         if name in rest:
             element = next(each for each in solution.elements if each.name == name)
             _write_without_ratio(ax, place, element, colour if name in ranked else GREY)

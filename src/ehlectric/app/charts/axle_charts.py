@@ -113,10 +113,8 @@ def ratios_figure(result: AxleResult) -> Figure:
     ranking = dict(solution.discharging())
     ratios, *bounds = (solution.ratios(conduction) for conduction in CONDUCTIONS)
     names = list(ranking)
-    labels = {
-        name: f"{name}: {TOUCHES if math.isinf(ratio) else readable(ratio, 3)}"
-        for name, ratio in ranking.items()
-    }
+    texts = {name: TOUCHES if math.isinf(ratio) else readable(ratio, 3) for name, ratio in ranking.items()}
+    labels = {name: f"{name}: {text}" for name, text in texts.items()}
     positive = [value for table in (ratios, *bounds) for value in table.values() if value > 0.0]
     ends = (min([*positive, 1.0]) / _ROOM, max([*positive, 1.0]) * _ROOM)
     data = [
@@ -132,14 +130,14 @@ def ratios_figure(result: AxleResult) -> Figure:
             "hovertemplate": "%{y}<extra></extra>",
         }
     ]
+    lines = solution.ratio_ends()
     for name in names:
-        both = solution.ratio_ends(name)
-        if both is not None:
+        if name in lines:
             data.append(
                 {
                     "type": "scatter",
                     "mode": "lines+markers",
-                    "x": [*both],
+                    "x": [*lines[name]],
                     "y": [labels[name]] * 2,
                     "line": {"color": INK, "width": 2},
                     "marker": {"symbol": "line-ns-open", "size": 9, "color": INK},
@@ -148,9 +146,7 @@ def ratios_figure(result: AxleResult) -> Figure:
             )
     touching = " Hatched bars: summits touch." if math.inf in ranking.values() else ""
     limit = {"type": "line", "x0": 1.0, "x1": 1.0, "yref": "paper", "y0": 0.0, "y1": 1.0}
-    first = (
-        f"{names[0]} first, {labels[names[0]].rpartition(': ')[2]}" if names else "no element has a voltage"
-    )
+    first = f"{names[0]} first, {texts[names[0]]}" if names else "no element has a voltage"
     return Figure(
         "Voltage after an edge / breakdown voltage",
         f"Bar of each bearing and mesh: {first}.",

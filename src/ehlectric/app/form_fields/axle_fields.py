@@ -125,7 +125,7 @@ def axle_groups(inputs: Inputs) -> tuple[Group, ...]:
         groups.append(Group(shaft_title(name), tuple(_shaft_fields(number)), opened=False))
         mounted = [n for n, bearing in enumerate(bearings, 1) if str(bearing.get("shaft", "")) == name]
         for place, n in enumerate(mounted, 1):
-            groups.append(_bearing_group(n, f"Bearing {place} of {name}", names))
+            groups.append(_bearing_group(n, bearing_title(place, name), names))
     lost = [n for n, bearing in enumerate(bearings, 1) if str(bearing.get("shaft", "")) not in names]
     groups += [_bearing_group(n, f"Bearing {n} without a shaft", names) for n in lost]
     groups += [_mesh_group(n, names) for n in range(1, len(_tables(inputs, "mesh")) + 1)]
@@ -162,6 +162,11 @@ def _shafts_of_bearings(inputs: Inputs) -> list[str]:
 def shaft_title(name: str) -> str:
     """Title of the group of a shaft."""
     return f"Shaft {name}"
+
+
+def bearing_title(place: int, name: str) -> str:
+    """Title of the group of a bearing, by its place on a shaft from 1."""
+    return f"Bearing {place} of {name}"
 
 
 def _fields(title: str, before: str, after: str) -> Iterator[Field]:
@@ -405,7 +410,7 @@ def summary_of(inputs: Inputs, title: str) -> str:
             return "rotor" if shaft.get("rotor") is True else ""
         mounted = [bearing for bearing in _tables(inputs, "bearing") if bearing.get("shaft") == name]
         for place, bearing in enumerate(mounted, 1):
-            if title == f"Bearing {place} of {name}":
+            if title == bearing_title(place, name):
                 parts = [bearing.get("designation", bearing.get("base", "")), bearing.get("at", "")]
                 return ", ".join(map(str, [*parts, *(["axial"] if bearing.get("locating") is True else [])]))
     return ""

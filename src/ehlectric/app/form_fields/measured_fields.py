@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import replace
-from functools import cache
+from functools import lru_cache
 from typing import Any
 
 from ehlectric.app.form_fields.axle_fields import MEASURED, measured_places
@@ -55,7 +55,8 @@ def measured_fields(kind: str, inputs: Inputs) -> Mapping[str, Field]:
     return {field.key.removeprefix(f"{MEASURED}."): field for field in fields}
 
 
-@cache
+# Names of shafts, which a user types, are in the names of fields.
+@lru_cache(maxsize=256)
 def _field(name: str, of_book: str = "", element: str = "") -> Field:
     """Field of a measured value; ``of_book``, key of its entry in the book if it differs from its own key."""
     known = of_book or f"{MEASURED}.{name}"

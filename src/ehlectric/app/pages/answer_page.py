@@ -346,7 +346,7 @@ class AnswerView(Generic[A]):
         """Show that what was to follow is not computed, as after a wrong input."""
         self.body.set_visibility(self.shown)
         mark(self.body, "stopped", on=True)
-        self.panel.wait("This figure is not computed.")
+        self.lack()
 
     def lack(self) -> None:
         """Show that what was to follow is not computed; the rest of the answer belongs to its inputs."""
@@ -389,11 +389,6 @@ class ProbableView(AnswerView[A]):
     def __init__(self) -> None:
         self._pending: A | None = None  # shown answer whose probability follows
         super().__init__()
-
-    def stop(self) -> None:
-        """Show that the probability is not computed, as after a wrong input."""
-        super().stop()
-        self._end_pending()
 
     def lack(self) -> None:
         """Show that the probability is not computed."""

@@ -134,18 +134,9 @@ class AxleView(ProbableView[AxleAnswer]):
             self._chances.content = "" if chances is None else table_html(chances)
         self._shafts.content = behind("Speeds, torques and voltages of the shafts", table_html(answer.shafts))
 
-    def stop(self) -> None:
-        """Show that nothing follows, without parts that belong to other inputs than the answer."""
-        super().stop()
-        self._drop_earlier()
-
     def lack(self) -> None:
-        """Show that a part does not follow; the other parts belong to the present inputs."""
+        """Show that a part does not follow, without parts that belong to other inputs than the answer."""
         super().lack()
-        self._drop_earlier()
-
-    def _drop_earlier(self) -> None:
-        """Remove parts that belong to other inputs than the rest of the answer."""
         for part in (self._remedies, self._chances):
             if "follows" in part.classes:
                 part.content = ""
