@@ -26,9 +26,9 @@ Constants: TypeAlias = Mapping[str, float]
 # film reaches it; iterates may.
 _LARGEST = 300.0
 
-# Square of the reduced stress below which f of the Eyring law is computed by its series, which is exact to
-# rounding there: the difference cosh(r) - sinh(r)/r loses digits.
-_SMALL = 0.01
+# Square of the reduced stress below which f of the Eyring law is computed by its series from there, as the
+# difference cosh(r) - sinh(r)/r loses digits: f is exact to rounding, and its derivative to 1e-11.
+_SMALL = 1e-4
 
 # Exponent of the smooth transition to the limiting stress, a common choice between 1 (soft) and infinity.
 _SHARPNESS = 5.0
@@ -106,16 +106,15 @@ def eyring_factor(squared: Array, _constants: Constants) -> tuple[Array, Array]:
     >>> bool(np.allclose(factor, [1.0, np.sinh(2.0) / 2.0]))
     True
     """
-    small = squared < _SMALL
-    large = np.where(small, 1.0, squared)
+    large = np.maximum(squared, _SMALL)
+    below = large - squared
     r = np.minimum(np.sqrt(large), _LARGEST)
     up = np.exp(r)
     down = 1.0 / up
     factor = np.asarray(0.5 * (up - down) / r)
     slope = np.asarray((0.5 * (up + down) - factor) / (2.0 * large))
-    x = squared[small]
-    factor[small] = 1.0 + x / 6.0 * (1.0 + x / 20.0 * (1.0 + x / 42.0 * (1.0 + x / 72.0)))
-    slope[small] = (1.0 + x / 10.0 * (1.0 + x / 28.0 * (1.0 + x / 54.0))) / 6.0
+    factor -= below * (1.0 / 6.0 + (large + squared) / 120.0)
+    slope -= below / 60.0
     return factor, slope
 
 

@@ -309,9 +309,12 @@ def even_flux(
     )
 
 
-# Largest number of Newton steps for the mid-film stress, and the relative step at which it is exact: the
-# error of Newton's method is the square of its step.
+# Largest number of Newton steps for the mid-film stress along both axes, and the relative step at which it is
+# exact: the error of Newton's method is the square of its step.
 _MOST_PLANE_STEPS, _EXACT_PLANE = 80, 1e-8
+
+# Largest stress difference over the characteristic stress for which one Newton step from an estimate is tried.
+_NEARLY_EVEN = 0.5
 
 
 def middle_stresses(
@@ -322,24 +325,92 @@ def middle_stresses(
     ``fluidity``, eta_0/eta at the points of the quadrature, shape (nq, ...) or (1, ...); ``gradient`` and
     ``slip``, stress difference q across the film, and slip g over the film thickness, along both axes,
     shape (2, ...). Returns mid-film stress, shape (2, ...).
-
-    Newton's method acts on the rates after the inverse of the law, which makes them nearly linear in t. A
-    step that does not reduce the difference to the slip is halved.
     """
     columns = gradient.shape[1:]
     gradient, slip = gradient.reshape(2, -1), slip.reshape(2, -1)
     fluidity = np.broadcast_to(fluidity.reshape(len(fluidity), -1), (len(fluidity), slip.shape[1]))
+    return _by_newton_in_plane(rheology, fluidity, gradient, slip, quadrature).reshape(2, *columns)
+
+
+def _by_newton_in_plane(
+    rheology: Rheology,
+    fluidity: Array,
+    gradient: Array,
+    slip: Array,
+    quadrature: Quadrature,
+    exact: float = _EXACT_PLANE,
+) -> Array:
+    """Mid-film stress (2, n) of columns, from a (nq, n) or (1, n), q and g (2, n).
+
+    Newton's method acts on the rates after the inverse of the law, which makes them nearly linear in t. A
+    step that does not reduce the difference to the slip is halved. It ends with a relative step of ``exact``.
+    """
     state = _Iteration.start(rheology, fluidity, gradient, slip, quadrature)
     stress = state.trial.copy()
     left = np.arange(slip.shape[1])
     for _ in range(_MOST_PLANE_STEPS):
         state = state.stepped(rheology)
         stress[:, left] = state.trial
-        moving = _size(state.step) > _EXACT_PLANE * (1.0 + _size(state.middle))
+        moving = _size(state.step) > exact * (1.0 + _size(state.middle))
         if not moving.any():
             break
         left, state = left[moving], state.only(moving)
-    return stress.reshape(2, *columns)
+    return stress
+
+
+@dataclass(frozen=True)
+class _Plane:
+    """Shear rates of columns (n,) along both axes at a mid-film stress, and its step to the slip."""
+
+    middle: Array  # mid-film stress over the characteristic stress, shape (2, n)
+    # rate and by_stress: rates times weight and fluidity at the points of the quadrature, shape (2, nq, n),
+    # and their derivatives (xx, xy, yy) by the stress, shape (3, nq, n).
+    rate: Array
+    by_stress: Array
+    by_t: Array  # sums of these derivatives, shape (3, n)
+    missing: Array  # slip less the sum of the rates, shape (2, n)
+    step: Array  # Newton step of the mid-film stress, shape (2, n)
+
+    @classmethod
+    def of(
+        cls,
+        rheology: Rheology,
+        fluidity: Array,
+        gradient: Array,
+        slip: Array,
+        quadrature: Quadrature,
+        middle: Array | None = None,
+    ) -> _Plane:
+        """Rates at a mid-film stress (2, n), or at an estimate for small stress differences: the stress of the
+        mean rate, with the rate factor of the root mean square of the stress that balances the gradient.
+
+        The arguments are the arguments of ``middle_stresses``, with one axis of columns.
+        """
+        law, constants = rheology.law, rheology.constants
+        measure = quadrature.weights[:, np.newaxis] * fluidity
+        if middle is None:
+            total, centre = quadrature.weights @ fluidity, (quadrature.weights * quadrature.offset) @ fluidity
+            square = (gradient[0] ** 2 + gradient[1] ** 2) / 12.0
+            factor, slope = law.factor(square, constants)
+            mean, _ = _as_stress(law, constants, slip / (total * (factor + 2.0 * slope * square)))
+            middle = mean - gradient * (centre / total)
+        stress = middle[:, np.newaxis] + quadrature.offset[:, np.newaxis] * gradient[:, np.newaxis]
+        x, y = stress
+        factor, slope = law.factor(x * x + y * y, constants)
+        factor *= measure
+        slope *= measure
+        slope *= 2.0
+        rate = factor * stress
+        by_stress = np.empty((3, *x.shape))
+        along = slope * x
+        np.multiply(along, x, out=by_stress[0])
+        np.multiply(along, y, out=by_stress[1])
+        np.multiply(slope * y, y, out=by_stress[2])
+        by_stress[0] += factor
+        by_stress[2] += factor
+        by_t = np.sum(by_stress, axis=1)
+        missing = slip - np.sum(rate, axis=1)
+        return cls(middle, rate, by_stress, by_t, missing, _solved(by_t, missing))
 
 
 @dataclass(frozen=True)
@@ -414,12 +485,6 @@ def _over(first: Array, second: Array) -> Array:
     return np.asarray(np.einsum("kn,kn->n", first, second))
 
 
-def _tangent(factor: Array, slope: Array, stress: Array) -> Array:
-    """Derivatives (xx, xy, yy) of the rate r f(r^2) by the stress r, shape (3, nq, ...)."""
-    x, y = stress
-    return np.stack([factor + 2.0 * slope * x**2, 2.0 * slope * x * y, factor + 2.0 * slope * y**2])
-
-
 def _as_stress(law: ShearLaw, constants: Constants, rate: Array) -> tuple[Array, Array]:
     """Stress (2, ...) of a reduced rate (2, ...) without a gradient, and the inverse of its derivative."""
     size = np.maximum(_size(rate), _TINY)
@@ -461,6 +526,8 @@ def plane_flux(
     gradient: Array,
     slip: Array,
     quadrature: Quadrature = GAUSS,
+    *,
+    exact: float = 1e-16,
 ) -> Flux:
     """Flux along the first axis of columns with stresses along both axes.
 
@@ -468,7 +535,8 @@ def plane_flux(
     below the point less half of the oil mass of the film; zeta - 1/2 for a density of one, shape (nq, ...) or
     (nq, 1,
     ...); ``gradient`` and ``slip``, q and g along the axis of the flux, and along the other axis,
-    shape (2, ...). Returns flux and derivatives, exact for this quadrature.
+    shape (2, ...); ``exact``, relative error of the flux for this quadrature; the error of the derivatives is
+    its root. Returns flux and derivatives.
 
     Examples
     --------
@@ -480,30 +548,59 @@ def plane_flux(
     >>> round(float(plane_flux(oil, np.ones((1, 1)), offset, gradient, slip).flux[0]), 7)
     0.0001
     """
-    t = middle_stresses(rheology, fluidity, gradient, slip, quadrature)
-    offset = over_columns(quadrature.offset, gradient[0])
-    measure = over_columns(quadrature.weights, gradient[0]) * fluidity
-    stress = t[:, np.newaxis] + offset * gradient[:, np.newaxis]
-    factor, slope = rheology.law.factor(np.sum(stress**2, axis=0), rheology.constants)
-    rate = measure * factor * stress
-    xx, xy, yy = measure * _tangent(factor, slope, stress)
-    # Multipliers of the two conditions of slip: the change of the flux with t divided by the change of the
-    # slip with t.
-    by_t = np.stack([np.sum(weight * part, axis=0) for part in (xx, xy)])
-    of_slip = _solved(np.stack([np.sum(part, axis=0) for part in (xx, xy, yy)]), by_t)
-    free, other = weight - of_slip[0], -of_slip[1]
-    by_viscosity = -(free * rate[0] + other * rate[1])
+    shape = gradient.shape[1:]
+    gradient, slip = gradient.reshape(2, -1), slip.reshape(2, -1)
+    count = quadrature.offset.size
+    each = np.broadcast_to(fluidity.reshape(len(fluidity), -1), (count, slip.shape[1]))
+    weight = np.broadcast_to(weight.reshape(count, -1), each.shape)
+    def near(columns: tuple[Array, Array, Array], *, estimated: bool) -> _Plane:
+        """Rates at an estimate of the mid-film stress, or at a stress whose error is the square of its step."""
+        middle = None
+        if not estimated:
+            middle = _by_newton_in_plane(rheology, *columns, quadrature, exact=exact**0.25)
+        return _Plane.of(rheology, *columns, quadrature, middle)
+
+    small = np.max(np.abs(gradient), initial=0.0) < _NEARLY_EVEN
+    plane = near((each, gradient, slip), estimated=bool(small))
+    flux = _flux_in_plane(plane, weight, quadrature)
+    far = np.flatnonzero(_size(plane.step) > exact**0.5) if small else ()
+    if len(far):
+        plane = near((each[:, far], gradient[:, far], slip[:, far]), estimated=False)
+        for values, others in zip(flux, _flux_in_plane(plane, weight[:, far], quadrature), strict=True):
+            values[..., far] = others
+    total, by_gradient, by_slip, by_viscosity, by_weight = flux
     if fluidity.shape[0] == 1:
         by_viscosity = np.sum(by_viscosity, axis=0, keepdims=True)
     return Flux(
-        flux=np.sum(weight * rate[0], axis=0),
-        by_gradient=np.stack(
-            [
-                np.sum(offset * (free * xx + other * xy), axis=0),
-                np.sum(offset * (free * xy + other * yy), axis=0),
-            ]
-        ),
-        by_slip=of_slip,
-        by_viscosity=by_viscosity,
-        by_weight=rate[0],
+        flux=total.reshape(shape),
+        by_gradient=by_gradient.reshape(2, *shape),
+        by_slip=by_slip.reshape(2, *shape),
+        by_viscosity=by_viscosity.reshape(-1, *shape),
+        by_weight=by_weight.reshape(count, *shape),
     )
+
+
+def _flux_in_plane(
+    plane: _Plane, weight: Array, quadrature: Quadrature
+) -> tuple[Array, Array, Array, Array, Array]:
+    """Flux of columns along the first axis (n,), and its derivatives by gradient (2, n), slip (2, n), and
+    viscosity and weight at the points (nq, n), from the rates near the mid-film stress.
+
+    ``weight`` (nq, n) is the weight of ``plane_flux``.
+    """
+    rate, (xx, xy, yy) = plane.rate, plane.by_stress
+    weighted = weight * plane.by_stress[:2]
+    # Multipliers of the two conditions of slip: the change of the flux with t divided by the change of the
+    # slip with t. They also correct the flux for the slip that is missing, at second order.
+    of_slip = _solved(plane.by_t, np.sum(weighted, axis=1))
+    flow = weight * rate[0]
+    moments = [quadrature.offset @ values for values in (weighted[0], weighted[1], xx, xy, yy)]
+    flux = np.sum(flow, axis=0) + np.sum(of_slip * plane.missing, axis=0)
+    first, second = of_slip
+    by_gradient = np.stack(
+        [
+            moments[0] - first * moments[2] - second * moments[3],
+            moments[1] - first * moments[3] - second * moments[4],
+        ]
+    )
+    return flux, by_gradient, of_slip, first * rate[0] + second * rate[1] - flow, rate[0]
