@@ -578,34 +578,25 @@ def finite_heat(
 class _March:
     """Factorised columns: a banded system up to the end of the reverse flow, and inverses behind it.
 
-    Behind the reverse flow the temperatures of a column and its fluxes into the bodies are a known part plus
-    ``chain`` times the temperatures of the two columns before it and the rise of both surfaces by the fluxes
-    before it.
+    Behind the reverse flow the temperatures of a column follow from the two columns before it and from the
+    rise of both surfaces by the fluxes before it.
     """
 
     columns: HeatColumns
     surfaces: tuple[Surface, Surface]
     entry: _Entry | None
     inverse: Array  # of the n columns behind the entry, (n, ny, nz, nz)
-    chain: Array  # (n, ny, nz + 2, 2 nz + 2)
 
     @classmethod
     def of(cls, columns: HeatColumns, surfaces: tuple[Surface, Surface]) -> _March:
         matrix, resistances = columns.matrix.copy(), _resistances(surfaces)
-        nz = len(matrix[0, 0])
         for row, resistance in zip((0, -1), resistances, strict=True):
             matrix[..., row, row] += 1.0 / resistance
         back = np.flatnonzero(np.any(columns.after[:-1], axis=(1, 2)))
         entry = _Entry.of(matrix, columns, int(back[-1]) + 2) if back.size else None
         behind = slice(entry.count if entry else 0, None)
         inverse: Array = np.asarray(np.linalg.inv(matrix[behind]), dtype=np.float64)
-        chain = np.empty((*inverse.shape[:2], nz + 2, 2 * nz + 2))
-        chain[..., :nz, :nz] = inverse * columns.second[behind, :, np.newaxis]
-        chain[..., :nz, nz:-2] = inverse * columns.before[behind, :, np.newaxis]
-        chain[..., :nz, -2:] = inverse[..., :: nz - 1] / resistances
-        chain[..., nz:, :] = chain[..., : nz : nz - 1, :] / resistances[:, np.newaxis]
-        chain[..., nz:, -2:] -= np.diag(1.0 / resistances)
-        return cls(columns, surfaces, entry, inverse, chain)
+        return cls(columns, surfaces, entry, inverse)
 
     def __call__(self, last: Heat, inlet_temperature: float, *, symmetric: bool) -> Heat:
         columns, surfaces, resistances = self.columns, self.surfaces, _resistances(self.surfaces)
@@ -614,9 +605,8 @@ class _March:
         right = columns.right + self._from_sides(old, inlet_temperature, symmetric=symmetric)
         # Surface temperatures (nx, ny, 2) without the fluxes at the column itself and, so far, before it.
         rest = np.stack([s.bulk + s.rise_ahead(q) for s, q in zip(surfaces, last.flux, strict=True)], axis=-1)
-        # Temperatures along each line, with two columns of the inlet temperature before the first one.
-        new = np.full((ny, (nx + 2) * nz + 2), inlet_temperature)
-        columns_of = new[:, 2 * nz : -2].reshape(ny, nx, nz)
+        # Temperatures of the columns, behind two columns of the inlet temperature.
+        new = np.full((nx + 2, ny, nz), inlet_temperature)
         flux = np.ascontiguousarray(last.flux.swapaxes(1, 2))
         start = 0
         if self.entry is not None:
@@ -624,20 +614,17 @@ class _March:
             before = [s.rise_behind(q[:start]) for s, q in zip(surfaces, last.flux, strict=True)]
             rest[:start] += np.stack(before, axis=-1)
             right[:start, :, :: nz - 1] += rest[:start] / resistances
-            flux_in = self.entry(right[:start], inlet_temperature)
-            columns_of[:, :start] = flux_in.swapaxes(0, 1)
-            flux[..., :start] = ((flux_in[..., :: nz - 1] - rest[:start]) / resistances).transpose(2, 1, 0)
-        right[start:, :, :: nz - 1] += rest[start:] / resistances
-        known = (self.inverse @ right[start:, ..., np.newaxis])[..., 0]
-        known = np.concatenate([known, (known[..., :: nz - 1] - rest[start:]) / resistances], axis=-1)
+            entering = self.entry(right[:start], inlet_temperature)
+            new[2 : start + 2] = entering
+            flux[..., :start] = ((entering[..., :: nz - 1] - rest[:start]) / resistances).transpose(2, 1, 0)
         tails = np.stack([surface.downstream[::-1, np.newaxis] for surface in surfaces])
-        for i, chain, part in zip(range(start, nx), self.chain, known, strict=True):
-            place = (i + 2) * nz
-            # Until the column is known, its place holds the rise of both surfaces.
-            new[:, place : place + 2] = (flux[..., :i] @ tails[:, nx - 1 - i : nx - 1])[..., 0].T
-            column = (chain @ new[:, place - 2 * nz : place + 2, np.newaxis])[..., 0] + part
-            new[:, place : place + nz], flux[..., i] = column[:, :nz], column[:, nz:].T
-        temperature = np.ascontiguousarray(columns_of.transpose(2, 1, 0))
+        for i, inverse in enumerate(self.inverse, start):
+            surface = rest[i] + (flux[..., :i] @ tails[:, nx - 1 - i : nx - 1])[..., 0].T
+            sources = right[i] + columns.second[i] * new[i] + columns.before[i] * new[i + 1]
+            sources[:, :: nz - 1] += surface / resistances
+            column = np.matmul(inverse, sources[..., np.newaxis], out=new[i + 2, ..., np.newaxis])[..., 0]
+            flux[..., i] = ((column[:, :: nz - 1] - surface) / resistances).T
+        temperature = np.ascontiguousarray(np.moveaxis(new[2:], -1, 0))
         return replace(last, temperature=temperature, flux=np.ascontiguousarray(flux.swapaxes(1, 2)))
 
     @property

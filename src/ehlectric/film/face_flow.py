@@ -98,6 +98,9 @@ class FaceFlow:
     # difference fixed.
     by_properties: Sides
     by_gap: Sides  # derivatives of the flux by H of the two nodes
+    # Derivative of the flux by the gradient of P along the other axis, the mean of the two nodes, shape (n - 1,
+    # m); None where the flux does not depend on it.
+    by_lateral: Array | None = None
     # Part of the flux that the slip of the surfaces drives without any gradient of P, as hot oil on one side
     # lets the rest move with the other side: minus this mass flow over the spacing. Its derivative by H of
     # each of the two nodes. Both have the shape (n - 1, m).
@@ -347,6 +350,20 @@ def _along_and_across(
 def with_mirror(values: Array, mesh: Mesh) -> Array:
     """Nodal values (nx, ny); for a symmetric mesh with one line of the mirror image before the first line."""
     return np.concatenate([values[:, 1:2], values], axis=1) if mesh.symmetric else values
+
+
+def face_mean(values: Array) -> Array:
+    """Means of neighbours along the second last axis."""
+    return np.asarray(0.5 * (values[..., 1:, :] + values[..., :-1, :]))
+
+
+def gradients(pressure: Array, mesh: Mesh) -> tuple[Array, Array]:
+    """Central differences dP/dX and dP/dY at the nodes, one-sided on the edges, each of shape (nx, ny)."""
+    by_x = np.asarray(np.gradient(pressure, mesh.dx, axis=0))
+    if mesh.dy is None:
+        return by_x, np.zeros_like(pressure)
+    by_y = np.asarray(np.gradient(with_mirror(pressure, mesh), mesh.dy, axis=1))
+    return by_x, by_y[:, 1:] if mesh.symmetric else by_y
 
 
 # Name of the law with the flow through a face of the paper.

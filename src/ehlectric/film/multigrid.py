@@ -24,7 +24,7 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.film.face_flow import Flow, Fluid, flow
 from ehlectric.film.gap import Gap
 from ehlectric.film.levels import Distribution, Level
-from ehlectric.film.reynolds import ALONG, OFFSETS, Stencil, linearise, poiseuille_weight
+from ehlectric.film.reynolds import ALONG, OFFSETS, Stencil, lateral_change, linearise, poiseuille_weight
 
 # Half-bandwidth of the line relaxation. The part of the kernel beyond the band is neglected; it decays as
 # 1/distance^2. With 6 a V-cycle reduces the error by a factor of 3 to 12, and 10 gains little.
@@ -204,6 +204,8 @@ class Linearised:
     unscale: Array
     resolved: Mask  # nodes whose residual is passed to the coarser grids, shape (nx, ny)
     log_viscosity: Array  # ln(eta/eta_0) at the state, shape (nx, ny)
+    # Flow with derivatives by the gradients along the other axis, which the stencils lack; None without them.
+    lateral: Flow | None = None
     # Similar Jacobian at an older state, whose line relaxation or factors are used instead of new ones.
     kept: Linearised | None = None
 
@@ -212,7 +214,8 @@ class Linearised:
         """Jacobian at a state, from its gap, its flow and its full-film nodes (nx, ny)."""
         by_p, by_h = linearise(at_faces, gap.level.wedge, gap.thickness, gap.level.mesh)
         stencils = by_p.on_rows(full_film), by_h.on_rows(full_film)
-        return cls.of_stencils(gap, stencils, at_faces, full_film)
+        jacobian = cls.of_stencils(gap, stencils, at_faces, full_film)
+        return jacobian if at_faces.along.by_lateral is None else replace(jacobian, lateral=at_faces)
 
     @classmethod
     def of_stencils(
@@ -249,6 +252,13 @@ class Linearised:
 
     def __call__(self, dp: Array, dh00: float) -> tuple[Array, float]:
         """Change of the Reynolds residual (nx, ny) and of the load for changes dP (nx, ny) and dH00."""
+        change, load = self._by_stencils(dp, dh00)
+        if self.lateral is not None:
+            change += np.where(self.full_film, lateral_change(self.lateral, dp, self.level.mesh), 0.0)
+        return change, load
+
+    def _by_stencils(self, dp: Array, dh00: float) -> tuple[Array, float]:
+        """Change of residual (nx, ny) and load without the derivatives beyond the stencils."""
         dh, load = self.gap.change(dp, dh00)
         return self.by_p(dp) + self.by_h(dh), load
 
@@ -262,8 +272,10 @@ class Linearised:
         return np.append(self.scale * r, load)
 
     def roughly(self, dp: Array, dh00: float) -> tuple[Array, float]:
-        """Change of residual (nx, ny) and load as by a call, to the precision of a preconditioner."""
-        return self(dp.astype(preconditioner_type(self.level)), dh00)
+        """Change of residual (nx, ny) and load as by a call, to the precision of a preconditioner and without
+        the derivatives beyond the stencils.
+        """
+        return self._by_stencils(dp.astype(preconditioner_type(self.level)), dh00)
 
     @cached_property
     def relax(self) -> LineRelaxation:

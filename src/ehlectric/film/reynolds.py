@@ -18,7 +18,7 @@ import numpy as np
 import scipy
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.film.face_flow import Flow
+from ehlectric.film.face_flow import Flow, face_mean, gradients, with_mirror
 from ehlectric.film.mesh import Mesh
 
 # Nodes that a row of a stencil couples, as steps along x and y: four nodes along x and, in a point contact,
@@ -168,6 +168,23 @@ def residual(flow: Flow, wedge: Stencil, thickness: Array, mesh: Mesh) -> Array:
     if flow.across is not None:
         r[1:-1, _inner_lines(mesh)] -= flow.across.divergence().T[1:-1]
         r[~mesh.inner] = 0.0
+    return r
+
+
+def lateral_change(flow: Flow, change: Array, mesh: Mesh) -> Array:
+    """Change of the residual r (nx, ny) of a shear-thinning film by the gradients along the other axis.
+
+    A change (nx, ny) of P changes dP/dY, and thus the viscosity, at the faces along x, and dP/dX at the faces
+    across it. ``linearise`` lacks these derivatives, as they reach nodes outside its stencils.
+    """
+    r = np.zeros_like(change)
+    if flow.across is None or flow.along.by_lateral is None or flow.across.by_lateral is None:
+        return r
+    by_x, by_y = gradients(change, mesh)
+    r[1:-1] -= np.diff(flow.along.by_lateral * face_mean(by_y), axis=0)
+    across = flow.across.by_lateral * face_mean(with_mirror(by_x, mesh).T)
+    r[1:-1, _inner_lines(mesh)] -= np.diff(across, axis=0).T[1:-1]
+    r[~mesh.inner] = 0.0
     return r
 
 

@@ -45,6 +45,8 @@ from ehlectric.film.face_flow import (
     Fluid,
     Sides,
     evaluate,
+    face_mean,
+    gradients,
     logarithmic_mean,
     with_mirror,
 )
@@ -129,12 +131,15 @@ def flux_of(
 
 
 def _parts(
-    rheology: Rheology, gradient: Array, ratio: Array | None
+    rheology: Rheology, gradient: Array, ratio: Array | None, *, fewest: bool = True
 ) -> list[tuple[NDArray[np.intp] | slice, Quadrature]]:
-    """Columns (n,) with the quadrature that is exact enough for them; arguments as for ``flux_of``."""
+    """Columns (n,) with the quadrature that is exact enough for them; arguments as for ``flux_of``.
+
+    Without ``fewest`` points the speeds at all nodes are also exact, and not only the flux.
+    """
     reach = np.zeros(gradient.shape[1]) if rheology.law.even else np.max(np.abs(gradient), axis=0)
     varied = reach if ratio is None else reach + np.max(ratio, axis=0) - np.min(ratio, axis=0)
-    count = (reach >= _SMALL).astype(int) + (varied >= _SMALLEST)
+    count = (reach >= _SMALL).astype(int) + (varied >= (_SMALLEST if fewest else 0.0))
     points = _FEWEST, _FEW if ratio is None else _FEW_OF_PROFILE, GAUSS.offset.size
     counted = np.bincount(count, minlength=len(points))
     if count.size <= _TOGETHER:
@@ -280,36 +285,37 @@ class ShearedFlow:
         """Flow along the first axis; ``lateral`` is the gradient of P along the other axis at the nodes."""
         k, properties = nodes.uniform, nodes.profile
         mean, by_before, by_after = logarithmic_mean(k.log_viscosity, k.fluidity)
-        gap = _mean(nodes.thickness)
+        gap = face_mean(nodes.thickness)
         difference = np.diff(nodes.pressure, axis=0)
         lowest = fluid.ambient_pressure
-        scale, scale_p = self._scale(np.maximum(_mean(nodes.pressure), lowest))
+        scale, scale_p = self._scale(np.maximum(face_mean(nodes.pressure), lowest))
         gradient = (gap / spacing * difference / scale)[np.newaxis]
         sliding = (slip / (gap * scale))[np.newaxis]
         if lateral is not None:
-            # The derivatives by the gradient along the other axis are omitted from the Jacobian, as they
-            # reach nodes outside its stencil. They are products of both gradients; Newton's method takes a
-            # few more steps without them.
-            gradient = np.concatenate([gradient, (gap * _mean(lateral) / scale)[np.newaxis]])
+            gradient = np.concatenate([gradient, (gap * face_mean(lateral) / scale)[np.newaxis]])
             still = np.zeros_like(sliding)
             sliding = np.concatenate([still, sliding] if across else [sliding, still])
-        profile = None if properties is None else (_mean(properties.log_ratio), _mean(properties.density))
+        profile = (
+            None if properties is None else (face_mean(properties.log_ratio), face_mean(properties.density))
+        )
         faces = flux_of(self.rheology, mean, gradient, sliding, profile)
 
         size = 12.0 / fluid.velocity_parameter * gap**2 / spacing
         of_scale = faces.flux - np.sum(gradient * faces.by_gradient + sliding * faces.by_slip, axis=0)
         of_gap = 2.0 * faces.flux + np.sum(gradient * faces.by_gradient - sliding * faces.by_slip, axis=0)
-        by_scale = 0.5 * size * of_scale * np.where(_mean(nodes.pressure) > lowest, scale_p, 0.0)
+        by_scale = 0.5 * size * of_scale * np.where(face_mean(nodes.pressure) > lowest, scale_p, 0.0)
         amount = size * scale
-        mass = _mean(k.density) if properties is None else 1.0
+        mass = face_mean(k.density) if properties is None else 1.0
         half_gap = 0.5 * amount * mass * of_gap / gap
         before, after = nodes.by_properties(faces, by_before / mean, by_after / mean)
         drift: Array | float = 0.0
         if profile is not None and not across:
             drift = -gap * drift_of(*profile, self.slide_to_roll_ratio) / spacing
+        passing = size * mass * gap
         return FaceFlow(
             flux=amount * mass * faces.flux,
-            conductance=size * mass * faces.by_gradient[0] * gap / spacing,
+            conductance=passing / spacing * faces.by_gradient[0],
+            by_lateral=None if lateral is None else passing * faces.by_gradient[1],
             by_properties=Sides(amount * before + mass * by_scale, amount * after + mass * by_scale),
             by_gap=Sides(half_gap, half_gap),
             drift=drift,
@@ -338,20 +344,6 @@ def drift_of(log_ratio: Array, density: Array, slide_to_roll_ratio: float) -> Ar
     rate = weights * np.exp(-np.tensordot(values, log_ratio, axes=1))
     mass = np.tensordot(below, density, axes=1)
     return np.asarray(-slide_to_roll_ratio * np.sum(rate * mass, axis=0) / np.sum(rate, axis=0))
-
-
-def gradients(pressure: Array, mesh: Mesh) -> tuple[Array, Array]:
-    """Central differences dP/dX and dP/dY at the nodes, one-sided on the edges, each of shape (nx, ny)."""
-    by_x = np.asarray(np.gradient(pressure, mesh.dx, axis=0))
-    if mesh.dy is None:
-        return by_x, np.zeros_like(pressure)
-    by_y = np.asarray(np.gradient(with_mirror(pressure, mesh), mesh.dy, axis=1))
-    return by_x, by_y[:, 1:] if mesh.symmetric else by_y
-
-
-def _mean(values: Array) -> Array:
-    """Means of neighbours along the second last axis."""
-    return np.asarray(0.5 * (values[..., 1:, :] + values[..., :-1, :]))
 
 
 @dataclass(frozen=True)
@@ -387,7 +379,7 @@ class _Nodes:
         for side, log_mean in ((slice(None, -1), before), (slice(1, None), after)):
             uniform = of_all * log_mean * k.log_viscosity_p[side]
             if profile is None or flux.by_weight is None:
-                sides.append(_mean(k.density) * uniform + 0.5 * flux.flux * k.density_p[side])
+                sides.append(face_mean(k.density) * uniform + 0.5 * flux.flux * k.density_p[side])
                 continue
             varying = (
                 flux.by_viscosity * profile.log_ratio_p[:, side] + flux.by_weight * profile.density_p[:, side]
@@ -435,54 +427,78 @@ def columns_of(
     dP/dX and dP/dY, shape (2, nx, ny); ``thickness``, film thickness H, shape (nx, ny); ``scale``,
     characteristic stress of the law over p_h b/R, shape (nx, ny). Returns state of the columns.
     """
-    viscosity, density = (np.broadcast_to(v, (across.zeta.size, *thickness.shape)) for v in properties)
-    values, _ = to_points(across.zeta.size - 1)
-    fluidity = np.exp(-np.tensordot(values, np.log(viscosity), axes=1))
-    quadrature = Quadrature.gauss()
-    reduced = thickness * gradient / scale
-    sliding = slip / (thickness * scale)
-    slips = np.stack([sliding, np.zeros_like(sliding)])
-    even = None
-    if rheology.law.even:
-        even = EvenStress.of(rheology, fluidity, reduced, slips, quadrature)
-        middle = even.middle
-    elif reduced[1].any():
-        middle = middle_stresses(rheology, fluidity, reduced, slips, quadrature)
-    else:
-        along = middle_stress(rheology, fluidity, reduced[0], sliding, quadrature)
-        middle = np.stack([along, np.zeros_like(along)])
-
-    def rates(offset: Array, fluidity: Array) -> tuple[Array, Array, Array]:
-        stress = middle[:, np.newaxis] + over_columns(offset, thickness) * reduced[:, np.newaxis]
-        size = speed_unit * thickness * scale * fluidity
-        if even is not None:
-            return stress, size * even.factor * stress, np.broadcast_to(even.softening, size.shape)
-        squared = np.sum(stress**2, axis=0)
-        factor, slope = rheology.law.factor(squared, rheology.constants)
-        return stress, size * factor * stress, factor / (factor + 2.0 * slope * squared)
-
-    stress, rate, softening = rates(across.zeta - 0.5, 1.0 / viscosity)
-    at_points = rates(quadrature.offset, fluidity)[1]
-    moved = np.moveaxis(np.tensordot(_up_to(across.zeta.size - 1), at_points, axes=(1, 1)), 0, 1)
-    start = np.zeros((2, 1, 1, 1))
-    start[0] = 1.0 - 0.5 * slip * speed_unit
+    shape, nz = thickness.shape, across.zeta.size
+    viscosity, density = (np.broadcast_to(v, (nz, *shape)) for v in properties)
+    uniform = len(properties[0]) == 1
+    reduced = (thickness * gradient / scale).reshape(2, -1)
+    slips = np.zeros_like(reduced)
+    slips[0] = (slip / (thickness * scale)).reshape(-1)
+    log_viscosity = np.log(viscosity).reshape(nz, -1)
+    stress, rate, speed = (np.empty((2, *log_viscosity.shape)) for _ in range(3))
+    softening, middle = np.empty_like(log_viscosity), np.empty_like(reduced)
+    for part, quadrature in _parts(rheology, reduced, None if uniform else log_viscosity, fewest=False):
+        values, _ = to_points(nz - 1, quadrature.offset.size)
+        columns = reduced[:, part], slips[:, part]
+        fluidity = np.exp(-values @ log_viscosity[:, part])
+        law = _ColumnLaw.of(rheology, fluidity, *columns, quadrature)
+        middle[:, part] = law.middle
+        stress[:, :, part], rate[:, :, part], softening[:, part] = law(
+            across.zeta - 0.5, np.exp(-log_viscosity[:, part]), columns[0]
+        )
+        _, at_points, _ = law(quadrature.offset, fluidity, columns[0])
+        speed[:, :, part] = _up_to(nz - 1, quadrature.offset.size) @ at_points
+    size = speed_unit * (thickness * scale)
+    speed = size * speed.reshape(2, nz, *shape)
+    speed[0] += 1.0 - 0.5 * slip * speed_unit
     return Columns(
         across=across,
-        stress=scale * stress,
-        rate=rate,
-        speed=start + moved,
-        softening=softening,
+        stress=scale * stress.reshape(2, nz, *shape),
+        rate=size * rate.reshape(2, nz, *shape),
+        speed=speed,
+        softening=softening.reshape(nz, *shape),
         viscosity=viscosity,
         density=density,
         gradient=gradient,
-        middle=scale * middle,
+        middle=scale * middle.reshape(2, *shape),
     )
 
 
+@dataclass(frozen=True)
+class _ColumnLaw:
+    """Law of some columns (n,) at their mid-film stress."""
+
+    rheology: Rheology
+    middle: Array  # mid-film stress over the characteristic stress, shape (2, n)
+    even: EvenStress | None  # factor of a law that is uniform across the film; None of the others
+
+    @classmethod
+    def of(
+        cls, rheology: Rheology, fluidity: Array, gradient: Array, slip: Array, quadrature: Quadrature
+    ) -> _ColumnLaw:
+        """Law from a (nq, n) at the points of the quadrature, q (2, n) and g (2, n)."""
+        if rheology.law.even:
+            even = EvenStress.of(rheology, fluidity, gradient, slip, quadrature)
+            return cls(rheology, even.middle, even)
+        if gradient[1].any():
+            return cls(rheology, middle_stresses(rheology, fluidity, gradient, slip, quadrature), None)
+        along = middle_stress(rheology, fluidity, gradient[0], slip[0], quadrature)
+        return cls(rheology, np.stack([along, np.zeros_like(along)]), None)
+
+    def __call__(self, offset: Array, fluidity: Array, gradient: Array) -> tuple[Array, Array, Array]:
+        """Stress and rate (2, m, n), and softening (m, n), at positions ``offset`` (m,) from mid-film."""
+        stress = self.middle[:, np.newaxis] + offset[:, np.newaxis] * gradient[:, np.newaxis]
+        if self.even is not None:
+            even = self.even
+            return stress, even.factor * fluidity * stress, np.broadcast_to(even.softening, fluidity.shape)
+        squared = stress[0] ** 2 + stress[1] ** 2
+        factor, slope = self.rheology.law.factor(squared, self.rheology.constants)
+        return stress, factor * fluidity * stress, factor / (factor + 2.0 * slope * squared)
+
+
 @cache
-def _up_to(degree: int) -> Array:
+def _up_to(degree: int, number: int) -> Array:
     """Integrals from 0 to each node of ``Across.of(degree)`` from values at the Gauss points, (nz, nq)."""
-    return integrals(Quadrature.gauss().offset + 0.5, Across.of(degree).zeta)
+    return integrals(Quadrature.gauss(number).offset + 0.5, Across.of(degree).zeta)
 
 
 @dataclass(frozen=True)

@@ -553,6 +553,7 @@ def plane_flux(
     count = quadrature.offset.size
     each = np.broadcast_to(fluidity.reshape(len(fluidity), -1), (count, slip.shape[1]))
     weight = np.broadcast_to(weight.reshape(count, -1), each.shape)
+
     def near(columns: tuple[Array, Array, Array], *, estimated: bool) -> _Plane:
         """Rates at an estimate of the mid-film stress, or at a stress whose error is the square of its step."""
         middle = None
