@@ -98,8 +98,8 @@ class FaceFlow:
     # difference fixed.
     by_properties: Sides
     by_gap: Sides  # derivatives of the flux by H of the two nodes
-    # Derivative of the flux by the gradient of P along the other axis, the mean of the two nodes, shape (n - 1,
-    # m); None where the flux does not depend on it.
+    # Derivative of the flux by the gradient of P along the other axis, the mean of the two nodes,
+    # shape (n - 1, m); None where the flux does not depend on it.
     by_lateral: Array | None = None
     # Part of the flux that the slip of the surfaces drives without any gradient of P, as hot oil on one side
     # lets the rest move with the other side: minus this mass flow over the spacing. Its derivative by H of

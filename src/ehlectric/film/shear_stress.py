@@ -313,7 +313,8 @@ def even_flux(
 # exact: the error of Newton's method is the square of its step.
 _MOST_PLANE_STEPS, _EXACT_PLANE = 80, 1e-8
 
-# Largest stress difference over the characteristic stress for which one Newton step from an estimate is tried.
+# Largest stress difference over the characteristic stress at which an estimate of the mid-film stress is
+# tried.
 _NEARLY_EVEN = 0.5
 
 
@@ -381,8 +382,8 @@ class _Plane:
         quadrature: Quadrature,
         middle: Array | None = None,
     ) -> _Plane:
-        """Rates at a mid-film stress (2, n), or at an estimate for small stress differences: the stress of the
-        mean rate, with the rate factor of the root mean square of the stress that balances the gradient.
+        """Rates at a mid-film stress (2, n), or at an estimate for small stress differences: the stress of
+        the mean rate, with the rate factor of the root mean square of the stress that balances the gradient.
 
         The arguments are the arguments of ``middle_stresses``, with one axis of columns.
         """
@@ -527,7 +528,7 @@ def plane_flux(
     slip: Array,
     quadrature: Quadrature = GAUSS,
     *,
-    exact: float = 1e-16,
+    exact: float = 1e-24,
 ) -> Flux:
     """Flux along the first axis of columns with stresses along both axes.
 
@@ -555,7 +556,7 @@ def plane_flux(
     weight = np.broadcast_to(weight.reshape(count, -1), each.shape)
 
     def near(columns: tuple[Array, Array, Array], *, estimated: bool) -> _Plane:
-        """Rates at an estimate of the mid-film stress, or at a stress whose error is the square of its step."""
+        """Rates at an estimate of the mid-film stress, or at a stress by Newton's method."""
         middle = None
         if not estimated:
             middle = _by_newton_in_plane(rheology, *columns, quadrature, exact=exact**0.25)
