@@ -425,7 +425,8 @@ class OuterIteration:
         # The temperature in cavities and next to spots follows small changes of the film.
         loose = self.posed.tolerance if carried is not None else max(self.posed.tolerance, _LOOSE)
         surfaces, mixing, taken = self.surfaces(thermal), _mixing(weight, heat), list[NewtonStep]()
-        rises, films, central, ends, missed = list[float](), list[float](), np.inf, False, 0
+        central = at_centre(self.level.mesh, state.thickness)
+        rises, films, ends, missed = list[float](), list[float](), False, 0
         unsettled: Unsettled | None = None
         for loop in range(self.most_loops):
             steps, tolerance = (most, self.posed.tolerance) if ends else (_STEPS, loose)
@@ -460,7 +461,8 @@ class OuterIteration:
                 solution = replace(solution, status="stalled")
                 break
             # Film and temperature that are close enough end with a film at the last temperature.
-            ends = max(self._distance(rises), self._distance(films)) < self._allowed
+            # The first change of the film is its distance from the guess, and no part of a sequence.
+            ends = max(self._distance(rises), self._distance(films[1:] or films)) < self._allowed
             state = solution.state
             if is_stale(rises):
                 # The combination of the last turns circles around a place without a solution.
@@ -687,7 +689,7 @@ def _change(grid: HeatedGrid, other: Variation) -> float | None:
     now = grid.largest_rise
     if now is None or grid.heat is None:
         return None
-    iteration, heat = other(replace(grid.iteration, finer=0), grid.heat)
+    iteration, heat = other(grid.iteration, grid.heat)
     varied = iteration(grid.state, heat, spike=False, filled=grid.filled)
     rise = varied.largest_rise
     return abs(rise - now) if rise is not None and varied.status == "converged" else None
