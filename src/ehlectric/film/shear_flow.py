@@ -63,10 +63,8 @@ from ehlectric.film.shear_stress import (
     uniform_eyring,
 )
 
-# Largest stress difference over the characteristic stress for which few points are enough, and the number of
-# these points for uniform properties and for the properties of a temperature profile. The flux is then exact
-# to 1e-10 for the Eyring law and to 1e-7 for Carreau's law.
-_SMALL, _FEW, _FEW_OF_PROFILE = 2.0, 8, 12
+# Number of points for a stress difference below the ``reach`` of the law.
+_FEW = 12
 
 # Largest sum of the stress difference and the range of ln(viscosity) across the film for which the fewest
 # points are enough, and their number: the part of the flux that the gradient drives is exact to 3e-5.
@@ -75,8 +73,9 @@ _SMALLEST, _FEWEST = 0.5, 6
 # Relative error of the flux by the mid-film stress.
 _EXACT = 1e-7
 
-# Number of columns, as around a pressure spike, up to which two quadratures take longer than the larger one.
-_TOGETHER = 100
+# Number of columns, as around a pressure spike, up to which two quadratures take longer than the larger one,
+# and number whose arrays at the points fit into the cache of a core.
+_TOGETHER, _BLOCK = 100, 4096
 
 
 def flux_of(
@@ -108,7 +107,7 @@ def flux_of(
     ratio, layers = (None, None) if profile is None else (values.reshape(nz, -1) for values in profile)
     flux, by_gradient, by_slip = np.empty_like(mean), np.empty_like(gradient), np.empty_like(slip)
     by_viscosity, by_weight = np.empty((nz, mean.size)), np.empty((nz, mean.size))
-    for part, quadrature in _parts(rheology, gradient, ratio):
+    for part, quadrature in _blocks(_parts(rheology, gradient, ratio), mean.size):
         piece = _at_points(
             rheology,
             mean[part],
@@ -139,8 +138,8 @@ def _parts(
     """
     reach = np.zeros(gradient.shape[1]) if rheology.law.even else np.max(np.abs(gradient), axis=0)
     varied = reach if ratio is None else reach + np.max(ratio, axis=0) - np.min(ratio, axis=0)
-    count = (reach >= _SMALL).astype(int) + (varied >= (_SMALLEST if fewest else 0.0))
-    points = _FEWEST, _FEW if ratio is None else _FEW_OF_PROFILE, GAUSS.offset.size
+    count = (reach >= rheology.law.reach).astype(int) + (varied >= (_SMALLEST if fewest else 0.0))
+    points = _FEWEST, _FEW, GAUSS.offset.size
     counted = np.bincount(count, minlength=len(points))
     if count.size <= _TOGETHER:
         counted[: np.max(count, initial=0)] = 0
@@ -148,6 +147,21 @@ def _parts(
     if used.size <= 1:
         return [(slice(None), Quadrature.gauss(points[k])) for k in used]
     return [(np.flatnonzero(count == k), Quadrature.gauss(points[k])) for k in used]
+
+
+def _blocks(
+    parts: list[tuple[NDArray[np.intp] | slice, Quadrature]], size: int
+) -> list[tuple[NDArray[np.intp] | slice, Quadrature]]:
+    """Parts of ``size`` columns, in blocks that fit into the cache of a core."""
+    blocks: list[tuple[NDArray[np.intp] | slice, Quadrature]] = []
+    for part, quadrature in parts:
+        indices = np.arange(size) if isinstance(part, slice) else part
+        count = -(-indices.size // _BLOCK)
+        if count == 1:
+            blocks.append((part, quadrature))
+        else:
+            blocks += [(block, quadrature) for block in np.array_split(indices, count)]
+    return blocks
 
 
 def _at_points(
@@ -216,12 +230,19 @@ class ShearedFlow:
         nodes = _Nodes(k, properties, thickness, pressure)
         slip = fluid.velocity_parameter * self.slide_to_roll_ratio / 12.0
         if mesh.dy is None:
-            return Flow(k, self._through(nodes, mesh.dx, slip, fluid, None), None)
-        by_x, by_y = gradients(pressure, mesh)
-        along = self._through(nodes, mesh.dx, slip, fluid, by_y)
-        turned = nodes.turned(mesh)
-        across = self._through(turned, mesh.dy, slip, fluid, with_mirror(by_x, mesh).T, across=True)
-        return Flow(k, along, across)
+            faces = [self._faces(nodes, mesh.dx, slip, fluid, None)]
+        else:
+            by_x, by_y = gradients(pressure, mesh)
+            lateral = with_mirror(by_x, mesh).T
+            faces = [
+                self._faces(nodes, mesh.dx, slip, fluid, by_y),
+                self._faces(nodes.turned(mesh), mesh.dy, slip, fluid, lateral, across=True),
+            ]
+        through = [
+            self._through(each, flux, fluid)
+            for each, flux in zip(faces, _fluxes(self.rheology, faces), strict=True)
+        ]
+        return Flow(k, through[0], None if mesh.dy is None else through[1])
 
     def columns(self, fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh) -> Columns:
         """Stress, shear rate and speed across the film at the nodes, with central differences of P."""
@@ -272,7 +293,7 @@ class ShearedFlow:
         scale, slope = rheology.law.scale(pressure * self.pressure_scale, rheology.constants)
         return scale / self.stress_scale, slope * self.pressure_scale / self.stress_scale
 
-    def _through(
+    def _faces(
         self,
         nodes: _Nodes,
         spacing: float,
@@ -281,14 +302,13 @@ class ShearedFlow:
         lateral: Array | None,
         *,
         across: bool = False,
-    ) -> FaceFlow:
-        """Flow along the first axis; ``lateral`` is the gradient of P along the other axis at the nodes."""
-        k, properties = nodes.uniform, nodes.profile
-        mean, by_before, by_after = logarithmic_mean(k.log_viscosity, k.fluidity)
+    ) -> _Faces:
+        """Faces along the first axis; ``lateral`` is the gradient of P along the other axis at the nodes."""
+        properties = nodes.profile
         gap = face_mean(nodes.thickness)
         difference = np.diff(nodes.pressure, axis=0)
-        lowest = fluid.ambient_pressure
-        scale, scale_p = self._scale(np.maximum(face_mean(nodes.pressure), lowest))
+        mean_pressure, lowest = face_mean(nodes.pressure), fluid.ambient_pressure
+        scale, scale_p = self._scale(np.maximum(mean_pressure, lowest))
         gradient = (gap / spacing * difference / scale)[np.newaxis]
         sliding = (slip / (gap * scale))[np.newaxis]
         if lateral is not None:
@@ -298,24 +318,39 @@ class ShearedFlow:
         profile = (
             None if properties is None else (face_mean(properties.log_ratio), face_mean(properties.density))
         )
-        faces = flux_of(self.rheology, mean, gradient, sliding, profile)
+        return _Faces(
+            nodes=nodes,
+            spacing=spacing,
+            across=across,
+            mean=logarithmic_mean(nodes.uniform.log_viscosity, nodes.uniform.fluidity),
+            gap=gap,
+            scale=scale,
+            scale_p=np.where(mean_pressure > lowest, scale_p, 0.0),
+            gradient=gradient,
+            slip=sliding,
+            profile=profile,
+        )
 
+    def _through(self, faces: _Faces, flux: Flux, fluid: Fluid) -> FaceFlow:
+        """Flow through faces along the first axis, from the flux of their columns."""
+        gap, gradient, slip, spacing = faces.gap, faces.gradient, faces.slip, faces.spacing
         size = 12.0 / fluid.velocity_parameter * gap**2 / spacing
-        of_scale = faces.flux - np.sum(gradient * faces.by_gradient + sliding * faces.by_slip, axis=0)
-        of_gap = 2.0 * faces.flux + np.sum(gradient * faces.by_gradient - sliding * faces.by_slip, axis=0)
-        by_scale = 0.5 * size * of_scale * np.where(face_mean(nodes.pressure) > lowest, scale_p, 0.0)
-        amount = size * scale
-        mass = face_mean(k.density) if properties is None else 1.0
+        driven, sheared = np.sum(gradient * flux.by_gradient, axis=0), np.sum(slip * flux.by_slip, axis=0)
+        of_gap = 2.0 * flux.flux + driven - sheared
+        by_scale = 0.5 * size * (flux.flux - driven - sheared) * faces.scale_p
+        amount = size * faces.scale
+        mass = face_mean(faces.nodes.uniform.density) if faces.profile is None else 1.0
         half_gap = 0.5 * amount * mass * of_gap / gap
-        before, after = nodes.by_properties(faces, by_before / mean, by_after / mean)
+        mean, by_before, by_after = faces.mean
+        before, after = faces.nodes.by_properties(flux, by_before / mean, by_after / mean)
         drift: Array | float = 0.0
-        if profile is not None and not across:
-            drift = -gap * drift_of(*profile, self.slide_to_roll_ratio) / spacing
+        if faces.profile is not None and not faces.across:
+            drift = -gap * drift_of(*faces.profile, self.slide_to_roll_ratio) / spacing
         passing = size * mass * gap
         return FaceFlow(
-            flux=amount * mass * faces.flux,
-            conductance=passing / spacing * faces.by_gradient[0],
-            by_lateral=None if lateral is None else passing * faces.by_gradient[1],
+            flux=amount * mass * flux.flux,
+            conductance=passing / spacing * flux.by_gradient[0],
+            by_lateral=passing * flux.by_gradient[1] if len(gradient) > 1 else None,
             by_properties=Sides(amount * before + mass * by_scale, amount * after + mass * by_scale),
             by_gap=Sides(half_gap, half_gap),
             drift=drift,
@@ -339,8 +374,8 @@ def drift_of(log_ratio: Array, density: Array, slide_to_roll_ratio: float) -> Ar
     >>> round(drift, 6), round((np.e - 2.0) / (np.e - 1.0) - 0.5, 6)
     (-0.081977, -0.081977)
     """
-    values, below = to_points(len(log_ratio) - 1, _FEW_OF_PROFILE)
-    weights = over_columns(Quadrature.gauss(_FEW_OF_PROFILE).weights, log_ratio[0])
+    values, below = to_points(len(log_ratio) - 1, _FEW)
+    weights = over_columns(Quadrature.gauss(_FEW).weights, log_ratio[0])
     rate = weights * np.exp(-np.tensordot(values, log_ratio, axes=1))
     mass = np.tensordot(below, density, axes=1)
     return np.asarray(-slide_to_roll_ratio * np.sum(rate * mass, axis=0) / np.sum(rate, axis=0))
@@ -381,11 +416,65 @@ class _Nodes:
             if profile is None or flux.by_weight is None:
                 sides.append(face_mean(k.density) * uniform + 0.5 * flux.flux * k.density_p[side])
                 continue
-            varying = (
-                flux.by_viscosity * profile.log_ratio_p[:, side] + flux.by_weight * profile.density_p[:, side]
-            )
-            sides.append(uniform + 0.5 * np.sum(varying, axis=0))
+            varying = np.einsum("k...,k...->...", flux.by_viscosity, profile.log_ratio_p[:, side])
+            varying += np.einsum("k...,k...->...", flux.by_weight, profile.density_p[:, side])
+            sides.append(uniform + 0.5 * varying)
         return sides[0], sides[1]
+
+
+@dataclass(frozen=True)
+class _Faces:
+    """Columns at the faces along the first axis, (n - 1, m), for their flux."""
+
+    nodes: _Nodes
+    spacing: float
+    across: bool  # whether the faces are along y, and the surfaces slip along their second axis
+    mean: tuple[Array, Array, Array]  # fluidity of the faces, and its derivatives by ln eta of both nodes
+    # gap, scale and scale_p: film thickness H, characteristic stress over ``stress_scale``, and its
+    # derivative by P.
+    gap: Array
+    scale: Array
+    scale_p: Array
+    # gradient, slip and profile: arguments of ``flux_of``.
+    gradient: Array
+    slip: Array
+    profile: tuple[Array, Array] | None
+
+
+def _fluxes(rheology: Rheology, groups: list[_Faces]) -> list[Flux]:
+    """Flux of each group of faces. All columns are computed together, as few columns take as long as many."""
+    if len(groups) == 1:
+        (faces,) = groups
+        return [flux_of(rheology, faces.mean[0], faces.gradient, faces.slip, faces.profile)]
+
+    def joined(arrays: list[Array]) -> Array:
+        return np.concatenate([values.reshape(*values.shape[:-2], -1) for values in arrays], axis=-1)
+
+    profiles = [faces.profile for faces in groups if faces.profile is not None]
+    flux = flux_of(
+        rheology,
+        joined([faces.mean[0] for faces in groups]),
+        joined([faces.gradient for faces in groups]),
+        joined([faces.slip for faces in groups]),
+        (joined([p[0] for p in profiles]), joined([p[1] for p in profiles])) if profiles else None,
+    )
+    fluxes, end = [], 0
+    for faces in groups:
+        start, end, shape = end, end + faces.gap.size, faces.gap.shape
+
+        def part(values: Array, columns: slice = slice(start, end), shape: tuple[int, ...] = shape) -> Array:
+            return values[..., columns].reshape(*values.shape[:-1], *shape)
+
+        fluxes.append(
+            Flux(
+                flux=part(flux.flux),
+                by_gradient=part(flux.by_gradient),
+                by_slip=part(flux.by_slip),
+                by_viscosity=part(flux.by_viscosity),
+                by_weight=None if flux.by_weight is None else part(flux.by_weight),
+            )
+        )
+    return fluxes
 
 
 @dataclass(frozen=True)
