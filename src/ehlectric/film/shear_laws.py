@@ -85,8 +85,8 @@ class ShearLaw:
     stress: Callable[[Array, Constants], tuple[Array, Array]]
     # Whether the rate factor belongs to the mean stress and is uniform across the film (``even``).
     even: bool = False
-    # Stress difference across a column over tau_s below which 12 Gauss points give its flux: exact to 1e-8 for
-    # the Eyring law, whose factor has a power series, and to 1e-7 for Carreau's law.
+    # Stress difference across a column over tau_s below which 12 Gauss points give its flux: exact to 1e-8
+    # for the Eyring law, whose factor is a power series, and to 1e-7 for Carreau's law.
     reach: float = 2.0
 
 
