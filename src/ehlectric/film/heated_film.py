@@ -26,6 +26,7 @@ from ehlectric.film.energy_equation import (
 from ehlectric.film.hot_oil import Physics, Thermal
 from ehlectric.film.levels import Level
 from ehlectric.film.mesh import Mesh, at_centre, on_mesh
+from ehlectric.film.multigrid import Linearised
 from ehlectric.film.nested import filled_on, grid_problem, interpolated_state, levels_of, open_state
 from ehlectric.film.newton import (
     SMALLEST_GAP,
@@ -221,10 +222,12 @@ class OuterIteration:
         tolerance: float,
         spike: bool,
         carried: Carried | None = None,
+        jacobians: list[Linearised] | None = None,
     ) -> tuple[GridSolution, ShearedFlow, Heat | None]:
         """Film after at most ``steps`` Newton steps from a state, its flow, and the heat at its pressure.
 
-        ``carried`` has the nodes that oil fills at first, of a film with mass-conserving cavitation.
+        ``carried`` has the nodes that oil fills at first, of a film with mass-conserving cavitation, and
+        ``jacobians`` the Jacobians of the last turn.
         """
         law = self.flow(state, heat)
         fluid = replace(self.problem.fluid, flow=law)
@@ -233,17 +236,21 @@ class OuterIteration:
             solver = isothermal(self._with_steps(posed), full_order=False, min_iterations=1)
             solution = solver(Guess(state, carried.filled), carried.supply)
         else:
-            solution = self._apart_or_touching(posed, state, spike=spike)
+            solution = self._apart_or_touching(posed, state, jacobians, spike=spike)
         if heat is not None and isinstance(law.profile, FrozenTemperature):
             heat = law.profile.at(self._clipped(solution.state))
         return solution, law, heat
 
-    def _apart_or_touching(self, posed: GridProblem, state: State, *, spike: bool) -> GridSolution:
+    def _apart_or_touching(
+        self, posed: GridProblem, state: State, jacobians: list[Linearised] | None, *, spike: bool
+    ) -> GridSolution:
         """Film whose cavities count as full; surfaces touch where it is thinner than the boundary film."""
         boundary_film = posed.asperities.boundary_film
         if not state.touching.any():
             line = self.problem.width is None
-            solution = newton(posed, state, min_iterations=1, eliminate_spike=spike and line)
+            solution = newton(
+                posed, state, min_iterations=1, eliminate_spike=spike and line, jacobians=jacobians
+            )
             if float(np.min(solution.state.thickness)) >= boundary_film:
                 return solution
         posed = self._with_steps(posed)
@@ -428,6 +435,7 @@ class OuterIteration:
         central = at_centre(self.level.mesh, state.thickness)
         rises, films, ends, missed = list[float](), list[float](), False, 0
         unsettled: Unsettled | None = None
+        jacobians: list[Linearised] = []
         for loop in range(self.most_loops):
             steps, tolerance = (most, self.posed.tolerance) if ends else (_STEPS, loose)
             solution, law, now = self.film(
@@ -437,6 +445,7 @@ class OuterIteration:
                 tolerance=tolerance,
                 spike=spike and loop == 0,
                 carried=carried,
+                jacobians=jacobians,
             )
             assert now is not None
             heat, carried = now, solution.content

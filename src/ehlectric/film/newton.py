@@ -220,8 +220,13 @@ def newton(
     min_iterations: int = 0,
     eliminate_spike: bool = False,
     transient: bool = False,
+    jacobians: list[Linearised] | None = None,
 ) -> GridSolution:
-    """Last iterate of Newton's method for the film equations on one grid, with its status."""
+    """Last iterate of Newton's method for the film equations on one grid, with its status.
+
+    ``jacobians``, Jacobians on all grids of an earlier solution on this grid, whose preconditioner serves as
+    long as the film is similar; the last ones of this solution replace them.
+    """
     fluid, levels, level = problem.fluid, problem.levels, problem.level
     tolerance = problem.reachable_tolerance
     # In a stationary line contact the pressure spike dominates the norm of the residual. A linear system that
@@ -231,7 +236,7 @@ def newton(
     steps: list[NewtonStep] = []
     grown = 0  # successive steps in which the full film has grown
     now = assess(fluid, level, state)
-    jacobians: list[Linearised] = []
+    jacobians = [] if jacobians is None else jacobians
     before = np.inf
     while len(steps) < min_iterations or (now.norm > tolerance and len(steps) < problem.max_iterations):
         problem.report(steps, now.norm)
@@ -239,7 +244,7 @@ def newton(
             relaxed = without_spike(fluid, level, state, now)
             if relaxed is not None:
                 state, now = relaxed, assess(fluid, level, relaxed)
-        jacobians = _linearised(fluid, levels, state, now, last=jacobians if keeps else [])
+        jacobians[:] = _linearised(fluid, levels, state, now, last=jacobians if keeps else [])
         close = LINEAR_TOLERANCE
         if loose:
             close = linear_tolerance(now.norm, before, tolerance if transient else 0.0)

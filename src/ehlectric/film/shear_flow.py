@@ -66,12 +66,16 @@ from ehlectric.film.shear_stress import (
 # Number of points for a stress difference below the ``reach`` of the law.
 _FEW = 12
 
-# Largest sum of the stress difference and the range of ln(viscosity) across the film for which the fewest
-# points are enough, and their number: the part of the flux that the gradient drives is exact to 3e-5.
-_SMALLEST, _FEWEST = 0.5, 6
+# Largest sum of the stress difference and the range of ln(viscosity) across the film for which fewer points
+# are enough, and their number for the flux and for the speeds. The part of the flux that the gradient drives
+# is exact to 3e-5, the speeds are exact to 1e-7.
+_SMALLEST, _FEWEST, _FEWEST_OF_SPEEDS = 0.5, 6, 8
 
-# Relative error of the flux by the mid-film stress.
-_EXACT = 1e-7
+# The same sum for which ``_FEW`` points give the speeds to 1e-6.
+_SMALL = 2.0
+
+# Relative error of the flux and of the speeds by the mid-film stress.
+_EXACT, _EXACT_SPEEDS = 1e-7, 1e-9
 
 # Number of columns, as around a pressure spike, up to which two quadratures take longer than the larger one,
 # and number whose arrays at the points fit into the cache of a core.
@@ -130,16 +134,17 @@ def flux_of(
 
 
 def _parts(
-    rheology: Rheology, gradient: Array, ratio: Array | None, *, fewest: bool = True
+    rheology: Rheology, gradient: Array, ratio: Array | None, *, speeds: bool = False
 ) -> list[tuple[NDArray[np.intp] | slice, Quadrature]]:
-    """Columns (n,) with the quadrature that is exact enough for them; arguments as for ``flux_of``.
+    """Columns (n,) with the quadrature that is exact enough for their flux, or for their ``speeds``.
 
-    Without ``fewest`` points the speeds at all nodes are also exact, and not only the flux.
+    The other arguments are the arguments of ``flux_of``.
     """
     reach = np.zeros(gradient.shape[1]) if rheology.law.even else np.max(np.abs(gradient), axis=0)
     varied = reach if ratio is None else reach + np.max(ratio, axis=0) - np.min(ratio, axis=0)
-    count = (reach >= rheology.law.reach).astype(int) + (varied >= (_SMALLEST if fewest else 0.0))
-    points = _FEWEST, _FEW, GAUSS.offset.size
+    count = (varied >= _SMALLEST).astype(int)
+    count += varied >= _SMALL if speeds else reach >= rheology.law.reach
+    points = _FEWEST_OF_SPEEDS if speeds else _FEWEST, _FEW, GAUSS.offset.size
     counted = np.bincount(count, minlength=len(points))
     if count.size <= _TOGETHER:
         counted[: np.max(count, initial=0)] = 0
@@ -525,7 +530,7 @@ def columns_of(
     log_viscosity = np.log(viscosity).reshape(nz, -1)
     stress, rate, speed = (np.empty((2, *log_viscosity.shape)) for _ in range(3))
     softening, middle = np.empty_like(log_viscosity), np.empty_like(reduced)
-    for part, quadrature in _parts(rheology, reduced, None if uniform else log_viscosity, fewest=False):
+    for part, quadrature in _parts(rheology, reduced, None if uniform else log_viscosity, speeds=True):
         values, _ = to_points(nz - 1, quadrature.offset.size)
         columns = reduced[:, part], slips[:, part]
         fluidity = np.exp(-values @ log_viscosity[:, part])
@@ -569,7 +574,8 @@ class _ColumnLaw:
             even = EvenStress.of(rheology, fluidity, gradient, slip, quadrature)
             return cls(rheology, even.middle, even)
         if gradient[1].any():
-            return cls(rheology, middle_stresses(rheology, fluidity, gradient, slip, quadrature), None)
+            plane = middle_stresses(rheology, fluidity, gradient, slip, quadrature, exact=_EXACT_SPEEDS)
+            return cls(rheology, plane, None)
         along = middle_stress(rheology, fluidity, gradient[0], slip[0], quadrature)
         return cls(rheology, np.stack([along, np.zeros_like(along)]), None)
 

@@ -309,9 +309,9 @@ def even_flux(
     )
 
 
-# Largest number of Newton steps for the mid-film stress along both axes, and the relative step at which it is
-# exact: the error of Newton's method is the square of its step.
-_MOST_PLANE_STEPS, _EXACT_PLANE = 80, 1e-8
+# Largest number of Newton steps for the mid-film stress along both axes, and its relative error: the square
+# of the last step.
+_MOST_PLANE_STEPS, _EXACT_PLANE = 80, 1e-16
 
 # Largest stress difference over the characteristic stress at which an estimate of the mid-film stress is
 # tried.
@@ -319,18 +319,32 @@ _NEARLY_EVEN = 0.5
 
 
 def middle_stresses(
-    rheology: Rheology, fluidity: Array, gradient: Array, slip: Array, quadrature: Quadrature
+    rheology: Rheology,
+    fluidity: Array,
+    gradient: Array,
+    slip: Array,
+    quadrature: Quadrature,
+    *,
+    exact: float = _EXACT_PLANE,
 ) -> Array:
     """Mid-film stress t along both axes, over the characteristic stress of the law.
 
     ``fluidity``, eta_0/eta at the points of the quadrature, shape (nq, ...) or (1, ...); ``gradient`` and
     ``slip``, stress difference q across the film, and slip g over the film thickness, along both axes,
-    shape (2, ...). Returns mid-film stress, shape (2, ...).
+    shape (2, ...); ``exact``, relative error. Returns mid-film stress, shape (2, ...).
     """
     columns = gradient.shape[1:]
     gradient, slip = gradient.reshape(2, -1), slip.reshape(2, -1)
     fluidity = np.broadcast_to(fluidity.reshape(len(fluidity), -1), (len(fluidity), slip.shape[1]))
-    return _by_newton_in_plane(rheology, fluidity, gradient, slip, quadrature).reshape(2, *columns)
+    stress, far = np.empty_like(slip), np.arange(slip.shape[1])
+    if np.max(np.abs(gradient), initial=0.0) < _NEARLY_EVEN:
+        estimate = _Plane.of(rheology, fluidity, gradient, slip, quadrature)
+        stress = estimate.middle + estimate.step
+        far = np.flatnonzero(_size(estimate.step) > exact**0.5)
+    if far.size:
+        part = fluidity[:, far], gradient[:, far], slip[:, far]
+        stress[:, far] = _by_newton_in_plane(rheology, *part, quadrature, exact=exact**0.5)
+    return stress.reshape(2, *columns)
 
 
 def _by_newton_in_plane(
@@ -339,7 +353,8 @@ def _by_newton_in_plane(
     gradient: Array,
     slip: Array,
     quadrature: Quadrature,
-    exact: float = _EXACT_PLANE,
+    *,
+    exact: float,
 ) -> Array:
     """Mid-film stress (2, n) of columns, from a (nq, n) or (1, n), q and g (2, n).
 
