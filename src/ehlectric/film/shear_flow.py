@@ -23,6 +23,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cache
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -79,7 +80,7 @@ _EXACT, _EXACT_SPEEDS = 1e-7, 1e-9
 
 # Number of columns, as around a pressure spike, up to which two quadratures take longer than the larger one,
 # and number whose arrays at the points fit into the cache of a core.
-_TOGETHER, _BLOCK = 100, 4096
+_TOGETHER, _BLOCK = 100, 2048
 
 
 def flux_of(
@@ -111,19 +112,37 @@ def flux_of(
     ratio, layers = (None, None) if profile is None else (values.reshape(nz, -1) for values in profile)
     flux, by_gradient, by_slip = np.empty_like(mean), np.empty_like(gradient), np.empty_like(slip)
     by_viscosity, by_weight = np.empty((nz, mean.size)), np.empty((nz, mean.size))
-    for part, quadrature in _blocks(_parts(rheology, gradient, ratio), mean.size):
+
+    def compute(part: _Part, number: int, *, estimated: bool = False) -> Array | None:
+        """Flux of some columns by a number of points, and the step of their mid-film stress that is left."""
         piece = _at_points(
             rheology,
             mean[part],
             gradient[:, part],
             slip[:, part],
             None if ratio is None or layers is None else (ratio[:, part], layers[:, part]),
-            quadrature,
+            Quadrature.gauss(number),
+            estimated=estimated,
         )
         flux[part], by_gradient[:, part], by_slip[:, part] = piece.flux, piece.by_gradient, piece.by_slip
         by_viscosity[:, part] = piece.by_viscosity
         if profile is not None:
             by_weight[:, part] = piece.by_weight
+        return piece.step
+
+    grade, numbers = _grades(rheology, gradient, ratio)
+    if d == 2 and not rheology.law.even and np.count_nonzero(grade == 0) > _TOGETHER:
+        for start in range(0, mean.size, _BLOCK):
+            block = slice(start, start + _BLOCK)
+            step = compute(block, numbers[0], estimated=True)
+            assert step is not None
+            grade[block] = np.maximum(grade[block], step > _EXACT**0.5)
+        rest = np.flatnonzero(grade)
+        for part, number in _parts(grade[rest], numbers):
+            compute(rest[part], number)
+    else:
+        for part, number in _parts(grade, numbers):
+            compute(part, number)
     return Flux(
         flux.reshape(shape),
         by_gradient.reshape(d, *shape),
@@ -133,40 +152,32 @@ def flux_of(
     )
 
 
-def _parts(
+def _grades(
     rheology: Rheology, gradient: Array, ratio: Array | None, *, speeds: bool = False
-) -> list[tuple[NDArray[np.intp] | slice, Quadrature]]:
-    """Columns (n,) with the quadrature that is exact enough for their flux, or for their ``speeds``.
-
-    The other arguments are the arguments of ``flux_of``.
+) -> tuple[NDArray[np.intp], tuple[int, int, int]]:
+    """Grade of columns (n,), and the numbers of points of the three grades that are exact enough for the
+    flux, or for the ``speeds``. The other arguments are the arguments of ``flux_of``.
     """
     reach = np.zeros(gradient.shape[1]) if rheology.law.even else np.max(np.abs(gradient), axis=0)
     varied = reach if ratio is None else reach + np.max(ratio, axis=0) - np.min(ratio, axis=0)
-    count = (varied >= _SMALLEST).astype(int)
-    count += varied >= _SMALL if speeds else reach >= rheology.law.reach
-    points = _FEWEST_OF_SPEEDS if speeds else _FEWEST, _FEW, GAUSS.offset.size
-    counted = np.bincount(count, minlength=len(points))
-    if count.size <= _TOGETHER:
-        counted[: np.max(count, initial=0)] = 0
+    grade = (varied >= _SMALLEST).astype(np.intp)
+    grade += varied >= _SMALL if speeds else reach >= rheology.law.reach
+    return grade, (_FEWEST_OF_SPEEDS if speeds else _FEWEST, _FEW, GAUSS.offset.size)
+
+
+# Some columns of an array.
+_Part: TypeAlias = NDArray[np.intp] | slice
+
+
+def _parts(grade: NDArray[np.intp], numbers: tuple[int, int, int]) -> list[tuple[_Part, int]]:
+    """Columns (n,) of each grade, with their number of points."""
+    counted = np.bincount(grade, minlength=len(numbers))
+    if grade.size <= _TOGETHER:
+        counted[: np.max(grade, initial=0)] = 0
     used = np.flatnonzero(counted)
     if used.size <= 1:
-        return [(slice(None), Quadrature.gauss(points[k])) for k in used]
-    return [(np.flatnonzero(count == k), Quadrature.gauss(points[k])) for k in used]
-
-
-def _blocks(
-    parts: list[tuple[NDArray[np.intp] | slice, Quadrature]], size: int
-) -> list[tuple[NDArray[np.intp] | slice, Quadrature]]:
-    """Parts of ``size`` columns, in blocks that fit into the cache of a core."""
-    blocks: list[tuple[NDArray[np.intp] | slice, Quadrature]] = []
-    for part, quadrature in parts:
-        indices = np.arange(size) if isinstance(part, slice) else part
-        count = -(-indices.size // _BLOCK)
-        if count == 1:
-            blocks.append((part, quadrature))
-        else:
-            blocks += [(block, quadrature) for block in np.array_split(indices, count)]
-    return blocks
+        return [(slice(None), numbers[k]) for k in used]
+    return [(np.flatnonzero(grade == k), numbers[k]) for k in used]
 
 
 def _at_points(
@@ -176,10 +187,12 @@ def _at_points(
     slip: Array,
     profile: tuple[Array, Array] | None,
     quadrature: Quadrature,
+    *,
+    estimated: bool = False,
 ) -> Flux:
     """Flux of some columns (n,) by one quadrature, by the equations of their law and number of axes.
 
-    The arguments are the arguments of ``flux_of``.
+    The arguments are the arguments of ``flux_of`` and ``plane_flux``.
     """
     if profile is None:
         fluidity, weight = mean[np.newaxis], quadrature.offset[:, np.newaxis]
@@ -189,7 +202,8 @@ def _at_points(
     if rheology.law.even:
         flux = even_flux(rheology, fluidity, weight, gradient, slip, quadrature)
     elif len(gradient) == 2:
-        flux = plane_flux(rheology, fluidity, weight, gradient, slip, quadrature, exact=_EXACT)
+        columns = fluidity, weight, gradient, slip
+        flux = plane_flux(rheology, *columns, quadrature, exact=_EXACT, estimated=estimated)
     else:
         flux = column_flux(rheology, fluidity, weight, gradient[0], slip[0], quadrature)
     if profile is None or flux.by_weight is None:
@@ -530,8 +544,9 @@ def columns_of(
     log_viscosity = np.log(viscosity).reshape(nz, -1)
     stress, rate, speed = (np.empty((2, *log_viscosity.shape)) for _ in range(3))
     softening, middle = np.empty_like(log_viscosity), np.empty_like(reduced)
-    for part, quadrature in _parts(rheology, reduced, None if uniform else log_viscosity, speeds=True):
-        values, _ = to_points(nz - 1, quadrature.offset.size)
+    grades = _grades(rheology, reduced, None if uniform else log_viscosity, speeds=True)
+    for part, number in _parts(*grades):
+        quadrature, (values, _) = Quadrature.gauss(number), to_points(nz - 1, number)
         columns = reduced[:, part], slips[:, part]
         fluidity = np.exp(-values @ log_viscosity[:, part])
         law = _ColumnLaw.of(rheology, fluidity, *columns, quadrature)
@@ -540,7 +555,7 @@ def columns_of(
             across.zeta - 0.5, np.exp(-log_viscosity[:, part]), columns[0]
         )
         _, at_points, _ = law(quadrature.offset, fluidity, columns[0])
-        speed[:, :, part] = _up_to(nz - 1, quadrature.offset.size) @ at_points
+        speed[:, :, part] = _up_to(nz - 1, number) @ at_points
     size = speed_unit * (thickness * scale)
     speed = size * speed.reshape(2, nz, *shape)
     speed[0] += 1.0 - 0.5 * slip * speed_unit

@@ -110,14 +110,22 @@ def eyring_factor(squared: Array, _constants: Constants) -> tuple[Array, Array]:
     True
     """
     large = np.maximum(squared, _SMALL)
-    below = large - squared
     r = np.minimum(np.sqrt(large), _LARGEST)
     up = np.exp(r)
     down = 1.0 / up
-    factor = np.asarray(0.5 * (up - down) / r)
-    slope = np.asarray((0.5 * (up + down) - factor) / (2.0 * large))
-    factor -= below * (1.0 / 6.0 + (large + squared) / 120.0)
-    slope -= below / 60.0
+    factor = up - down
+    factor /= r
+    factor *= 0.5
+    # In place, as films spend much of their time here: slope = (cosh(r) - factor)/(2 r^2).
+    slope = np.add(up, down, out=down)
+    slope *= 0.5
+    slope -= factor
+    slope /= large
+    slope *= 0.5
+    below = large - squared
+    if below.any():
+        factor -= below * (1.0 / 6.0 + (large + squared) / 120.0)
+        slope -= below / 60.0
     return factor, slope
 
 

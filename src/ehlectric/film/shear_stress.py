@@ -214,6 +214,9 @@ class Flux:
     by_viscosity: Array
     # Derivative by w at each Gauss point; None if the properties are uniform, shape (nq, ...).
     by_weight: Array | None = None
+    # Step of the mid-film stress over the characteristic stress that is left: the relative error of the flux
+    # is its square. None where the stress has a closed form, shape (...).
+    step: Array | None = None
 
 
 @dataclass(frozen=True)
@@ -544,6 +547,7 @@ def plane_flux(
     quadrature: Quadrature = GAUSS,
     *,
     exact: float = 1e-24,
+    estimated: bool = False,
 ) -> Flux:
     """Flux along the first axis of columns with stresses along both axes.
 
@@ -552,7 +556,8 @@ def plane_flux(
     (nq, 1,
     ...); ``gradient`` and ``slip``, q and g along the axis of the flux, and along the other axis,
     shape (2, ...); ``exact``, relative error of the flux for this quadrature; the error of the derivatives is
-    its root. Returns flux and derivatives.
+    its root; ``estimated``, whether an estimate of the mid-film stress for small stress differences counts.
+    Returns flux and derivatives.
 
     Examples
     --------
@@ -570,21 +575,11 @@ def plane_flux(
     each = np.broadcast_to(fluidity.reshape(len(fluidity), -1), (count, slip.shape[1]))
     weight = np.broadcast_to(weight.reshape(count, -1), each.shape)
 
-    def near(columns: tuple[Array, Array, Array], *, estimated: bool) -> _Plane:
-        """Rates at an estimate of the mid-film stress, or at a stress by Newton's method."""
-        middle = None
-        if not estimated:
-            middle = _by_newton_in_plane(rheology, *columns, quadrature, exact=exact**0.25)
-        return _Plane.of(rheology, *columns, quadrature, middle)
-
-    small = np.max(np.abs(gradient), initial=0.0) < _NEARLY_EVEN
-    plane = near((each, gradient, slip), estimated=bool(small))
+    middle = None
+    if not estimated:
+        middle = _by_newton_in_plane(rheology, each, gradient, slip, quadrature, exact=exact**0.25)
+    plane = _Plane.of(rheology, each, gradient, slip, quadrature, middle)
     flux = _flux_in_plane(plane, weight, quadrature)
-    far = np.flatnonzero(_size(plane.step) > exact**0.5) if small else ()
-    if len(far):
-        plane = near((each[:, far], gradient[:, far], slip[:, far]), estimated=False)
-        for values, others in zip(flux, _flux_in_plane(plane, weight[:, far], quadrature), strict=True):
-            values[..., far] = others
     total, by_gradient, by_slip, by_viscosity, by_weight = flux
     if fluidity.shape[0] == 1:
         by_viscosity = np.sum(by_viscosity, axis=0, keepdims=True)
@@ -594,6 +589,7 @@ def plane_flux(
         by_slip=by_slip.reshape(2, *shape),
         by_viscosity=by_viscosity.reshape(-1, *shape),
         by_weight=by_weight.reshape(count, *shape),
+        step=_size(plane.step).reshape(shape),
     )
 
 
