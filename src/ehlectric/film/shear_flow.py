@@ -103,6 +103,15 @@ def flux_of(
     >>> found = flux_of(Rheology(), np.ones(1), np.array([[1.2]]), np.array([[3.0]]))
     >>> round(float(found.flux[0]), 12)
     0.1
+
+    The viscosity falls by a factor of e from surface 1 to surface 2: the oil moves more with surface 1, as
+    the mean of G = (exp(zeta) - 1)/(e - 1) is (e - 2)/(e - 1).
+
+    >>> profile = -Across.of(12).zeta[:, np.newaxis], np.ones((13, 1))
+    >>> found = flux_of(Rheology(), np.ones(1), np.zeros((1, 1)), np.ones((1, 1)), profile)
+    >>> values = found.flux[0], found.drift[0], 0.5 - (np.e - 2.0) / (np.e - 1.0)
+    >>> [round(float(value), 6) for value in values]
+    [0.081977, 0.081977, 0.081977]
     """
     if profile is None and len(gradient) == 1 and rheology.name == "eyring":
         return uniform_eyring(mean, gradient[0], slip[0])
@@ -112,6 +121,7 @@ def flux_of(
     ratio, layers = (None, None) if profile is None else (values.reshape(nz, -1) for values in profile)
     flux, by_gradient, by_slip = np.empty_like(mean), np.empty_like(gradient), np.empty_like(slip)
     by_viscosity, by_weight = np.empty((nz, mean.size)), np.empty((nz, mean.size))
+    drift = np.empty_like(mean)
 
     def compute(part: _Part, number: int, *, estimated: bool = False) -> Array | None:
         """Flux of some columns by a number of points, and the step of their mid-film stress that is left."""
@@ -126,8 +136,8 @@ def flux_of(
         )
         flux[part], by_gradient[:, part], by_slip[:, part] = piece.flux, piece.by_gradient, piece.by_slip
         by_viscosity[:, part] = piece.by_viscosity
-        if profile is not None:
-            by_weight[:, part] = piece.by_weight
+        if piece.drift is not None:
+            by_weight[:, part], drift[part] = piece.by_weight, piece.drift
         return piece.step
 
     grade, numbers = _grades(rheology, gradient, ratio)
@@ -149,6 +159,7 @@ def flux_of(
         by_slip.reshape(d, *shape),
         by_viscosity.reshape(nz, *shape),
         None if profile is None else by_weight.reshape(nz, *shape),
+        None if profile is None else drift.reshape(shape),
     )
 
 
@@ -208,8 +219,13 @@ def _at_points(
         flux = column_flux(rheology, fluidity, weight, gradient[0], slip[0], quadrature)
     if profile is None or flux.by_weight is None:
         return flux
-    by_ratio, by_layers = values.T @ flux.by_viscosity, below.T @ flux.by_weight
-    return replace(flux, by_viscosity=by_ratio, by_weight=by_layers)
+    measure = quadrature.weights[:, np.newaxis] * fluidity
+    return replace(
+        flux,
+        by_viscosity=values.T @ flux.by_viscosity,
+        by_weight=below.T @ flux.by_weight,
+        drift=np.einsum("kn,kn->n", measure, weight) / np.sum(measure, axis=0),
+    )
 
 
 # Degree of the polynomial across a film without a temperature profile, for stresses and speeds.
@@ -363,8 +379,8 @@ class ShearedFlow:
         mean, by_before, by_after = faces.mean
         before, after = faces.nodes.by_properties(flux, by_before / mean, by_after / mean)
         drift: Array | float = 0.0
-        if faces.profile is not None and not faces.across:
-            drift = -gap * drift_of(*faces.profile, self.slide_to_roll_ratio) / spacing
+        if flux.drift is not None and not faces.across:
+            drift = gap * self.slide_to_roll_ratio / spacing * flux.drift
         passing = size * mass * gap
         return FaceFlow(
             flux=amount * mass * flux.flux,
@@ -375,29 +391,6 @@ class ShearedFlow:
             drift=drift,
             drift_by_gap=0.5 * drift / gap,
         )
-
-
-def drift_of(log_ratio: Array, density: Array, slide_to_roll_ratio: float) -> Array:
-    """Mass that flows through a gap without a gradient of P, less the mass flow of its oil at the mean speed.
-
-    ``log_ratio``, logarithm of the viscosity, and ``density``, at the nodes across the film, (nz, ...);
-    ``slide_to_roll_ratio``, slip (u_2 - u_1)/u_m. The stress is the same across the film, so that the shear
-    rate goes with the fluidity, whatever the law. Returns the mass flow over rho_0 h u_m, shape (...).
-
-    Examples
-    --------
-    The viscosity falls by a factor of e from surface 1 to surface 2: the oil moves more with surface 1, as
-    the mean of G = (exp(zeta) - 1)/(e - 1) is (e - 2)/(e - 1).
-
-    >>> drift = float(drift_of(-Across.of(12).zeta, np.ones(13), 1.0))
-    >>> round(drift, 6), round((np.e - 2.0) / (np.e - 1.0) - 0.5, 6)
-    (-0.081977, -0.081977)
-    """
-    values, below = to_points(len(log_ratio) - 1, _FEW)
-    weights = over_columns(Quadrature.gauss(_FEW).weights, log_ratio[0])
-    rate = weights * np.exp(-np.tensordot(values, log_ratio, axes=1))
-    mass = np.tensordot(below, density, axes=1)
-    return np.asarray(-slide_to_roll_ratio * np.sum(rate * mass, axis=0) / np.sum(rate, axis=0))
 
 
 @dataclass(frozen=True)
@@ -491,6 +484,7 @@ def _fluxes(rheology: Rheology, groups: list[_Faces]) -> list[Flux]:
                 by_slip=part(flux.by_slip),
                 by_viscosity=part(flux.by_viscosity),
                 by_weight=None if flux.by_weight is None else part(flux.by_weight),
+                drift=None if flux.drift is None else part(flux.drift),
             )
         )
     return fluxes

@@ -214,6 +214,9 @@ class Flux:
     by_viscosity: Array
     # Derivative by w at each Gauss point; None if the properties are uniform, shape (nq, ...).
     by_weight: Array | None = None
+    # Flux without a gradient over the slip, shape (...): the stress is then the same across the film, so that
+    # the shear rate goes with the fluidity, whatever the law. None if the properties are uniform.
+    drift: Array | None = None
     # Step of the mid-film stress over the characteristic stress that is left: the relative error of the flux
     # is its square. None where the stress has a closed form, shape (...).
     step: Array | None = None
