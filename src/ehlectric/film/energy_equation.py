@@ -448,8 +448,8 @@ def stream_of(
     sources of heat.
     """
     u, v = speed * columns.speed
-    viscosity = oil.log_viscosity(pressure, temperature)
-    density = oil.density(pressure, temperature)
+    at = oil.at(temperature)
+    viscosity, density = oil.log_viscosity(pressure, at), oil.density(pressure, at)
     heating = columns.heating * (stress * speed / thickness)
     heating_slope = np.minimum(0.0, heating * columns.softening * viscosity.by_temperature)
     oil_share, rubbed = rubbing
@@ -467,8 +467,8 @@ def stream_of(
         u=u,
         v=v,
         density=density.value,
-        heat_capacity=oil.heat_capacity(pressure, temperature).value,
-        conductivity=oil.thermal_conductivity(pressure, temperature).value,
+        heat_capacity=oil.heat_capacity(pressure, at).value,
+        conductivity=oil.thermal_conductivity(pressure, at).value,
         heating=heating,
         heating_slope=heating_slope,
         compression=expansion * (u * along + v * across),
@@ -728,16 +728,18 @@ class FrozenTemperature:
     def properties(self) -> Properties:
         """Properties at the pressure P0, on the mesh of the temperature."""
         p = self.pressure_scale * self.pressure
-        with_inlet = np.concatenate([self.heat.temperature, np.full((1, *p.shape), self.inlet_temperature)])
-        viscosity, density = self.oil.log_viscosity(p, with_inlet), self.oil.density(p, self.heat.temperature)
+        inlet = np.full((1, *p.shape), self.inlet_temperature)
+        # The last row has the temperature of the oil that enters.
+        at = self.oil.at(np.concatenate([self.heat.temperature, inlet]))
+        viscosity, density = self.oil.log_viscosity(p, at), self.oil.density(p, at)
         cold = self.oil.density(np.zeros(1), np.full(1, self.inlet_temperature)).value[0]
         log_ratio_p = viscosity.by_pressure[:-1] - viscosity.by_pressure[-1]
         log_ratio_p += self.heat.by_pressure * viscosity.by_temperature[:-1]
-        density_p = density.by_pressure + self.heat.by_pressure * density.by_temperature
+        density_p = density.by_pressure[:-1] + self.heat.by_pressure * density.by_temperature[:-1]
         return Properties(
             log_ratio=viscosity.value[:-1] - viscosity.value[-1],
             log_ratio_p=self.pressure_scale * log_ratio_p,
-            density=density.value / cold,
+            density=density.value[:-1] / cold,
             density_p=self.pressure_scale / cold * density_p,
         )
 

@@ -20,6 +20,35 @@ from ehlectric.runtime.display import Values
 _TEMPERATURES = 12
 
 
+# Coefficient of a series over its largest one below which it is rounding, and the least number that is kept:
+# a second derivative takes three.
+_ROUNDING, _LEAST = 1e-14, 3
+
+
+@dataclass(frozen=True, eq=False)
+class Temperatures:
+    """Temperatures in the film on the range of the oil, with what the series of all properties have alike."""
+
+    t: Array  # temperature on the range, mapped to -1 ... 1
+    count: int  # largest number of terms of a series
+
+    @cached_property
+    def inside(self) -> Array:
+        """Nearest temperatures of the range."""
+        return np.clip(self.t, -1.0, 1.0)
+
+    @cached_property
+    def polynomials(self) -> Array:
+        """Chebyshev polynomials at the temperatures, shape (count, nz, ...)."""
+        return _polynomials(self.inside, self.count)
+
+    @cached_property
+    def beyond(self) -> Array | None:
+        """Distance from the range, or None where all temperatures are inside."""
+        beyond = self.t - self.inside
+        return beyond if beyond.any() else None
+
+
 @dataclass(frozen=True, eq=False)
 class Property:
     """Property of the oil over temperature at given pressures, computed as far as it is asked for."""
@@ -28,23 +57,14 @@ class Property:
     # shape (n, ...).
     values: Array
     slopes: Array
-    t: Array  # temperature on the range of the series, mapped to -1 ... 1
+    at: Temperatures
     half_range: float  # [K]
     # Whether the property goes on beyond the range as a parabola, up to its vertex, instead of a line.
     curved: bool = False
 
-    @cached_property
-    def _inside(self) -> Array:
-        return np.clip(self.t, -1.0, 1.0)
-
-    @cached_property
-    def _polynomials(self) -> Array:
-        """Chebyshev polynomials at the temperatures, shape (n, nz, ...)."""
-        return _polynomials(self._inside, len(self.values))
-
     def _series(self, coefficients: Array) -> Array:
         """Chebyshev series (m, ...) at the temperatures, m <= n."""
-        of_each = self._polynomials[: len(coefficients)]
+        of_each = self.at.polynomials[: len(coefficients)]
         return np.asarray(np.einsum("k...,k...->...", of_each, coefficients), dtype=np.float64)
 
     @cached_property
@@ -52,20 +72,14 @@ class Property:
         return self._series(_derived(self.values))
 
     @cached_property
-    def _beyond(self) -> Array | None:
-        """Distance from the range, or None where all temperatures are inside."""
-        beyond = self.t - self._inside
-        return beyond if beyond.any() else None
-
-    @cached_property
     def _curvature(self) -> Array:
         """Second derivative by ``t`` at the end of the range, of parabolas; zero for straight lines."""
-        return self._series(_derived(_derived(self.values))) if self.curved else np.zeros_like(self.t)
+        return self._series(_derived(_derived(self.values))) if self.curved else np.zeros_like(self.at.t)
 
     @cached_property
     def _reach(self) -> Array:
         """Distance from the range, of a parabola at most the distance of its vertex."""
-        beyond = self.t - self._inside
+        beyond = self.at.t - self.at.inside
         slope, curvature = self._by_t, self._curvature
         vertex = np.divide(-slope, curvature, out=np.full_like(slope, np.inf), where=curvature != 0.0)
         return np.where(vertex * beyond > 0.0, np.sign(beyond) * np.minimum(abs(beyond), abs(vertex)), beyond)
@@ -74,7 +88,7 @@ class Property:
     def value(self) -> Array:
         """Values of the property."""
         inside = self._series(self.values)
-        if self._beyond is None:
+        if self.at.beyond is None:
             return inside
         return inside + (self._by_t + 0.5 * self._curvature * self._reach) * self._reach
 
@@ -82,14 +96,14 @@ class Property:
     def by_pressure(self) -> Array:
         """Derivative by pressure [1/Pa]."""
         inside = self._series(self.slopes)
-        if self._beyond is None:
+        if self.at.beyond is None:
             return inside
-        return inside + self._series(_derived(self.slopes)) * self._beyond
+        return inside + self._series(_derived(self.slopes)) * self.at.beyond
 
     @cached_property
     def by_temperature(self) -> Array:
         """Derivative by temperature [1/K]."""
-        if self._beyond is None:
+        if self.at.beyond is None:
             return self._by_t / self.half_range
         return (self._by_t + self._curvature * self._reach) / self.half_range
 
@@ -146,7 +160,12 @@ class HotOil:
                 raise InputError(key, got="no value", takes="a value: the heat in the film depends on it")
         return cls(oils, lowest, highest)
 
-    def log_viscosity(self, pressure: Array, temperature: Array) -> Property:
+    def at(self, temperature: Array) -> Temperatures:
+        """Temperatures [K] for several properties."""
+        half = 0.5 * (self.highest - self.lowest)
+        return Temperatures((temperature - self.lowest) / half - 1.0, len(self.oils))
+
+    def log_viscosity(self, pressure: Array, temperature: Array | Temperatures) -> Property:
         """Natural logarithm of the viscosity in Pa s.
 
         ``pressure`` [Pa] has the shape (...), ``temperature`` [K] the shape (..., ) or (nz, ...).
@@ -158,7 +177,7 @@ class HotOil:
 
         return self._between(law, pressure, temperature)
 
-    def density(self, pressure: Array, temperature: Array) -> Property:
+    def density(self, pressure: Array, temperature: Array | Temperatures) -> Property:
         """Density [kg/m^3]; pressure and temperature as for ``log_viscosity``."""
 
         def law(oil: Oil) -> tuple[Array, Array]:
@@ -168,7 +187,7 @@ class HotOil:
 
         return self._between(law, pressure, temperature)
 
-    def thermal_conductivity(self, pressure: Array, temperature: Array) -> Property:
+    def thermal_conductivity(self, pressure: Array, temperature: Array | Temperatures) -> Property:
         """Thermal conductivity [W/(m K)]; pressure and temperature as for ``log_viscosity``."""
 
         def law(oil: Oil) -> tuple[Array, Array]:
@@ -177,7 +196,7 @@ class HotOil:
 
         return self._between(law, pressure, temperature)
 
-    def heat_capacity(self, pressure: Array, temperature: Array) -> Property:
+    def heat_capacity(self, pressure: Array, temperature: Array | Temperatures) -> Property:
         """Volumetric heat capacity [J/(m^3 K)]; pressure and temperature as for ``log_viscosity``."""
 
         def law(oil: Oil) -> tuple[Array, Array]:
@@ -193,21 +212,27 @@ class HotOil:
         return np.asarray(np.linalg.inv(chebyshev.chebvander(chebyshev.chebpts1(n), n - 1)), dtype=np.float64)
 
     def _between(
-        self, law: Callable[[Oil], tuple[Array, Array]], pressure: Array, temperature: Array
+        self, law: Callable[[Oil], tuple[Array, Array]], pressure: Array, temperature: Array | Temperatures
     ) -> Property:
         """Property at temperatures, from the values and derivatives by pressure that a law has for an oil."""
         values = np.empty((len(self.oils), *pressure.shape))
         slopes = np.empty_like(values)
         for k, oil in enumerate(self.oils):
             values[k], slopes[k] = law(oil)
-        half = 0.5 * (self.highest - self.lowest)
         return Property(
-            np.tensordot(self._to_coefficients, values, axes=1),
-            np.tensordot(self._to_coefficients, slopes, axes=1),
-            (temperature - self.lowest) / half - 1.0,
-            half,
+            _without_rounding(np.tensordot(self._to_coefficients, values, axes=1)),
+            _without_rounding(np.tensordot(self._to_coefficients, slopes, axes=1)),
+            temperature if isinstance(temperature, Temperatures) else self.at(temperature),
+            0.5 * (self.highest - self.lowest),
             self.curved,
         )
+
+
+def _without_rounding(coefficients: Array) -> Array:
+    """Series (m, ...) without last terms that are rounding: most properties are polynomials of low degree."""
+    sizes = np.max(np.abs(coefficients).reshape(len(coefficients), -1), axis=1, initial=0.0)
+    terms = np.flatnonzero(sizes > _ROUNDING * np.max(sizes))
+    return coefficients[: max(_LEAST, int(terms[-1]) + 1 if terms.size else 0)]
 
 
 def _derived(coefficients: Array) -> Array:
