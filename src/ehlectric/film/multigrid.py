@@ -8,6 +8,9 @@ Line relaxation changes all nodes of a line along x at once, with the band of th
 diagonal. If the deflection dominates the Jacobian, an unknown is not the pressure of one node but a dipole
 or a second difference of pressures. Its deflection decays faster with distance
 (``ehlectric.film.levels.Distribution``).
+
+In a point contact the relaxation complements the coarser grids: it reduces changes that differ from line to
+line even if they are smooth along the lines, and it leaves most of a change that is smooth along both axes.
 """
 
 from __future__ import annotations
@@ -161,13 +164,34 @@ def _rows(gap: Gap, stencils: tuple[Stencil, Stencil], distributed: Mask, band: 
         share * nodal[..., inner.start + offset : inner.stop + offset or None]
         for offset, share in _neighbours(gap.level)
     )
-    kept *= sliding_window_view(padded, 2 * band + 1, axis=1)
+    within = sliding_window_view(padded, 2 * band + 1, axis=1)
+    kept *= within
     kept += nodal[..., inner]
+    if gap.level.mesh.dy is not None:
+        beyond = _row_sums(gap, stencils, distributed) - np.einsum("jik,jik->ij", kept, within)
+        kept[..., band] += np.where(distributed, beyond, 0.0).T
     # The matrix ends with the line.
     for k in range(band):
         kept[:, k, : band - k] = 0.0
         kept[:, nx - 1 - k, band + 1 + k :] = 0.0
     return rows
+
+
+def _row_sums(gap: Gap, stencils: tuple[Stencil, Stencil], distributed: Mask) -> Array:
+    """Rows (nx, ny) of the Jacobian of a line times ones for its distributed unknowns, without a limit of the
+    band.
+
+    The rows beyond the band fall as 1/distance^3 in a point contact. Their sum is small, but a change that is
+    smooth along a line makes all rows small: without the sum, the relaxation would leave most of a pressure
+    that differs from line to line only.
+    """
+    pressure = distributed.astype(float)
+    for offset, share in _neighbours(gap.level):
+        here, there = _shifted(offset)
+        pressure[there] += share * distributed[here]
+    opened = scipy.linalg.matmul_toeplitz(gap.level.deflection.influence[:, 0], pressure)
+    by_p, by_h = (Stencil(part.coefficients[:ALONG]) for part in stencils)
+    return by_p(pressure) + by_h(opened)
 
 
 # Change of ln eps between neighbours above which a coarser grid cannot resolve the solution.
@@ -179,6 +203,11 @@ _ALIKE = 0.6
 
 # Steps along x to the nodes that a row of a stencil couples.
 _STEPS = tuple(step for step, _ in OFFSETS[:ALONG])
+
+# Diagonal of the Poiseuille term over the one of the wedge term below which a node is stiff, and the part of
+# the smooth change by the relaxation that is taken off there. Without it the cycle of a contact with hundreds
+# of nodes in its Hertz zone diverges; at other nodes it helps.
+_STIFF, _SMOOTH = 0.1, 0.8
 
 # Fraction of the residual below which one cycle on a coarser grid is enough, and no second cycle follows.
 _ENOUGH = 0.1
@@ -432,7 +461,21 @@ def v_cycle(jacobians: list[Linearised], r: Array, load: float) -> tuple[Array, 
         coarse_dp, dh00 = _two_cycles(coarser, restricted, load)
     dp = np.where(finest.full_film, level.prolong(coarse_dp), 0.0)
     change, _ = finest.roughly(dp, dh00)
-    return dp + finest.relax(r - change), dh00
+    return dp + _relaxed(finest, level, r - change), dh00
+
+
+def _relaxed(finest: Linearised, coarser: Level, r: Array) -> Array:
+    """Change dP (nx, ny) by the relaxation of a residual, in a point contact with little of its smooth part.
+
+    The relaxation of a line neglects the deflection by all other lines. Of a change that is smooth along and
+    across the lines it makes many times too much, and the next coarser grid has already made it. The smooth
+    part is what remains of the change if it is transferred to that grid and back.
+    """
+    change = finest.relax(r)
+    if coarser.averaged is None:
+        return change
+    stiff = finest.full_film & (finest.poiseuille < _STIFF * finest.level.rate)
+    return change - np.where(stiff, _SMOOTH * coarser.prolong(coarser.averaged(change)), 0.0)
 
 
 def cycled(jacobians: list[Linearised], image: Array) -> Array:
