@@ -19,10 +19,11 @@ from ehlectric.film.deflection import Geometry
 from ehlectric.film.levels import Level, hierarchy
 from ehlectric.film.mesh import Mesh, at_centre, on_mesh
 from ehlectric.film.newton import GridProblem, GridSolution, Progress, State, newton
+from ehlectric.film.oil_content import SCHEMES
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.reynolds import wedge_stencil
 from ehlectric.film.starved_solver import conserving_film, forms_again, with_inlet
-from ehlectric.film.touching_solver import Conserving, touching_films
+from ehlectric.film.touching_solver import Conserving, Start, touching_films
 
 # Tolerance of the residual on the coarser grids, far below their discretisation error.
 NESTED_TOLERANCE = 1e-6
@@ -188,10 +189,11 @@ def _mixed(
     posed = replace(posed, levels=levels)
     conserving = Conserving(posed, problem.wedge_order)
     grids: list[GridSolution] = []
-    filled = None
+    from_coarse = None
     if near is not None and near.touching.any() and coarse is not None and coarse.fraction is not None:
         filled = filled_on(level.mesh, coarse.level.mesh, with_inlet(coarse.final.full_film))
-        grids.append(conserving.near(near, filled))
+        from_coarse = Start(near, filled)
+        grids.append(conserving.film(from_coarse))
         if grids[-1].status == "converged":
             return [*grids[:-1], _apart(problem, levels, grids[-1], progress)]
     dry = np.broadcast_to(problem.geometry.dry_pressure(level.mesh.x, level.mesh.y), level.mesh.shape)
@@ -209,13 +211,12 @@ def _mixed(
     full = grids[-1]
     if full.status != "converged" or not forms_again(full.final.full_film):
         return grids
-    *others, best = conserving.from_full(full, thorough=finest)
+    *others, best = conserving.films(Start.of(full))
+    if best.status != "converged" and from_coarse is not None:
+        *more, best = conserving.films(from_coarse, SCHEMES[1:])
+        others = [*others, *more]
     if best.status == "converged":
         return _replaced([*others, *grids], _apart(problem, levels, best, progress))
-    if near is not None and filled is not None:
-        simpler = conserving.near_simpler(near, filled)
-        if simpler.status == "converged":
-            return _replaced([*others, best, *grids], simpler)
     # A film that creates oil is better than none; a warning reports it.
     return [*others, best, *grids]
 

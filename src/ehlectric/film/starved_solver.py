@@ -111,7 +111,7 @@ _FALL, _LEAST_FALL = 0.6, 0.97
 _MOST_STEPS = 40
 
 
-def _of_full_order(problem: GridProblem, film: GridSolution, supply: Supply) -> GridSolution:
+def of_full_order(problem: GridProblem, film: GridSolution, supply: Supply) -> GridSolution:
     """Solution whose nodes have no upwind difference that it does not need, and whose oil balances closely.
 
     Nodes that changed their state in turn got such a difference. A residual that is small as a pressure may
@@ -139,7 +139,7 @@ Solver: TypeAlias = Callable[[Guess, Supply], GridSolution]
 def isothermal(
     posed: GridProblem, *, full_order: bool = True, min_iterations: int = 0, first_damping: float = 0.0
 ) -> Solver:
-    """Solver of films on one grid without heat; ``full_order`` as in ``_of_full_order``.
+    """Solver of films on one grid without heat; ``full_order`` as in ``of_full_order``.
 
     ``min_iterations`` and ``first_damping`` belong to the first solution, from the guess.
     """
@@ -152,7 +152,7 @@ def isothermal(
             carried=Carried(supply, guess.filled),
             min_iterations=min_iterations,
         )
-        return _of_full_order(posed, of_first_order, supply.of_full_order) if full_order else of_first_order
+        return of_full_order(posed, of_first_order, supply.of_full_order) if full_order else of_first_order
 
     return film
 

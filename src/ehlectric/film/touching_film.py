@@ -519,10 +519,11 @@ def touching_newton(
             filled, moved = now.carried.filled, assessed.carried.filled
             supply = memory.supply_after(assessed.carried.supply, filled, moved)
             assessed = replace(assessed, carried=replace(assessed.carried, supply=supply))
-        better = assessed.norm < now.norm and step.length > _LONG
+        better = assessed.norm < now.norm and step.length > _LONG * part
         damping = _FALL * damping if better else min(_MOST_DAMPING, max(_RISE * damping, _LEAST_RAISED))
         near = _NEARER * near if now.norm <= near < assessed.norm else near
-        damping = damping if assessed.norm > near and assessed.contact.any() else 0.0
+        damped = asperities.boundary_film > 0.0 and (carried is not None or assessed.contact.any())
+        damping = damping if damped and assessed.norm > near else 0.0
         now = assessed
     if is_solved(now, tolerance):
         status = "converged"

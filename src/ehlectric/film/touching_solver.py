@@ -6,9 +6,9 @@ surfaces take. If the oil carries almost no load, the dry contact itself is near
 film is followed in time from the dry contact on until it is stationary.
 
 A film that counts its cavities as full is a solution of the equations with a source of oil where it forms
-again behind a cavity. Newton's method starts from it without this source. If that does not converge, the
-source is taken away in steps. If that does not help, both are tried with an upwind difference where the gap
-closes steeply, which is less accurate and converges more often.
+again behind a cavity. Newton's method starts from it without this source. If Newton's method does not
+converge, it starts again with less accurate schemes, which converge more often. Their film is a start for
+the usual scheme.
 
 If a ridge of a line contact touches, only the oil of the boundary film passes it. Whether such a ridge
 parts depends on the ridges before it, and the film moves through it node by node as the valley in front of
@@ -23,7 +23,7 @@ In the end it is infinite, so that the film is a solution of the stationary equa
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -33,9 +33,9 @@ from ehlectric.film.dry_contact import dry_contact, relieved
 from ehlectric.film.face_flow import Fluid
 from ehlectric.film.levels import Level
 from ehlectric.film.newton import Asperities, GridProblem, GridSolution, Guess, NewtonStep, State
-from ehlectric.film.oil_content import SCHEMES, USUAL, Carried, Scheme, Supply, carried_rows
+from ehlectric.film.oil_content import SCHEMES, USUAL, Scheme, Supply
 from ehlectric.film.reynolds import Stencil
-from ehlectric.film.starved_solver import flooded_inlet, isothermal, with_inlet
+from ehlectric.film.starved_solver import flooded_inlet, isothermal, of_full_order, with_inlet
 from ehlectric.film.touching_film import (
     OIL_TOLERANCE,
     Stepped,
@@ -48,12 +48,17 @@ from ehlectric.film.touching_film import (
     touching_newton,
 )
 
-# Part of the source that is taken away in the first step, the least one, the factors after a step that
-# converged and one that did not, and the largest number of Newton steps of each.
-_FIRST, _LEAST, _LONGER, _SHORTER, _STEPS = 0.25, 0.01, 1.5, 0.5, 15
+@dataclass(frozen=True)
+class Start:
+    """Initial guess of a film with mass-conserving cavitation, likely to be close to the film."""
 
-# Residual of the steps before the last one.
-_INTERMEDIATE = 1e-6
+    state: State
+    filled: Mask  # nodes that oil fills, shape (nx, ny)
+
+    @classmethod
+    def of(cls, film: GridSolution) -> Start:
+        """Start from a film on the same grid."""
+        return cls(film.state, film.final.full_film)
 
 
 @dataclass(frozen=True)
@@ -62,72 +67,44 @@ class Conserving:
 
     problem: GridProblem  # lubricant, grids, asperities and stopping rule
     order: int  # order of the wedge term where oil fills the gap: 1, 2 or 3
-    scheme: Scheme = USUAL  # formulas of the mass at the faces
 
-    def near(self, state: State, filled: Mask) -> GridSolution:
-        """Film from a state that is likely to be close, with the nodes (nx, ny) that oil fills in it."""
-        return self._solved(self.problem, state, filled, NEAR_DAMPING)
+    def films(self, start: Start, schemes: Sequence[Scheme] = SCHEMES) -> Iterator[GridSolution]:
+        """Films of one scheme after the other from a start, up to the first that converges.
 
-    def near_simpler(self, state: State, filled: Mask) -> GridSolution:
-        """Film of the first simpler scheme that converges from a state that is likely to be close."""
-        for scheme in SCHEMES[1:]:
-            film = replace(self, scheme=scheme).near(state, filled)
-            if film.status == "converged":
-                break
-        return film
-
-    def from_full(self, solution: GridSolution, *, thorough: bool) -> Iterator[GridSolution]:
-        """Films from a converged one that counts its cavities as full: at once, and ``thorough`` in steps.
-
-        They end with the first that converges. The film of a simpler scheme is a guess for the usual scheme,
-        and the result only if the usual scheme does not converge from it.
+        Only the last film may have converged. It is the film of the most accurate scheme that converges from
+        the start or from the film of a simpler scheme.
         """
-        yield (film := self.near(solution.state, solution.final.full_film))
-        if thorough and film.status != "converged":
-            yield (film := self._in_steps(solution))
-        if film.status != "converged" and self.scheme.simpler is not None:
-            simpler = replace(self, scheme=self.scheme.simpler)
-            for film in simpler.from_full(solution, thorough=thorough):
-                usual = self.near(film.state, film.final.full_film) if film.status == "converged" else film
-                better = usual.status == "converged" and usual is not film
-                yield replace(usual, steps=film.steps + usual.steps) if better else film
-
-    def _in_steps(self, solution: GridSolution) -> GridSolution:
-        """Film from which the oil that its cavities make is taken away in steps."""
-        made, level, tolerance = self._made(solution), self.problem.level, self.problem.tolerance
-        left, step, last = 1.0, _FIRST, solution
-        while left > 0.0 and step > _LEAST:
-            part = max(0.0, left - step)
-            posed = replace(
-                self.problem,
-                levels=[replace(level, source=level.source + part * made), *self.problem.levels[1:]],
-                tolerance=tolerance if part == 0.0 else max(tolerance, _INTERMEDIATE),
-                max_iterations=_STEPS,
-            )
-            film = self._solved(posed, last.state, last.final.full_film, 0.0)
+        for scheme in schemes:
+            film = self._film(start, scheme)
             if film.status == "converged":
-                left, step, last = part, _LONGER * step, film
-            else:
-                step *= _SHORTER
-        return replace(last, status="converged" if left == 0.0 else "stalled", level=level)
+                yield self._most_accurate(film, scheme)
+                return
+            yield film
 
-    def _made(self, solution: GridSolution) -> Array:
-        """Oil (nx, ny) that appears at the nodes of a film which counts its cavities as full."""
-        level = self.problem.level
-        thickness = np.maximum(solution.state.thickness, self.problem.asperities.boundary_film)
-        carried = Carried(self._supply, with_inlet(solution.final.full_film))
-        rows, _ = carried_rows(level, solution.final.flow, thickness, carried)
-        return rows
+    def film(self, start: Start) -> GridSolution:
+        """Film of the usual scheme from a start."""
+        return self._of_full_order(self._film(start, USUAL), USUAL)
 
-    def _solved(self, problem: GridProblem, state: State, filled: Mask, damping: float) -> GridSolution:
-        """Film from a state and the nodes (nx, ny) that oil fills in it, with a damping of the first step."""
-        solved = isothermal(problem, first_damping=damping)
-        return solved(Guess(state, with_inlet(filled)), self._supply)
+    def _most_accurate(self, film: GridSolution, scheme: Scheme) -> GridSolution:
+        """Film of the most accurate scheme that converges from the film of a scheme, with all steps to it."""
+        for better in reversed(SCHEMES[: SCHEMES.index(scheme)]):
+            closer = self._film(Start.of(film), better)
+            if closer.status == "converged":
+                film, scheme = replace(closer, steps=film.steps + closer.steps), better
+        return self._of_full_order(film, scheme)
 
-    @property
-    def _supply(self) -> Supply:
+    def _film(self, start: Start, scheme: Scheme) -> GridSolution:
+        """Film of a scheme from a start, in which some nodes may have an upwind difference."""
+        solved = isothermal(self.problem, full_order=False, first_damping=NEAR_DAMPING)
+        return solved(Guess(start.state, with_inlet(start.filled)), self._supply(scheme))
+
+    def _of_full_order(self, film: GridSolution, scheme: Scheme) -> GridSolution:
+        """Film without upwind differences that it does not need."""
+        return of_full_order(self.problem, film, self._supply(scheme))
+
+    def _supply(self, scheme: Scheme) -> Supply:
         """Flooded inlet."""
-        return flooded_inlet(self.problem.level, self.order, self.scheme)
+        return flooded_inlet(self.problem.level, self.order, scheme)
 
 
 # Inverse time steps, as the spacing dX over the distance that oil travels in the step: the first one, the one
