@@ -88,7 +88,7 @@ def passing(film):
 
 @pytest.mark.slow
 def test_ridges_float_or_let_their_boundary_film_pass():
-    """A line whose ridges touch for boundary films of 10 and 5 nm, and float over those of 2 and 1 nm.
+    """A line whose ridges touch for boundary films of 10 and 5 nm, and float over those of 1 and 0.5 nm.
 
     No oil passes beside a ridge. If ridges touch, their boundary film passes: the flow is that of the gap at
     the largest pressure of the oil, and no gap is thinner than the boundary film. Valleys are not full of
@@ -98,7 +98,7 @@ def test_ridges_float_or_let_their_boundary_film_pass():
     All films carry their oil through cavities. Films that count their cavities as full let more oil pass.
     """
     case = rough_line(gaussian("200 nm", "20 um", seed=4), nodes=801, speed=7e-3)
-    boundary_films = (10e-9, 5e-9, 2e-9, 1e-9)
+    boundary_films = (10e-9, 5e-9, 1e-9, 0.5e-9)
     *dry, thin, thinner = films = [
         mixed_film(case, boundary_film=boundary_film) for boundary_film in boundary_films
     ]

@@ -19,7 +19,7 @@ from ehlectric.film.deflection import Geometry
 from ehlectric.film.levels import Level, hierarchy
 from ehlectric.film.mesh import Mesh, at_centre, on_mesh
 from ehlectric.film.newton import GridProblem, GridSolution, Progress, State, newton
-from ehlectric.film.oil_content import SCHEMES
+from ehlectric.film.oil_content import SCHEMES, USUAL
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.reynolds import wedge_stencil
 from ehlectric.film.starved_solver import conserving_film, forms_again, with_inlet
@@ -193,7 +193,7 @@ def _mixed(
     if near is not None and near.touching.any() and coarse is not None and coarse.fraction is not None:
         filled = filled_on(level.mesh, coarse.level.mesh, with_inlet(coarse.final.full_film))
         from_coarse = Start(near, filled)
-        grids.append(conserving.film(from_coarse))
+        grids.extend(conserving.films([(from_coarse, USUAL)]))
         if grids[-1].status == "converged":
             return [*grids[:-1], _apart(problem, levels, grids[-1], progress)]
     dry = np.broadcast_to(problem.geometry.dry_pressure(level.mesh.x, level.mesh.y), level.mesh.shape)
@@ -211,10 +211,11 @@ def _mixed(
     full = grids[-1]
     if full.status != "converged" or not forms_again(full.final.full_film):
         return grids
-    *others, best = conserving.films(Start.of(full))
-    if best.status != "converged" and from_coarse is not None:
-        *more, best = conserving.films(from_coarse, SCHEMES[1:])
-        others = [*others, *more]
+    attempts = [(Start.of(full), scheme) for scheme in SCHEMES]
+    if from_coarse is not None:
+        # From there the usual scheme did not converge.
+        attempts += [(from_coarse, scheme) for scheme in SCHEMES[1:]]
+    *others, best = conserving.films(attempts)
     if best.status == "converged":
         return _replaced([*others, *grids], _apart(problem, levels, best, progress))
     # A film that creates oil is better than none; a warning reports it.

@@ -460,8 +460,9 @@ OIL_TOLERANCE = 1e-6
 _KRYLOV_LIMIT = 100
 
 # Damping of a Newton step at most, the least one when it is raised, and the factors by which it falls and
-# rises. It falls after a step of more than half its length that reduces the residual. Without damping, nodes
-# at the edges of spots come into contact and leave it in turn.
+# rises. It falls after a step of more than half its largest length that reduces the residual. Without
+# damping, nodes at the edges of spots come into contact and leave it in turn, and nodes at the edges of
+# cavities are filled and cavitate in turn.
 _MOST_DAMPING, _LEAST_RAISED = 4.0, 0.1
 _FALL, _RISE, _LONG = 0.3, 2.0, 0.5
 

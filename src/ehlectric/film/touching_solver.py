@@ -33,7 +33,7 @@ from ehlectric.film.dry_contact import dry_contact, relieved
 from ehlectric.film.face_flow import Fluid
 from ehlectric.film.levels import Level
 from ehlectric.film.newton import Asperities, GridProblem, GridSolution, Guess, NewtonStep, State
-from ehlectric.film.oil_content import SCHEMES, USUAL, Scheme, Supply
+from ehlectric.film.oil_content import SCHEMES, Scheme, Supply
 from ehlectric.film.reynolds import Stencil
 from ehlectric.film.starved_solver import flooded_inlet, isothermal, of_full_order, with_inlet
 from ehlectric.film.touching_film import (
@@ -47,6 +47,7 @@ from ehlectric.film.touching_film import (
     projected,
     touching_newton,
 )
+
 
 @dataclass(frozen=True)
 class Start:
@@ -68,22 +69,19 @@ class Conserving:
     problem: GridProblem  # lubricant, grids, asperities and stopping rule
     order: int  # order of the wedge term where oil fills the gap: 1, 2 or 3
 
-    def films(self, start: Start, schemes: Sequence[Scheme] = SCHEMES) -> Iterator[GridSolution]:
-        """Films of one scheme after the other from a start, up to the first that converges.
+    def films(self, attempts: Sequence[tuple[Start, Scheme]]) -> list[GridSolution]:
+        """Films of one attempt after the other, up to the first that converges.
 
-        Only the last film may have converged. It is the film of the most accurate scheme that converges from
-        the start or from the film of a simpler scheme.
+        The film of a simpler scheme is a start for the more accurate schemes. Only the last film may have
+        converged. Then its scheme is the most accurate one that converges.
         """
-        for scheme in schemes:
+        films: list[GridSolution] = []
+        for start, scheme in attempts:
             film = self._film(start, scheme)
             if film.status == "converged":
-                yield self._most_accurate(film, scheme)
-                return
-            yield film
-
-    def film(self, start: Start) -> GridSolution:
-        """Film of the usual scheme from a start."""
-        return self._of_full_order(self._film(start, USUAL), USUAL)
+                return [*films, self._most_accurate(film, scheme)]
+            films.append(film)
+        return films
 
     def _most_accurate(self, film: GridSolution, scheme: Scheme) -> GridSolution:
         """Film of the most accurate scheme that converges from the film of a scheme, with all steps to it."""
@@ -91,16 +89,12 @@ class Conserving:
             closer = self._film(Start.of(film), better)
             if closer.status == "converged":
                 film, scheme = replace(closer, steps=film.steps + closer.steps), better
-        return self._of_full_order(film, scheme)
+        return of_full_order(self.problem, film, self._supply(scheme).of_full_order)
 
     def _film(self, start: Start, scheme: Scheme) -> GridSolution:
         """Film of a scheme from a start, in which some nodes may have an upwind difference."""
         solved = isothermal(self.problem, full_order=False, first_damping=NEAR_DAMPING)
         return solved(Guess(start.state, with_inlet(start.filled)), self._supply(scheme))
-
-    def _of_full_order(self, film: GridSolution, scheme: Scheme) -> GridSolution:
-        """Film without upwind differences that it does not need."""
-        return of_full_order(self.problem, film, self._supply(scheme))
 
     def _supply(self, scheme: Scheme) -> Supply:
         """Flooded inlet."""
