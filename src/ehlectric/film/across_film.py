@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 from typing import Protocol
 
 import numpy as np
@@ -49,6 +49,21 @@ class Across:
         """
         zeta = lobatto_nodes(degree)
         return cls(zeta, lobatto_weights(zeta), integrals(zeta, zeta), derivative_matrix(zeta))
+
+    @cached_property
+    def conduction(self) -> Array:
+        """Integrals of phi_i' phi_j' from each node's value of the conductivity, shape (nz, nz nz)."""
+        slope = self.derivative
+        products = self.weights[:, np.newaxis, np.newaxis] * slope[:, :, np.newaxis] * slope[:, np.newaxis]
+        return np.asarray(products.reshape(self.zeta.size, -1))
+
+    @cached_property
+    def convection(self) -> Array:
+        """Rows of the derivative at each node, from the node's flow across the film, shape (nz, nz nz)."""
+        nodes = np.arange(self.zeta.size)
+        rows = np.zeros((nodes.size, nodes.size, nodes.size))
+        rows[nodes, nodes] = self.derivative
+        return rows.reshape(nodes.size, -1)
 
     def at(self, zeta: Array) -> Array:
         """Matrix of the interpolation from the nodes to other positions ``zeta`` (n,), shape (n, nz)."""

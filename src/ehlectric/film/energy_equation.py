@@ -39,10 +39,11 @@ from ehlectric.film.mesh import Mesh, on_mesh, trapezoidal_weights
 from ehlectric.film.shear_flow import Columns
 
 
-def conduction(across: Across, conductivity: Array) -> Array:
-    """Symmetric matrix (..., nz, nz) of conduction across the film, the integral of k T' phi' over zeta.
+def conduction(across: Across, conductivity: Array, flow: Array | None = None) -> Array:
+    """Matrix (..., nz, nz) of conduction across the film, the integral of k T' phi' over zeta, less f T'.
 
-    ``conductivity`` (nz, ...) is the thermal conductivity k at the nodes. The rows of the matrix sum to zero.
+    ``conductivity`` (nz, ...) is the thermal conductivity k at the nodes, and ``flow`` (nz, ...) the factor f.
+    The rows of the matrix sum to zero. It is symmetric without a flow.
 
     Examples
     --------
@@ -53,9 +54,11 @@ def conduction(across: Across, conductivity: Array) -> Array:
     >>> bool(np.allclose(heat, [-2.0, 0.0, 0.0, 0.0, 2.0]))
     True
     """
-    slope = across.derivative
-    weighted = np.moveaxis(conductivity, 0, -1) * across.weights
-    return np.asarray(slope.T @ (weighted[..., np.newaxis] * slope))
+    nz, shape = across.zeta.size, conductivity.shape[1:]
+    values, products = [conductivity.reshape(nz, -1)], [across.conduction]
+    if flow is not None:
+        values, products = [*values, flow.reshape(nz, -1)], [*products, -across.convection]
+    return np.asarray(np.concatenate(values).T @ np.concatenate(products)).reshape(*shape, nz, nz)
 
 
 # Peclet number u b/(2 kappa) above which the fast limit replaces the exact solution: they differ by less than
@@ -332,11 +335,11 @@ class HeatColumns:
         cell = np.gradient(across.zeta)[:, np.newaxis, np.newaxis]
         conducted = stream.filling / stream.thickness * stream.conductivity
         larger = np.maximum(np.abs(upward), np.abs(upward - upward[-1]))
-        matrix = conduction(across, np.maximum(conducted, 0.5 * larger * cell))
+        conducted = np.maximum(conducted, 0.5 * larger * cell)
         # No oil passes surface b; the discrete balance of mass at a node is another one than here.
         upward -= across.zeta[:, np.newaxis, np.newaxis] * upward[-1]
         upward *= across.weights[:, np.newaxis, np.newaxis]
-        matrix -= _last(upward)[..., np.newaxis] * across.derivative
+        matrix = conduction(across, conducted, upward)
         index = np.arange(across.zeta.size)
         matrix[..., index, index] += _last(diagonal)
         source_p = volume * stream.compression_p * temperature

@@ -221,7 +221,7 @@ RHEOLOGY: Mapping[str, ShearLaw] = {
         eyring_factor,
         _constant_scale("eyring_stress"),
         _eyring_stress,
-        reach=8.0,
+        reach=16.0,
     ),
     "carreau": ShearLaw(
         ("carreau_stress", "carreau_exponent"),
