@@ -42,7 +42,7 @@ from ehlectric.film.shear_flow import Columns
 def conduction(across: Across, conductivity: Array, flow: Array | None = None) -> Array:
     """Matrix (..., nz, nz) of conduction across the film, the integral of k T' phi' over zeta, less f T'.
 
-    ``conductivity`` (nz, ...) is the thermal conductivity k at the nodes, and ``flow`` (nz, ...) the factor f.
+    ``conductivity`` (nz, ...) is the thermal conductivity k at the nodes, ``flow`` (nz, ...) the factor f.
     The rows of the matrix sum to zero. It is symmetric without a flow.
 
     Examples

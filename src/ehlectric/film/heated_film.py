@@ -432,8 +432,7 @@ class OuterIteration:
         # The temperature in cavities and next to spots follows small changes of the film.
         loose = self.posed.tolerance if carried is not None else max(self.posed.tolerance, _LOOSE)
         surfaces, mixing, taken = self.surfaces(thermal), _mixing(weight, heat), list[NewtonStep]()
-        central = at_centre(self.level.mesh, state.thickness)
-        rises, films, ends, missed = list[float](), list[float](), False, 0
+        rises, films, central, ends, missed = list[float](), list[float](), np.inf, False, 0
         unsettled: Unsettled | None = None
         jacobians: list[Linearised] = []
         for loop in range(self.most_loops):
@@ -470,8 +469,7 @@ class OuterIteration:
                 solution = replace(solution, status="stalled")
                 break
             # Film and temperature that are close enough end with a film at the last temperature.
-            # The first change of the film is its distance from the guess, and no part of a sequence.
-            ends = max(self._distance(rises), self._distance(films[1:] or films)) < self._allowed
+            ends = max(self._distance(rises), self._distance(films)) < self._allowed
             state = solution.state
             if is_stale(rises):
                 # The combination of the last turns circles around a place without a solution.
