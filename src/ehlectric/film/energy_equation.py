@@ -105,7 +105,16 @@ class Surface:
         """Part of the temperature rise (nx, ny) [K] by the flux further downstream."""
         if not self.upstream.any():
             return np.zeros_like(flux)
-        return np.asarray(scipy.linalg.matmul_toeplitz((np.zeros(self.upstream.size), self.upstream), flux))
+        if flux.shape[1] == 1:
+            zeros = np.zeros(self.upstream.size)
+            return np.asarray(scipy.linalg.matmul_toeplitz((zeros, self.upstream), flux))
+        return self._ahead @ flux
+
+    @cached_property
+    def _ahead(self) -> Array:
+        """Matrix (nx, nx) of ``rise_ahead``, which takes less time than transforms of all lines."""
+        zeros = np.zeros(self.upstream.size)
+        return np.asarray(scipy.linalg.toeplitz(zeros, self.upstream), dtype=np.float64)
 
 
 def moving_surface(body: Body, speed: float, *, nodes: int, spacing: float, half_width: float) -> Surface:

@@ -284,15 +284,13 @@ class ShearedFlow:
         k, properties = self._evaluate(fluid, pressure, thickness, mesh)
         clipped = np.maximum(pressure, fluid.ambient_pressure)
         degree = _DEGREE if self.profile is None else self.profile.across.zeta.size - 1
-        viscosity = np.exp(k.log_viscosity)[np.newaxis]
-        density = k.density[np.newaxis]
+        log_viscosity, density = k.log_viscosity[np.newaxis], k.density[np.newaxis]
         if properties is not None:
-            viscosity = viscosity * np.exp(properties.log_ratio)
-            density = properties.density
+            log_viscosity, density = log_viscosity + properties.log_ratio, properties.density
         return columns_of(
             self.rheology,
             Across.of(degree),
-            (viscosity, density),
+            (log_viscosity, density),
             gradient=np.stack(gradients(pressure, mesh)),
             thickness=thickness,
             scale=self._scale(clipped)[0],
@@ -525,17 +523,19 @@ def columns_of(
 ) -> Columns:
     """Stress, shear rate and speed at the nodes across the film.
 
-    ``properties``, eta/eta_0 and rho/rho_0 across the film, shape (nz, nx, ny) or (1, nx, ny); ``gradient``,
+    ``properties``, ln(eta/eta_0) and rho/rho_0 across the film, (nz, nx, ny) or (1, nx, ny); ``gradient``,
     dP/dX and dP/dY, shape (2, nx, ny); ``thickness``, film thickness H, shape (nx, ny); ``scale``,
     characteristic stress of the law over p_h b/R, shape (nx, ny). Returns state of the columns.
     """
     shape, nz = thickness.shape, across.zeta.size
-    viscosity, density = (np.broadcast_to(v, (nz, *shape)) for v in properties)
+    log_viscosity, density = (np.broadcast_to(v, (nz, *shape)) for v in properties)
+    log_viscosity = log_viscosity.reshape(nz, -1)
+    viscosity = np.exp(log_viscosity)
+    node_fluidity = 1.0 / viscosity
     uniform = len(properties[0]) == 1
     reduced = (thickness * gradient / scale).reshape(2, -1)
     slips = np.zeros_like(reduced)
     slips[0] = (slip / (thickness * scale)).reshape(-1)
-    log_viscosity = np.log(viscosity).reshape(nz, -1)
     stress, rate, speed = (np.empty((2, *log_viscosity.shape)) for _ in range(3))
     softening, middle = np.empty_like(log_viscosity), np.empty_like(reduced)
     grades = _grades(rheology, reduced, None if uniform else log_viscosity, speeds=True)
@@ -546,7 +546,7 @@ def columns_of(
         law = _ColumnLaw.of(rheology, fluidity, *columns, quadrature)
         middle[:, part] = law.middle
         stress[:, :, part], rate[:, :, part], softening[:, part] = law(
-            across.zeta - 0.5, np.exp(-log_viscosity[:, part]), columns[0]
+            across.zeta - 0.5, node_fluidity[:, part], columns[0]
         )
         _, at_points, _ = law(quadrature.offset, fluidity, columns[0])
         speed[:, :, part] = _up_to(nz - 1, number) @ at_points
@@ -559,7 +559,7 @@ def columns_of(
         rate=size * rate.reshape(2, nz, *shape),
         speed=speed,
         softening=softening.reshape(nz, *shape),
-        viscosity=viscosity,
+        viscosity=viscosity.reshape(nz, *shape),
         density=density,
         gradient=gradient,
         middle=scale * middle.reshape(2, *shape),
