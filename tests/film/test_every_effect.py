@@ -8,6 +8,7 @@ from itertools import product
 
 import numpy as np
 import pytest
+from benchmarks.every_effect import design, solved
 from scipy.integrate import cumulative_trapezoid, trapezoid
 from scipy.interpolate import BarycentricInterpolator
 
@@ -97,6 +98,15 @@ def test_every_combination_at_rest_converges_and_conserves(geometry, effects):
     if effects["hot"]:
         assert film.heated.energy_imbalance < 0.01
         assert film.heated.max_temperature_rise > 0.5
+
+
+@pytest.mark.slow
+@pytest.mark.gate
+def test_the_temperature_of_a_rough_starved_film_is_the_one_of_its_last_step():
+    """The heat of line 129 of the random contacts balances; its last Newton step moves the heat by 5 %."""
+    record = solved("lines", design("lines")[129], 60.0)
+    assert record["status"] == "converged"
+    assert record["imbalance"] < 0.01
 
 
 @pytest.mark.slow

@@ -485,16 +485,17 @@ class OuterIteration:
     def _settled(self, grid: HeatedGrid, thermal: Thermal, weight: Array) -> HeatedGrid:
         """Film without upwind differences that it does not need, if its temperature stands there."""
         assert grid.heat is not None
-        full = self._closer(grid, grid.law, full_order=True)
-        if full is not grid:
+        heat, surfaces, moved = grid.heat, self.surfaces(thermal), grid
+        for full_order in (True, False):
+            film = self._closer(grid, grid.law, full_order=full_order)
+            if film is grid:
+                return grid
             # The film has moved since its temperature was found.
-            heat = grid.heat
-            new = self.heated(full, heat, grid.law, self.surfaces(thermal))
+            moved = grid.moved(film, heat)
+            new = self.heated(film, heat, grid.law, surfaces)
             if new is not None and change_between(weight, heat, new, thermal) < self._allowed:
-                grid = grid.moved(full, new)
-            else:
-                grid = grid.moved(self._closer(grid, grid.law, full_order=False), heat)
-        return grid
+                return grid.moved(film, new)
+        return moved
 
     @property
     def _allowed(self) -> float:
