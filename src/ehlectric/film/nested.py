@@ -18,12 +18,12 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.film.deflection import Geometry
 from ehlectric.film.levels import Level, hierarchy
 from ehlectric.film.mesh import Mesh, at_centre, on_mesh
-from ehlectric.film.newton import GridProblem, GridSolution, Progress, State, newton
+from ehlectric.film.newton import GridProblem, GridSolution, Guess, Progress, State, newton
 from ehlectric.film.oil_content import SCHEMES, USUAL
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.reynolds import wedge_stencil
 from ehlectric.film.starved_solver import conserving_film, forms_again, with_inlet
-from ehlectric.film.touching_solver import Conserving, Start, touching_films
+from ehlectric.film.touching_solver import Conserving, guess_of, touching_films
 
 # Tolerance of the residual on the coarser grids, far below their discretisation error.
 NESTED_TOLERANCE = 1e-6
@@ -192,7 +192,7 @@ def _mixed(
     from_coarse = None
     if near is not None and near.touching.any() and coarse is not None and coarse.fraction is not None:
         filled = filled_on(level.mesh, coarse.level.mesh, with_inlet(coarse.final.full_film))
-        from_coarse = Start(near, filled)
+        from_coarse = Guess(near, filled)
         grids.extend(conserving.films([(from_coarse, USUAL)]))
         if grids[-1].status == "converged":
             return [*grids[:-1], _apart(problem, levels, grids[-1], progress)]
@@ -211,7 +211,7 @@ def _mixed(
     full = grids[-1]
     if full.status != "converged" or not forms_again(full.final.full_film):
         return grids
-    attempts = [(Start.of(full), scheme) for scheme in SCHEMES]
+    attempts = [(guess_of(full), scheme) for scheme in SCHEMES]
     if from_coarse is not None:
         # From there the usual scheme did not converge.
         attempts += [(from_coarse, scheme) for scheme in SCHEMES[1:]]

@@ -28,7 +28,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ehlectric.arrays import Array, Mask
+from ehlectric.arrays import Array
 from ehlectric.film.dry_contact import dry_contact, relieved
 from ehlectric.film.face_flow import Fluid
 from ehlectric.film.levels import Level
@@ -50,26 +50,13 @@ from ehlectric.film.touching_film import (
 
 
 @dataclass(frozen=True)
-class Start:
-    """Initial guess of a film with mass-conserving cavitation, likely to be close to the film."""
-
-    state: State
-    filled: Mask  # nodes that oil fills, shape (nx, ny)
-
-    @classmethod
-    def of(cls, film: GridSolution) -> Start:
-        """Start from a film on the same grid."""
-        return cls(film.state, film.final.full_film)
-
-
-@dataclass(frozen=True)
 class Conserving:
     """Film with mass-conserving cavitation, to be solved on one grid."""
 
     problem: GridProblem  # lubricant, grids, asperities and stopping rule
     order: int  # order of the wedge term where oil fills the gap: 1, 2 or 3
 
-    def films(self, attempts: Sequence[tuple[Start, Scheme]]) -> list[GridSolution]:
+    def films(self, attempts: Sequence[tuple[Guess, Scheme]]) -> list[GridSolution]:
         """Films of one attempt after the other, up to the first that converges.
 
         The film of a simpler scheme is a start for the more accurate schemes. Only the last film may have
@@ -86,19 +73,24 @@ class Conserving:
     def _most_accurate(self, film: GridSolution, scheme: Scheme) -> GridSolution:
         """Film of the most accurate scheme that converges from the film of a scheme, with all steps to it."""
         for better in reversed(SCHEMES[: SCHEMES.index(scheme)]):
-            closer = self._film(Start.of(film), better)
+            closer = self._film(guess_of(film), better)
             if closer.status == "converged":
                 film, scheme = replace(closer, steps=film.steps + closer.steps), better
         return of_full_order(self.problem, film, self._supply(scheme).of_full_order)
 
-    def _film(self, start: Start, scheme: Scheme) -> GridSolution:
+    def _film(self, start: Guess, scheme: Scheme) -> GridSolution:
         """Film of a scheme from a start, in which some nodes may have an upwind difference."""
         solved = isothermal(self.problem, full_order=False, first_damping=NEAR_DAMPING)
-        return solved(Guess(start.state, with_inlet(start.filled)), self._supply(scheme))
+        return solved(start, self._supply(scheme))
 
     def _supply(self, scheme: Scheme) -> Supply:
         """Flooded inlet."""
         return flooded_inlet(self.problem.level, self.order, scheme)
+
+
+def guess_of(film: GridSolution) -> Guess:
+    """Initial guess with mass-conserving cavitation from a film on the same grid, with oil at its inlet."""
+    return Guess(film.state, with_inlet(film.final.full_film))
 
 
 # Inverse time steps, as the spacing dX over the distance that oil travels in the step: the first one, the one
