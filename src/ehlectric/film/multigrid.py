@@ -22,6 +22,7 @@ from typing import Any
 import numpy as np
 import scipy
 from numpy.lib.stride_tricks import sliding_window_view
+from numpy.typing import NDArray
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.film.face_flow import Flow, Fluid, flow
@@ -87,10 +88,7 @@ class LineRelaxation:
             solution, _ = solved(lu, self.half_band, self.half_band, right, pivots, trans=1)
             unknown = solution.reshape(-1, r.shape[0]).T
             dp[:, lines] = unknown
-            shared = np.where(self.distributed[:, lines], unknown, 0.0)
-            for offset, share in self.neighbours:
-                here, there = _shifted(offset)
-                dp[there, lines] += share * shared[here]
+            _share(np.where(self.distributed[:, lines], unknown, 0.0), self.neighbours, dp[:, lines])
             dp[~self.full_film] = 0.0
         return dp
 
@@ -129,6 +127,13 @@ def distributed_nodes(level: Level, poiseuille: Array, full_film: Mask) -> Mask:
 def _neighbours(level: Level) -> Distribution:
     """Offsets of the other nodes over which an unknown is distributed, each with its part."""
     return tuple(part for part in level.distribution if part[0])
+
+
+def _share(unknown: NDArray[Any], neighbours: Distribution, pressure: Array) -> None:
+    """Add the parts of distributed unknowns (nx, n) at other nodes of their lines to a pressure (nx, n)."""
+    for offset, part in neighbours:
+        here, there = _shifted(offset)
+        pressure[there] += part * unknown[here]
 
 
 def _shifted(offset: int) -> tuple[slice, slice]:
@@ -184,9 +189,7 @@ def _row_sums(gap: Gap, stencils: tuple[Stencil, Stencil], distributed: Mask) ->
     that differs from line to line only.
     """
     pressure = distributed.astype(float)
-    for offset, share in _neighbours(gap.level):
-        here, there = _shifted(offset)
-        pressure[there] += share * distributed[here]
+    _share(distributed, _neighbours(gap.level), pressure)
     opened = scipy.linalg.matmul_toeplitz(gap.level.deflection.influence[:, 0], pressure)
     by_p, by_h = (Stencil(part.coefficients[:ALONG]) for part in stencils)
     return by_p(pressure) + by_h(opened)
@@ -202,10 +205,10 @@ _ALIKE = 0.6
 # Steps along x to the nodes that a row of a stencil couples.
 _STEPS = tuple(step for step, _ in OFFSETS[:ALONG])
 
-# Diagonal of the Poiseuille term over the one of the wedge term below which a node is stiff, and the part of
-# the smooth change by the relaxation that is taken off there. Without it the cycle of a contact with hundreds
-# of nodes in its Hertz zone diverges; at other nodes it helps.
-_STIFF, _SMOOTH = 0.1, 0.8
+# Diagonal of the Poiseuille term over the diagonal of the wedge term below which the relaxation leaves smooth
+# changes to the coarser grids, and the part of them that it leaves. If it left none, the cycle of a contact
+# with hundreds of nodes in its Hertz zone would diverge. At nodes with a free flow its smooth changes help.
+_ELASTIC, _SMOOTH = 0.1, 0.8
 
 # Fraction of the residual below which one cycle on a coarser grid is enough, and no second cycle follows.
 _ENOUGH = 0.1
@@ -303,6 +306,11 @@ class Linearised:
         the derivatives beyond the stencils.
         """
         return self._by_stencils(dp.astype(preconditioner_type(self.level)), dh00)
+
+    @cached_property
+    def elastic(self) -> Mask:
+        """Mask of the nodes with a full film whose pressure drives almost no oil, shape (nx, ny)."""
+        return self.full_film & (self.poiseuille < _ELASTIC * self.level.rate)
 
     @cached_property
     def relax(self) -> LineRelaxation:
@@ -472,8 +480,7 @@ def _relaxed(finest: Linearised, coarser: Level, r: Array) -> Array:
     change = finest.relax(r)
     if coarser.averaged is None:
         return change
-    stiff = finest.full_film & (finest.poiseuille < _STIFF * finest.level.rate)
-    return change - np.where(stiff, _SMOOTH * coarser.prolong(coarser.averaged(change)), 0.0)
+    return change - np.where(finest.elastic, _SMOOTH * coarser.prolong(coarser.averaged(change)), 0.0)
 
 
 def cycled(jacobians: list[Linearised], image: Array) -> Array:
