@@ -485,17 +485,16 @@ class OuterIteration:
     def _settled(self, grid: HeatedGrid, thermal: Thermal, weight: Array) -> HeatedGrid:
         """Film without upwind differences that it does not need, if its temperature stands there."""
         assert grid.heat is not None
-        heat, surfaces, moved = grid.heat, self.surfaces(thermal), grid
+        heat, surfaces = grid.heat, self.surfaces(thermal)
         for full_order in (True, False):
             film = self._closer(grid, grid.law, full_order=full_order)
             if film is grid:
                 return grid
             # The film has moved since its temperature was found.
-            moved = grid.moved(film, heat)
             new = self.heated(film, heat, grid.law, surfaces)
             if new is not None and change_between(weight, heat, new, thermal) < self._allowed:
                 return grid.moved(film, new)
-        return moved
+        return grid.moved(film, heat)
 
     @property
     def _allowed(self) -> float:
