@@ -241,7 +241,7 @@ def couette(nahme, reduced_rate=None, *, degree=12, loops=60):
         surfaces = (cold_surface(wall, mesh.x.size), cold_surface(wall, mesh.x.size))
         heat = solve_energy(HeatColumns.of(stream, heat.temperature), surfaces, heat, inlet_temperature=wall)
     theta = beta * (heat.temperature[:, -1, 0] - wall)
-    return across.zeta, theta, columns.stress[0, :, -1, 0] * stress * gap / (eta * slip)
+    return across.zeta, theta, columns.middle[0, -1, 0] * stress * gap / (eta * slip)
 
 
 def films(solution):

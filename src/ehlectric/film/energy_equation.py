@@ -619,7 +619,7 @@ class _March:
         rest = np.stack([s.bulk + s.rise_ahead(q) for s, q in zip(surfaces, last.flux, strict=True)], axis=-1)
         # Temperatures of the columns, behind two columns of the inlet temperature.
         new = np.full((nx + 2, ny, nz), inlet_temperature)
-        flux = np.ascontiguousarray(last.flux.swapaxes(1, 2))
+        flux = last.flux.swapaxes(1, 2).copy()
         start = 0
         if self.entry is not None:
             start = self.entry.count

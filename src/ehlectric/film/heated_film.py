@@ -277,37 +277,47 @@ class OuterIteration:
         again = solver(guess, solution.content.supply)
         return again if again.status == "converged" else solution
 
-    def columns(self, solution: GridSolution, flow: ShearedFlow) -> tuple[Columns, Array]:
-        """Stresses and speeds across the film, and the share of the gap that oil fills."""
-        state, mesh = solution.state, self.level.mesh
-        columns = flow.columns(self.problem.fluid, state.oil_pressure, state.thickness, mesh)
+    def columns(self, solution: GridSolution, flow: ShearedFlow) -> Columns:
+        """Stresses and speeds across the film at the nodes."""
+        state = solution.state
+        return flow.columns(self.problem.fluid, state.oil_pressure, state.thickness, self.level.mesh)
+
+    def filled(self, solution: GridSolution) -> Array:
+        """Part of the gap that oil fills, shape (nx, ny)."""
         if solution.fraction is not None:
-            return columns, _near_edges(solution.fraction, mesh)
-        mass = solution.final.coefficients.density * state.thickness
-        return columns, filled_part(solution.final.full_film, mass)
+            return _near_edges(solution.fraction, self.level.mesh)
+        mass = solution.final.coefficients.density * solution.state.thickness
+        return filled_part(solution.final.full_film, mass)
 
     def pressure(self, state: State) -> Array:
         """Pressure of the oil [Pa], not below ambient, shape (nx, ny)."""
         scales = self.problem.scales
         return np.maximum(scales.pressure * state.oil_pressure, scales.ambient_pressure)
 
-    def stream(self, solution: GridSolution, heat: Heat, columns: Columns, filled: Array) -> Stream:
-        """Flow of the energy equation at a film and a temperature."""
-        scales, thermal = self.problem.scales, self.physics.thermal
+    def stream(
+        self, solution: GridSolution, heat: Heat, flow: ShearedFlow, filled: Array | None = None
+    ) -> Stream:
+        """Flow of the energy equation at a film and a temperature.
+
+        ``filled`` (nx, ny) is the part of the gap that oil fills; None of a stationary film.
+        """
+        scales, thermal, mesh = self.problem.scales, self.physics.thermal, self.level.mesh
         assert thermal is not None
+        state = solution.state
+        filled = self.filled(solution) if filled is None else filled
         return stream_of(
             thermal.oil,
-            columns,
+            flow.columns_by_faces(self.problem.fluid, state.oil_pressure, state.thickness, mesh),
             heat.temperature,
-            pressure=self.pressure(solution.state),
-            thickness=scales.thickness * solution.state.thickness,
+            pressure=self.pressure(state),
+            thickness=scales.thickness * state.thickness,
             filled=filled,
-            mesh=self.level.mesh,
+            mesh=mesh,
             length=scales.length,
             pressure_scale=scales.pressure,
             speed=self.physics.mean_speed,
             stress=self.stress_scale,
-            rubbing=self._rubbing(solution.state),
+            rubbing=self._rubbing(state),
             through=self._through(solution, thermal, filled),
         )
 
@@ -320,8 +330,11 @@ class OuterIteration:
         """
         mesh, flow, scales = self.level.mesh, solution.final.flow, self.problem.scales
         mass = filled * flow.coefficients.density * solution.state.thickness
-        edge = np.where(filled[0] < 1.0, mass[0], 0.5 * (mass[0] + mass[1]))
-        edge = mass[0] if self.problem.wedge_order == 1 else edge
+        edge = mass[0] if self.problem.wedge_order == 1 else 0.5 * (mass[0] + mass[1])
+        content = solution.content
+        if content is not None:
+            flow = flow.undrifted(~content.filled)
+            edge = np.where(content.filled[0], edge, content.mass[0])
         along = np.tile(edge - mesh.dx * flow.along.flux[0], (mesh.x.size - 1, 1))
         across = np.zeros((mesh.x.size, mesh.y.size - 1))
         if flow.across is not None and mesh.dy is not None:
@@ -533,7 +546,7 @@ class OuterIteration:
         """Temperature by the energy equation of a film; None if it has no finite solution."""
         thermal = self.physics.thermal
         assert thermal is not None
-        stream = self.stream(solution, heat, *self.columns(solution, flow))
+        stream = self.stream(solution, heat, flow)
         return finite_heat(stream, surfaces, heat, thermal.inlet_temperature)
 
     def _distance(self, changes: list[float]) -> float:

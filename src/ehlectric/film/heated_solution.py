@@ -364,7 +364,7 @@ def _solution(simple: RefinedSolution, refined: RefinedSolution) -> HeatedSoluti
     warm = [grid for grid in hot_grids if grid.iteration.frozen is None]
     heat, iteration = warm[-1].heat, warm[-1].iteration
     if heat is not None and physics.thermal is not None:
-        stream = iteration.stream(warm[-1], heat, *iteration.columns(warm[-1], warm[-1].law))
+        stream = iteration.stream(warm[-1], heat, warm[-1].law)
         imbalance = energy_imbalance(stream, heat, physics.thermal.inlet_temperature)
         if status == "converged" and imbalance > _MOST_IMBALANCE:
             status = "stalled"
@@ -398,9 +398,9 @@ def _nodes_and_friction(grid: HeatedGrid, load: float, part: Array | float) -> t
     ``load`` is the dimensionless load of the whole contact.
     """
     iteration, state = grid.iteration, grid.state
-    columns, filled = iteration.columns(grid, grid.law)
+    columns = iteration.columns(grid, grid.law)
     # Friction coefficients of asperities stand for the oil where these carry the load.
-    sheared = filled * state.oil_share
+    sheared = iteration.filled(grid) * state.oil_share
     friction = traction(
         columns,
         state.thickness,

@@ -136,9 +136,7 @@ class MovingHeat:
 
     def _stream(self, solution: GridSolution, heat: Heat, filled: Array) -> Stream:
         """Flow of the energy equation at a film and a temperature."""
-        law = self.iteration.flow(solution.state, heat)
-        columns, _ = self.iteration.columns(solution, law)
-        return self.iteration.stream(solution, heat, columns, filled)
+        return self.iteration.stream(solution, heat, self.iteration.flow(solution.state, heat), filled)
 
 
 def shifted(values: Array, way: float) -> Array:

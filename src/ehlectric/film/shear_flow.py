@@ -263,7 +263,7 @@ class ShearedFlow:
         """Flow through all faces at P (nx, ny) and H (nx, ny) on a mesh."""
         k, properties = self._evaluate(fluid, pressure, thickness, mesh)
         nodes = _Nodes(k, properties, thickness, pressure)
-        slip = fluid.velocity_parameter * self.slide_to_roll_ratio / 12.0
+        slip = self._slip(fluid)
         if mesh.dy is None:
             faces = [self._faces(nodes, mesh.dx, slip, fluid, None)]
         else:
@@ -280,23 +280,52 @@ class ShearedFlow:
         return Flow(k, through[0], None if mesh.dy is None else through[1])
 
     def columns(self, fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh) -> Columns:
-        """Stress, shear rate and speed across the film at the nodes, with central differences of P."""
+        """Stress, speed and heat across the film at the nodes, with central differences of P."""
         k, properties = self._evaluate(fluid, pressure, thickness, mesh)
-        clipped = np.maximum(pressure, fluid.ambient_pressure)
-        degree = _DEGREE if self.profile is None else self.profile.across.zeta.size - 1
         log_viscosity, density = k.log_viscosity[np.newaxis], k.density[np.newaxis]
         if properties is not None:
             log_viscosity, density = log_viscosity + properties.log_ratio, properties.density
+        scale, _ = self._scale(np.maximum(pressure, fluid.ambient_pressure))
+        gradient = np.stack(gradients(pressure, mesh))
+        return self._columns(fluid, (log_viscosity, density), gradient, thickness, scale)
+
+    def columns_by_faces(self, fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh) -> Columns:
+        """Stress, speed and heat across the film at the nodes, means of the columns at the faces along x.
+
+        Pressure and viscosity of a rough film may change by large factors from node to node. The flow through
+        a face then balances the flows through its neighbours. The gradient between the nodes on both sides of
+        a node, at the viscosity of the node, would give arbitrary speeds. The viscosity of a face is the
+        geometric mean: the integral of the shear stress then has the error of the midpoint rule.
+        """
+        k, properties = self._evaluate(fluid, pressure, thickness, mesh)
+        slip = self._slip(fluid)
+        faces = self._faces(_Nodes(k, properties, thickness, pressure), mesh.dx, slip, fluid, None)
+        log_viscosity, density = (face_mean(values)[np.newaxis] for values in (k.log_viscosity, k.density))
+        if faces.profile is not None:
+            log_viscosity, density = log_viscosity + faces.profile[0], faces.profile[1]
+        gradient = np.stack(gradients(pressure, mesh))
+        between = np.stack([np.diff(pressure, axis=0) / mesh.dx, face_mean(gradient[1])])
+        found = self._columns(fluid, (log_viscosity, density), between, faces.gap, faces.scale)
+        return found.at_nodes(gradient)
+
+    def _columns(
+        self, fluid: Fluid, properties: tuple[Array, Array], gradient: Array, thickness: Array, scale: Array
+    ) -> Columns:
+        """Columns with the arguments of ``columns_of``."""
         return columns_of(
             self.rheology,
-            Across.of(degree),
-            (log_viscosity, density),
-            gradient=np.stack(gradients(pressure, mesh)),
+            Across.of(_DEGREE if self.profile is None else self.profile.across.zeta.size - 1),
+            properties,
+            gradient=gradient,
             thickness=thickness,
-            scale=self._scale(clipped)[0],
-            slip=fluid.velocity_parameter * self.slide_to_roll_ratio / 12.0,
+            scale=scale,
+            slip=self._slip(fluid),
             speed_unit=12.0 / fluid.velocity_parameter,
         )
+
+    def _slip(self, fluid: Fluid) -> float:
+        """Slip of the surfaces, lambda SRR/12."""
+        return fluid.velocity_parameter * self.slide_to_roll_ratio / 12.0
 
     def _evaluate(
         self, fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh
@@ -490,24 +519,36 @@ def _fluxes(rheology: Rheology, groups: list[_Faces]) -> list[Flux]:
 
 @dataclass(frozen=True)
 class Columns:
-    """Stress, shear rate and speed across the film at the nodes of a grid."""
+    """Stress, speed and heat across the film in columns, at the faces along x or at the nodes of a grid."""
 
     across: Across  # nodes zeta across the film, nz of them
-    stress: Array  # shear stress along x and y over the stress scale p_h b/R, shape (2, nz, nx, ny)
-    rate: Array  # derivative of ``speed`` by zeta; the shear rate is rate u_m/h, shape (2, nz, nx, ny)
+    # Heat of shear tau gamma_dot h/u_m over the stress scale p_h b/R, shape (nz, nx, ny).
+    heating: Array
     speed: Array  # speed of the oil along x and y over the entrainment speed u_m, shape (2, nz, nx, ny)
     # d ln(tau)/d ln(eta) at a fixed shear rate; one for a Newtonian fluid, shape (nz, nx, ny).
     softening: Array
-    # viscosity and density: eta/eta_0 and rho/rho_0, shape (nz, nx, ny).
-    viscosity: Array
-    density: Array
+    density: Array  # rho/rho_0, shape (nz, nx, ny)
     gradient: Array  # dP/dX and dP/dY, shape (2, nx, ny)
-    middle: Array  # stress at zeta = 1/2 over the stress scale, shape (2, nx, ny)
+    middle: Array  # stress at zeta = 1/2 along x and y over the stress scale, shape (2, nx, ny)
 
-    @property
-    def heating(self) -> Array:
-        """Heat of shear tau gamma_dot h/u_m over the stress scale, shape (nz, nx, ny)."""
-        return np.asarray(np.sum(self.stress * self.rate, axis=0))
+    def at_nodes(self, gradient: Array) -> Columns:
+        """Columns at the nodes from columns at the faces, with dP/dX and dP/dY at the nodes (2, nx, ny)."""
+        return Columns(
+            across=self.across,
+            heating=_at_nodes(self.heating),
+            speed=_at_nodes(self.speed),
+            softening=_at_nodes(self.softening),
+            density=_at_nodes(self.density),
+            gradient=gradient,
+            middle=_at_nodes(self.middle),
+        )
+
+
+def _at_nodes(values: Array) -> Array:
+    """Mean (..., nx, ny) of the faces before and behind each node, from values (..., nx - 1, ny)."""
+    before = np.concatenate([values[..., :1, :], values], axis=-2)
+    after = np.concatenate([values, values[..., -1:, :]], axis=-2)
+    return np.asarray(0.5 * (before + after))
 
 
 def columns_of(
@@ -521,7 +562,7 @@ def columns_of(
     slip: float,
     speed_unit: float,
 ) -> Columns:
-    """Stress, shear rate and speed at the nodes across the film.
+    """Stress, speed and heat at the nodes across the film.
 
     ``properties``, ln(eta/eta_0) and rho/rho_0 across the film, (nz, nx, ny) or (1, nx, ny); ``gradient``,
     dP/dX and dP/dY, shape (2, nx, ny); ``thickness``, film thickness H, shape (nx, ny); ``scale``,
@@ -530,14 +571,13 @@ def columns_of(
     shape, nz = thickness.shape, across.zeta.size
     log_viscosity, density = (np.broadcast_to(v, (nz, *shape)) for v in properties)
     log_viscosity = log_viscosity.reshape(nz, -1)
-    viscosity = np.exp(log_viscosity)
-    node_fluidity = 1.0 / viscosity
+    node_fluidity = np.exp(-log_viscosity)
     uniform = len(properties[0]) == 1
     reduced = (thickness * gradient / scale).reshape(2, -1)
     slips = np.zeros_like(reduced)
     slips[0] = (slip / (thickness * scale)).reshape(-1)
-    stress, rate, speed = (np.empty((2, *log_viscosity.shape)) for _ in range(3))
-    softening, middle = np.empty_like(log_viscosity), np.empty_like(reduced)
+    speed, middle = np.empty((2, *log_viscosity.shape)), np.empty_like(reduced)
+    heating, softening = np.empty_like(log_viscosity), np.empty_like(log_viscosity)
     grades = _grades(rheology, reduced, None if uniform else log_viscosity, speeds=True)
     for part, number in _parts(*grades):
         quadrature, (values, _) = Quadrature.gauss(number), to_points(nz - 1, number)
@@ -545,9 +585,8 @@ def columns_of(
         fluidity = np.exp(-values @ log_viscosity[:, part])
         law = _ColumnLaw.of(rheology, fluidity, *columns, quadrature)
         middle[:, part] = law.middle
-        stress[:, :, part], rate[:, :, part], softening[:, part] = law(
-            across.zeta - 0.5, node_fluidity[:, part], columns[0]
-        )
+        stress, rate, softening[:, part] = law(across.zeta - 0.5, node_fluidity[:, part], columns[0])
+        heating[:, part] = np.sum(stress * rate, axis=0)
         _, at_points, _ = law(quadrature.offset, fluidity, columns[0])
         speed[:, :, part] = _up_to(nz - 1, number) @ at_points
     size = speed_unit * (thickness * scale)
@@ -555,11 +594,9 @@ def columns_of(
     speed[0] += 1.0 - 0.5 * slip * speed_unit
     return Columns(
         across=across,
-        stress=scale * stress.reshape(2, nz, *shape),
-        rate=size * rate.reshape(2, nz, *shape),
+        heating=scale * size * heating.reshape(nz, *shape),
         speed=speed,
         softening=softening.reshape(nz, *shape),
-        viscosity=viscosity.reshape(nz, *shape),
         density=density,
         gradient=gradient,
         middle=scale * middle.reshape(2, *shape),
