@@ -8,13 +8,14 @@ from itertools import product
 
 import numpy as np
 import pytest
-from benchmarks.every_effect import design, solved
+from benchmarks.every_effect import case_of, design, solved
 from scipy.integrate import cumulative_trapezoid, trapezoid
 from scipy.interpolate import BarycentricInterpolator
 
 from ehlectric import Case
 from ehlectric.contact.preparation import prepare
 from ehlectric.contact.setup import Setup
+from ehlectric.film.heated_solution import solve_heated_film
 from ehlectric.film.isothermal_film import solve_film, solve_point_film
 from ehlectric.film.moving_patch import MovingFilm
 from ehlectric.film.problem import OilSupply
@@ -107,6 +108,18 @@ def test_the_temperature_of_a_rough_starved_film_is_the_one_of_its_last_step():
     record = solved("lines", design("lines")[129], 60.0)
     assert record["status"] == "converged"
     assert record["imbalance"] < 0.01
+
+
+@pytest.mark.slow
+@pytest.mark.gate
+def test_heat_is_carried_by_the_oil_that_passes_the_contact():
+    """Line 283 of the random contacts, whose gap is full from the second node on, as far as its cavity."""
+    case = case_of("lines", design("lines")[283])
+    grid = solve_heated_film(prepare(case).film_problem(Setup.of(case))).refined.last
+    assert grid.filled[[0, 1, -1], 0].tolist() == [False, True, False]
+    stream = grid.iteration.stream(grid, grid.heat, grid.law)
+    behind = np.tensordot(stream.across.weights, stream.mass * stream.u, axes=1)[-1]
+    np.testing.assert_allclose(stream.through[0], behind[0], rtol=1e-3)
 
 
 @pytest.mark.slow

@@ -80,9 +80,12 @@ class Property:
     def _reach(self) -> Array:
         """Distance from the range, of a parabola at most the distance of its vertex."""
         beyond = self.at.t - self.at.inside
+        if not self.curved:
+            return beyond
         slope, curvature = self._by_t, self._curvature
         vertex = np.divide(-slope, curvature, out=np.full_like(slope, np.inf), where=curvature != 0.0)
-        return np.where(vertex * beyond > 0.0, np.sign(beyond) * np.minimum(abs(beyond), abs(vertex)), beyond)
+        towards = np.sign(vertex) * np.sign(beyond) > 0.0
+        return np.where(towards, np.sign(beyond) * np.minimum(abs(beyond), abs(vertex)), beyond)
 
     @cached_property
     def value(self) -> Array:

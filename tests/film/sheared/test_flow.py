@@ -2,7 +2,9 @@
 
 from dataclasses import replace
 
+import hypothesis.strategies as st
 import numpy as np
+from hypothesis import given
 
 from ehlectric.film import reynolds
 from ehlectric.film.across_film import Across
@@ -178,6 +180,23 @@ def test_columns_carry_the_flux_between_the_surfaces(rheology):
     expected = found.coefficients.density * thickness
     expected[1:-1] -= 0.5 * mesh.dx * (found.along.flux[1:] + found.along.flux[:-1])
     np.testing.assert_allclose(carried[1:-1], expected[1:-1], rtol=1e-6)
+
+
+@given(st.lists(st.floats(0.0, 2.0), min_size=9, max_size=9), st.floats(1.0, 30.0))
+def test_no_column_of_faces_carries_more_than_the_flow_of_the_film(pressures, slope):
+    """However much the viscosity changes from node to node: ln(eta) = slope P, between parallel surfaces."""
+    mesh = Mesh.over(9, -2.0, 1.0)
+    fluid = replace(
+        sheared(Rheology(), mesh),
+        log_viscosity=lambda p: (slope * p, slope + 0.0 * p),
+        density=lambda p: (1.0 + 0.0 * p, 0.0 * p),
+    )
+    pressure, thickness = np.array(pressures)[:, np.newaxis], np.full(mesh.shape, 0.2)
+    columns = fluid.flow.columns_by_faces(fluid, pressure, thickness, mesh)
+    driven = thickness * (np.tensordot(columns.across.weights, columns.speed[0], axes=1) - 1.0)
+    through = mesh.dx * np.abs(flow(fluid, pressure, thickness, mesh).along.flux)
+    largest = 0.5 * (through[1:] + through[:-1])
+    assert np.all(np.abs(driven[1:-1]) <= (1.0 + 1e-9) * largest + 1e-12)
 
 
 def test_profiles_are_moved_to_other_meshes():

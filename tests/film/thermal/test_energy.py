@@ -53,6 +53,17 @@ def test_heat_of_rubbing_flows_into_the_bodies_however_little_oil_there_is(filli
     assert energy_imbalance(stream, found, 300.0) < 1e-6
 
 
+def test_a_solution_leaves_the_last_iterate_as_it_is():
+    stream = channel(1.0, nodes=21)
+    stream = replace(stream, heating=np.full(stream.u.shape, 1e14))
+    last = at_rest(stream, 300.0)
+    surfaces = (cold_surface(300.0, 21), cold_surface(300.0, 21))
+    found = solve_energy(HeatColumns.of(stream, last.temperature), surfaces, last, inlet_temperature=300.0)
+    assert np.all(found.flux[:, -1] > 0.0)
+    assert np.all(last.flux == 0.0)
+    assert np.all(last.temperature == 300.0)
+
+
 def plug_flow(nodes, degree=16):
     """Temperature at mid-film of oil at 0 K that enters between surfaces at 1 K, and the exact one."""
     speed, length = 2.0, 1e-5
