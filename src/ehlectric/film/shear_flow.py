@@ -305,8 +305,8 @@ class ShearedFlow:
             log_viscosity, density = log_viscosity + faces.profile[0], faces.profile[1]
         gradient = np.stack(gradients(pressure, mesh))
         between = np.stack([np.diff(pressure, axis=0) / mesh.dx, face_mean(gradient[1])])
-        found = self._columns(fluid, (log_viscosity, density), between, faces.gap, faces.scale)
-        return found.at_nodes(gradient)
+        at_faces = self._columns(fluid, (log_viscosity, density), between, faces.gap, faces.scale)
+        return at_faces.at_nodes(gradient)
 
     def _columns(
         self, fluid: Fluid, properties: tuple[Array, Array], gradient: Array, thickness: Array, scale: Array
