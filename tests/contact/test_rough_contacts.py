@@ -224,3 +224,19 @@ def test_steel_yields_under_the_asperities():
     mild = solve(rough_case(load=1e5, nodes=1601), beside_smooth=False)
     assert mild.film.max_pressure < 2e9
     assert "local-plastic-deformation" not in [w.code for w in mild.warnings]
+
+
+@pytest.mark.slow
+@pytest.mark.gate
+def test_each_rough_contact_is_beside_its_own_smooth_one():
+    """To the last bit, also if a contact before it differed only in its roughness, or in its speed."""
+    wave = {"surface": 1, "generator": "sinusoid", "amplitude": "20 nm", "wavelength": "60 um"}
+    cases = [
+        rough_case(nodes=401, speed=speed).replace(roughness=[wave | {"phase": phase}])
+        for speed, phase in ((4.0, 0.0), (4.0, 1.0), (2.0, 1.0), (4.0, 1.0))
+    ]
+    for case in cases:
+        result = solve(case)
+        alone = solve(case.replace(roughness=()))
+        np.testing.assert_array_equal(result.smooth.pressure, alone.film.pressure)
+        np.testing.assert_array_equal(result.smooth.thickness, alone.film.thickness)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import lru_cache, partial
 from typing import Any
 
 import numpy as np
@@ -17,7 +17,7 @@ from ehlectric.cases.grid_inputs import Electric, Grid, Solver
 from ehlectric.cases.roughness_inputs import Roughness
 from ehlectric.contact.capacitance_meter import meter_warnings
 from ehlectric.contact.conditions import Conditions, PointConditions
-from ehlectric.contact.contact_heat import heat_warnings
+from ehlectric.contact.contact_heat import heat_warnings, physics_of
 from ehlectric.contact.contact_kinds import KINDS
 from ehlectric.contact.contact_memory import check_grid
 from ehlectric.contact.contact_refinement import Refined, Refinement
@@ -40,6 +40,7 @@ from ehlectric.lubricant.oil import Oil
 from ehlectric.quantities.result_warnings import ResultWarning, active
 from ehlectric.runtime.files import now
 from ehlectric.runtime.progress import LOGGER
+from ehlectric.surfaces.generated_profiles import Domain
 from ehlectric.surfaces.rough_surfaces import RoughMap, RoughSurface
 from ehlectric.version import __version__
 
@@ -47,7 +48,7 @@ from ehlectric.version import __version__
 _LEAST_NODES = 33
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, eq=False)
 class Solvers:
     """Solvers of the film and of the field of a contact."""
 
@@ -287,27 +288,60 @@ def _logged(progress: Progress | None) -> Progress:
 def _smooth(
     contact: PreparedContact, films: Refined, columns: tuple[Array, ...], solvers: Solvers
 ) -> Smooth | None:
-    """Solve the contact with smooth surfaces on the same grids; None if its film does not converge.
+    """Contact with smooth surfaces on the same grids; None if its film does not converge.
 
     ``films`` are the films of the rough contact, and ``columns`` the axes of its field [m].
     """
-    kind, conditions = contact.kind, contact.conditions
-    first, last = (replace(setup, roughness=()) for setup in (films.first, films.setup))
-    problem = contact.film_problem(first, rough=False)
-    if last.grid.nodes_along > first.grid.nodes_along:
-        # Refined as often as the rough film, whatever its error.
-        problem = replace(problem, target_error=0.0, most_nodes=last.grid.nodes_along)
-    film = solvers.film[conditions.geometry](problem)
-    if not film.converged:
+    case, grids = contact.case, (films.first.grid, films.setup.grid)
+    if isinstance(case, Case):
+        smooth = case.model_copy(update={"roughness": ()})
+        solution = _solution_of_smooth(smooth, contact.conditions, contact.domain, *grids, solvers)
+    else:
+        solution = _smooth_solution(contact, *grids, solvers)
+    if solution is None:
         return None
-    heights = heights_of((), *film.axes)
-    field = solvers.field[conditions.geometry](kind.field_problem(last, conditions, film, heights))
+    film, field = solution
     nodes = films.film.axes
     return Smooth(
         on_nodes(film.pressure, film.axes, nodes),
         on_nodes(film.thickness, film.axes, nodes),
         on_nodes(field.middle_strength, field.axes, columns),
     )
+
+
+@lru_cache(maxsize=1)
+def _solution_of_smooth(
+    case: Case,
+    conditions: Conditions | PointConditions,
+    domain: Domain,
+    first: Grid,
+    last: Grid,
+    solvers: Solvers,
+) -> tuple[Any, Any] | None:
+    """Film and field of a smooth case, kept for the next case that differs only in its roughness."""
+    contact = PreparedContact(case, conditions, domain, physics=physics_of(case, conditions))
+    return _smooth_solution(contact, first, last, solvers)
+
+
+def _smooth_solution(
+    contact: PreparedContact, first: Grid, last: Grid, solvers: Solvers
+) -> tuple[Any, Any] | None:
+    """Film and field of a contact with smooth surfaces, refined from the ``first`` to the ``last`` grid.
+
+    None if the film does not converge.
+    """
+    kind, conditions = contact.kind, contact.conditions
+    setup = replace(Setup.of(contact.case), roughness=())
+    problem = contact.film_problem(replace(setup, grid=first), rough=False)
+    if last.nodes_along > first.nodes_along:
+        # Refined as often as the rough film, whatever its error.
+        problem = replace(problem, target_error=0.0, most_nodes=last.nodes_along)
+    film = solvers.film[conditions.geometry](problem)
+    if not film.converged:
+        return None
+    heights = heights_of((), *film.axes)
+    field_problem = kind.field_problem(replace(setup, grid=last), conditions, film, heights)
+    return film, solvers.field[conditions.geometry](field_problem)
 
 
 def _coarser(contact: PreparedContact, films: Refined, solvers: Solvers) -> Coarser | None:
