@@ -57,9 +57,9 @@ DEGREE = 12
 # Largest change of temperature in one outer loop [K].
 _MOST_CHANGE = 40.0
 
-# Largest number of outer loops. In all loops except the last the film has this number of Newton steps at
-# most, as far as this residual: its temperature is still to change.
-MOST_LOOPS, _STEPS, _LOOSE = 60, 2, 1e-3
+# Largest number of outer loops. In all loops except the last the film of a line and of a point contact has
+# this number of Newton steps at most, as far as this residual: its temperature is still to change.
+MOST_LOOPS, _STEPS, _STEPS_POINT, _LOOSE = 60, 2, 1, 1e-3
 
 # The same number of loops of a flooded film that is only a guess for one with a layer of oil.
 _GUESS_LOOPS = 25
@@ -444,12 +444,13 @@ class OuterIteration:
         most, times = self.problem.max_iterations, 1 if carried is None else _CARRYING
         # The temperature in cavities and next to spots follows small changes of the film.
         loose = self.posed.tolerance if carried is not None else max(self.posed.tolerance, _LOOSE)
+        few = _STEPS if self.level.mesh.dy is None else _STEPS_POINT
         surfaces, mixing, taken = self.surfaces(thermal), _mixing(weight, heat), list[NewtonStep]()
         rises, films, central, ends, missed = list[float](), list[float](), np.inf, False, 0
         unsettled: Unsettled | None = None
         jacobians: list[Linearised] = []
         for loop in range(self.most_loops):
-            steps, tolerance = (most, self.posed.tolerance) if ends else (_STEPS, loose)
+            steps, tolerance = (most, self.posed.tolerance) if ends else (few, loose)
             solution, law, now = self.film(
                 state,
                 heat,

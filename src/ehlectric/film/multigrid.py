@@ -198,9 +198,9 @@ def _row_sums(gap: Gap, stencils: tuple[Stencil, Stencil], distributed: Mask) ->
 # Change of ln eps between neighbours above which a coarser grid cannot resolve the solution.
 _UNRESOLVED = 1.5
 
-# Largest change of ln eps at any node up to which a preconditioner is kept. Up to 2 it costs no more GMRES
-# iterations than a new one.
-_ALIKE = 0.6
+# Largest change of ln eps at any node up to which a preconditioner is kept, and up to which its coarser grids
+# are kept. Up to 2, and up to 3 on the coarser grids, it costs no more GMRES iterations than a new one.
+_ALIKE, _ALIKE_COARSE = 0.6, 3.0
 
 # Steps along x to the nodes that a row of a stencil couples.
 _STEPS = tuple(step for step, _ in OFFSETS[:ALONG])
@@ -433,22 +433,32 @@ def linearise_levels(
 def with_kept_preconditioner(
     jacobians: list[Linearised], at_faces: Flow, thickness: Array, full_film: Mask
 ) -> list[Linearised] | None:
-    """Jacobian at a new state with the coarser grids and the line relaxation of an older state. ``thickness``
-    and ``full_film``, film thickness H and full-film nodes of the new state, shape (nx, ny). Returns None
-    where the states differ too much for the older preconditioner, or are cavitated elsewhere.
+    """Jacobian at a new state with the coarser grids and, if the same nodes are cavitated, the line
+    relaxation of an older state. ``thickness`` and ``full_film``, film thickness H and full-film nodes of the
+    new state, shape (nx, ny). Returns None where the states differ too much for the older preconditioner, or
+    in a line contact are cavitated elsewhere.
     """
     if not jacobians:
         return None
     last, *coarser = jacobians
-    old = last.kept or last
-    if not np.array_equal(old.full_film, full_film):
-        return None
-    thinner = np.abs(np.log(thickness / old.gap.thickness))
-    thicker = np.abs(at_faces.coefficients.log_viscosity - old.log_viscosity)
-    if not np.max((thicker + 3.0 * thinner)[full_film], initial=0.0) < _ALIKE:
-        return None
+    old, log_viscosity = last.kept or last, at_faces.coefficients.log_viscosity
+    relaxed = np.array_equal(old.full_film, full_film) and _change(old, thickness, log_viscosity) < _ALIKE
+    if not relaxed:
+        # The coarser grids of a point contact barely depend on a few nodes at the edge of the full film.
+        if last.level.mesh.dy is None or not coarser:
+            return None
+        level = coarser[0].level
+        if not _change(coarser[0], level.inject(thickness), level.inject(log_viscosity)) < _ALIKE_COARSE:
+            return None
     new = Linearised.of(Gap(old.level, thickness), at_faces, full_film)
-    return [replace(new, kept=old), *coarser]
+    return [replace(new, kept=old) if relaxed else new, *coarser]
+
+
+def _change(old: Linearised, thickness: Array, log_viscosity: Array) -> float:
+    """Largest change of ln eps at any node, between the state of a Jacobian and another state."""
+    thinner = np.abs(np.log(thickness / old.gap.thickness))
+    thicker = np.abs(log_viscosity - old.log_viscosity)
+    return float(np.max((thicker + 3.0 * thinner)[old.full_film], initial=0.0))
 
 
 def v_cycle(jacobians: list[Linearised], r: Array, load: float) -> tuple[Array, float]:

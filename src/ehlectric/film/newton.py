@@ -225,7 +225,7 @@ def newton(
     """Last iterate of Newton's method for the film equations on one grid, with its status.
 
     ``jacobians``, Jacobians on all grids of an earlier solution on this grid, whose preconditioner serves as
-    long as the film is similar; the last ones of this solution replace them.
+    long as the film is similar; the last ones of this solution replace them. The state is near such a film.
     """
     fluid, levels, level = problem.fluid, problem.levels, problem.level
     tolerance = problem.reachable_tolerance
@@ -236,6 +236,7 @@ def newton(
     steps: list[NewtonStep] = []
     grown = 0  # successive steps in which the full film has grown
     now = assess(fluid, level, state)
+    near = jacobians is not None
     jacobians = [] if jacobians is None else jacobians
     before = np.inf
     while len(steps) < min_iterations or (now.norm > tolerance and len(steps) < problem.max_iterations):
@@ -247,7 +248,9 @@ def newton(
         jacobians[:] = _linearised(fluid, levels, state, now, last=jacobians if keeps else [])
         close = LINEAR_TOLERANCE
         if loose:
-            close = linear_tolerance(now.norm, before, tolerance if transient else 0.0)
+            close = linear_tolerance(
+                now.norm, before, tolerance if transient or near else 0.0, first=now.norm if near else np.inf
+            )
         dp, dh00, krylov = _direction(fluid, jacobians, state, now, close)
         before = now.norm
         candidate = after_step(level, state, dp, dh00)
@@ -325,14 +328,15 @@ def without_spike(fluid: Fluid, level: Level, state: State, now: Residual) -> St
     return None if relaxed is None or np.min(relaxed.thickness) <= SMALLEST_GAP else relaxed
 
 
-def linear_tolerance(norm: float, before: float, tolerance: float) -> float:
+def linear_tolerance(norm: float, before: float, tolerance: float, *, first: float = np.inf) -> float:
     """Relative tolerance of the linear system of a Newton step.
 
     Choice 2 of S. C. Eisenstat and H. F. Walker, SIAM J. Sci. Comput. 17 (1996) 16, doi:10.1137/0917003: far
     from the solution the linear model is not worth a close solution. Close to it, a tenth of ``tolerance``
-    is enough.
+    is enough. Near a solution the residual after the ``first`` step is about the square of the residual
+    before.
     """
-    predicted = _FIRST_TOLERANCE if np.isinf(before) else _FORCING * min(1.0, norm / before) ** 2
+    predicted = min(_FIRST_TOLERANCE, first) if np.isinf(before) else _FORCING * min(1.0, norm / before) ** 2
     return min(_LOOSEST, max(LINEAR_TOLERANCE, predicted, 0.1 * tolerance / norm))
 
 
