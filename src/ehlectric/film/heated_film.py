@@ -57,9 +57,9 @@ DEGREE = 12
 # Largest change of temperature in one outer loop [K].
 _MOST_CHANGE = 40.0
 
-# Largest number of outer loops. In all loops except the last the film of a line and of a point contact has
-# this number of Newton steps at most, as far as this residual: its temperature is still to change.
-MOST_LOOPS, _STEPS, _STEPS_POINT, _LOOSE = 60, 2, 1, 1e-3
+# Largest number of outer loops. In all loops except the last the film has this number of Newton steps at
+# most, as far as this residual: its temperature is still to change.
+MOST_LOOPS, _STEPS, _LOOSE = 60, 2, 1e-3
 
 # The same number of loops of a flooded film that is only a guess for one with a layer of oil.
 _GUESS_LOOPS = 25
@@ -444,13 +444,12 @@ class OuterIteration:
         most, times = self.problem.max_iterations, 1 if carried is None else _CARRYING
         # The temperature in cavities and next to spots follows small changes of the film.
         loose = self.posed.tolerance if carried is not None else max(self.posed.tolerance, _LOOSE)
-        few = _STEPS if self.level.mesh.dy is None else _STEPS_POINT
         surfaces, mixing, taken = self.surfaces(thermal), _mixing(weight, heat), list[NewtonStep]()
         rises, films, central, ends, missed = list[float](), list[float](), np.inf, False, 0
         unsettled: Unsettled | None = None
         jacobians: list[Linearised] = []
         for loop in range(self.most_loops):
-            steps, tolerance = (most, self.posed.tolerance) if ends else (few, loose)
+            steps, tolerance = (most, self.posed.tolerance) if ends else (_STEPS, loose)
             solution, law, now = self.film(
                 state,
                 heat,
@@ -465,7 +464,8 @@ class OuterIteration:
             taken += solution.steps
             before, central = central, at_centre(self.level.mesh, solution.state.thickness)
             films.append(abs(central - before) / (_FILM * max(central, SMALLEST_GAP)))
-            stands = ends and solution.status == "converged" and films[-1] < self._allowed
+            change = max(films[-1], self._distance(films))
+            stands = ends and solution.status == "converged" and change < self._allowed
             missed = missed + 1 if carried is not None and solution.status == "stalled" else 0
             if stands or solution.status == "diverged" or missed == _MISSED:
                 break
@@ -482,8 +482,8 @@ class OuterIteration:
             if goes_round(rises, self._allowed):
                 solution = replace(solution, status="stalled")
                 break
-            # Film and temperature that are close enough end with a film at the last temperature.
-            ends = max(self._distance(rises), self._distance(films)) < self._allowed
+            # A temperature that is close enough ends with its film, unless this film is far from the last one.
+            ends = self._distance(rises) < self._allowed
             state = solution.state
             if is_stale(rises):
                 # The combination of the last turns circles around a place without a solution.

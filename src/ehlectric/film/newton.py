@@ -334,10 +334,12 @@ def linear_tolerance(norm: float, before: float, tolerance: float, *, first: flo
     Choice 2 of S. C. Eisenstat and H. F. Walker, SIAM J. Sci. Comput. 17 (1996) 16, doi:10.1137/0917003: far
     from the solution the linear model is not worth a close solution. Close to it, a tenth of ``tolerance``
     is enough. Near a solution the residual after the ``first`` step is about the square of the residual
-    before.
+    before. A step that can reach the ``tolerance`` is solved closely enough to reach it.
     """
     predicted = min(_FIRST_TOLERANCE, first) if np.isinf(before) else _FORCING * min(1.0, norm / before) ** 2
-    return min(_LOOSEST, max(LINEAR_TOLERANCE, predicted, 0.1 * tolerance / norm))
+    last = 0.5 * tolerance / norm
+    least = last if 0.1 * LINEAR_TOLERANCE < last < LINEAR_TOLERANCE else LINEAR_TOLERANCE
+    return min(_LOOSEST, max(least, predicted, 0.1 * tolerance / norm))
 
 
 def _linearised(
