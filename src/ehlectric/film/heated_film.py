@@ -482,7 +482,7 @@ class OuterIteration:
             if goes_round(rises, self._allowed):
                 solution = replace(solution, status="stalled")
                 break
-            # A temperature that is close enough ends with its film, unless this film is far from the last one.
+            # A temperature that is close enough ends with its film, unless that is far from the last film.
             ends = self._distance(rises) < self._allowed
             state = solution.state
             if is_stale(rises):
