@@ -56,6 +56,10 @@ _CONSERVING = 3
 # finest grid and on the coarser ones.
 _MIXED, _MIXED_COARSE = 6, 2
 
+# Residual of a film whose surfaces may touch on the grids that enter no error estimate: its spots are not the
+# spots of the next grid.
+_START_TOLERANCE = 1e-3
+
 
 def nested_iteration(
     problem: FilmProblem, progress: Progress | None, known: Sequence[GridSolution] = ()
@@ -187,6 +191,9 @@ def _mixed(
     posed = grid_problem(problem, levels, progress, times=_MIXED if finest else _MIXED_COARSE)
     # A film whose surfaces touch needs all grids.
     posed = replace(posed, levels=levels)
+    # The film of the grid with half the intervals enters the error estimate.
+    if 2 * level.nodes < problem.nodes:
+        posed = replace(posed, tolerance=_START_TOLERANCE, only_start=True)
     conserving = Conserving(posed, problem.wedge_order)
     grids: list[GridSolution] = []
     from_coarse = None
@@ -212,7 +219,7 @@ def _mixed(
     if full.status != "converged" or not forms_again(full.final.full_film):
         return grids
     attempts = [(guess_of(full), scheme) for scheme in SCHEMES]
-    if from_coarse is not None:
+    if from_coarse is not None and finest:
         # From there the usual scheme did not converge.
         attempts += [(from_coarse, scheme) for scheme in SCHEMES[1:]]
     *others, best = conserving.films(attempts)

@@ -170,6 +170,8 @@ class GridProblem:
     # Function that is called with (nodes, Newton step, residual) before every step.
     progress: Progress | None = None
     asperities: Asperities = Asperities()  # boundary film and hardness where surfaces touch
+    # Whether the film is only a start on finer grids: the oil where surfaces touch may change further.
+    only_start: bool = False
 
     @property
     def level(self) -> Level:

@@ -499,7 +499,7 @@ def touching_newton(
     best, best_step = np.inf, 0  # smallest residual that was half of the one before, and its step
     status: Status = "stalled"
     while len(steps) < min(problem.max_iterations, best_step + _PATIENCE):
-        if len(steps) >= min_iterations and is_solved(now, tolerance):
+        if len(steps) >= min_iterations and is_solved(now, tolerance, with_oil=not problem.only_start):
             break
         problem.report(steps, now.norm)
         if now.norm < 0.5 * best:
@@ -526,7 +526,7 @@ def touching_newton(
         damped = asperities.boundary_film > 0.0 and (carried is not None or assessed.contact.any())
         damping = damping if damped and assessed.norm > near else 0.0
         now = assessed
-    if is_solved(now, tolerance):
+    if is_solved(now, tolerance, with_oil=not problem.only_start):
         status = "converged"
     return grid_solution(level, projected(fluid, state, now.contact), now, steps, status)
 
@@ -617,10 +617,12 @@ def _released(level: Level, moved: State, state: State, boundary_film: float) ->
     return replace(state, contact_pressure=np.where(opens, least, state.contact_pressure))
 
 
-def is_solved(now: Touching, tolerance: float) -> bool:
+def is_solved(now: Touching, tolerance: float, *, with_oil: bool = True) -> bool:
     """Whether all equations hold within a tolerance, the equations of the oil where surfaces touch within
-    1e-6.
+    1e-6. Unless ``with_oil``, these equations, and the nodes that oil fills, are not checked.
     """
+    if not with_oil:
+        return now.norm <= tolerance
     return now.settled and now.norm <= tolerance and now.oil_norm <= max(tolerance, OIL_TOLERANCE)
 
 
