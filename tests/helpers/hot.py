@@ -185,7 +185,7 @@ def couette(nahme, reduced_rate=None, *, degree=12, loops=60):
 
     The viscosity is eta0 exp(-beta (T - T_w)). The functions are those of a contact: flow with a frozen
     temperature, its heat, and the march of the energy equation. The result is theta = beta (T - T_w) and the
-    stress over eta0 U/h.
+    uniform stress over eta0 U/h.
     """
     beta, eta, conductivity, wall, gap, length = 0.03, 0.01, 0.14, 300.0, 1e-6, 1.0
     slip = np.sqrt(nahme * conductivity / (beta * eta))

@@ -303,14 +303,19 @@ class OuterIteration:
         """
         scales, thermal, mesh = self.problem.scales, self.physics.thermal, self.level.mesh
         assert thermal is not None
-        state = solution.state
+        state, gap = solution.state, solution.state.thickness
         filled = self.filled(solution) if filled is None else filled
+        along, across = self._through(solution, filled)
+        passing = 0.5 * (np.concatenate([along[:1], along]) + np.concatenate([along, along[-1:]]))
+        speed = passing / (filled * solution.final.coefficients.density * gap)
+        unit = scales.thickness * self.physics.mean_speed
+        unit *= float(thermal.oil.density(np.zeros(1), np.full(1, thermal.inlet_temperature)).value[0])
         return stream_of(
             thermal.oil,
-            flow.columns_by_faces(self.problem.fluid, state.oil_pressure, state.thickness, mesh),
+            flow.columns_that_pass(self.problem.fluid, state.oil_pressure, gap, mesh, speed),
             heat.temperature,
             pressure=self.pressure(state),
-            thickness=scales.thickness * state.thickness,
+            thickness=scales.thickness * gap,
             filled=filled,
             mesh=mesh,
             length=scales.length,
@@ -318,17 +323,17 @@ class OuterIteration:
             speed=self.physics.mean_speed,
             stress=self.stress_scale,
             rubbing=self._rubbing(state),
-            through=self._through(solution, thermal, filled),
+            through=(unit * along, unit * across),
         )
 
-    def _through(self, solution: GridSolution, thermal: Thermal, filled: Array) -> tuple[Array, Array]:
-        """Mass flow through the faces along x and across it [kg/(m s)]; NaN on the sides of the domain.
+    def _through(self, solution: GridSolution, filled: Array) -> tuple[Array, Array]:
+        """Mass flow through the faces along x and across it, dimensionless; NaN on the sides of the domain.
 
         ``filled`` (nx, ny) is the part of the gap that oil fills.
         The flow across is the flow of the Reynolds equation. The flow along x is the flow through the first
         face and what the mass balance of each column adds to it.
         """
-        mesh, flow, scales = self.level.mesh, solution.final.flow, self.problem.scales
+        mesh, flow = self.level.mesh, solution.final.flow
         mass = filled * flow.coefficients.density * solution.state.thickness
         edge = mass[0] if self.problem.wedge_order == 1 else 0.5 * (mass[0] + mass[1])
         content = solution.content
@@ -342,9 +347,7 @@ class OuterIteration:
             along[1:, lines] += mesh.dx * np.cumsum(flow.across.divergence().T[1:-1], axis=0)
             across = -mesh.dy * flow.across.flux.T[:, -across.shape[1] :]
             along[:, ~mesh.inner[1]] = np.nan
-        unit = scales.thickness * self.physics.mean_speed
-        unit *= float(thermal.oil.density(np.zeros(1), np.full(1, thermal.inlet_temperature)).value[0])
-        return unit * along, unit * across
+        return along, across
 
     def _rubbing(self, state: State) -> tuple[Array, Array]:
         """Share of the oil in the pressure of each node, and the heat of asperities that rub [W/m^2], zero

@@ -289,24 +289,44 @@ class ShearedFlow:
         gradient = np.stack(gradients(pressure, mesh))
         return self._columns(fluid, (log_viscosity, density), gradient, thickness, scale)
 
-    def columns_by_faces(self, fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh) -> Columns:
-        """Stress, speed and heat across the film at the nodes, means of the columns at the faces along x.
+    def columns_that_pass(
+        self, fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh, speed: Array
+    ) -> Columns:
+        """Stress, speed and heat across the film at the nodes, with the mean speed of the mass balance.
+
+        ``speed`` (nx, ny) is the mean speed of the oil along x over u_m; NaN where it is not known.
 
         Pressure and viscosity of a rough film may change by large factors from node to node. The flow through
-        a face then balances the flows through its neighbours. The gradient between the nodes on both sides of
-        a node, at the viscosity of the node, would give arbitrary speeds. The viscosity of a face is the
-        geometric mean: the integral of the shear stress then has the error of the midpoint rule.
+        a face balances the flows through its neighbours. Central differences of P with the viscosity of the
+        node may give arbitrary speeds. The means of the columns at both faces replace the columns of these
+        nodes, and a part of the columns whose speed differs little.
+        """
+        nodes = self.columns(fluid, pressure, thickness, mesh)
+        part = _part_of_faces(np.abs(nodes.mean_speed - speed))
+        wrong = part > 0.0
+        if not wrong.any():
+            return nodes
+        needed = wrong[1:] | wrong[:-1]
+        at_faces = self._columns_at_faces(fluid, pressure, thickness, mesh, needed)
+        return nodes.mixed(at_faces, needed, part)
+
+    def _columns_at_faces(
+        self, fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh, needed: Mask
+    ) -> Columns:
+        """Columns (n,) at the faces along x of a mask (nx - 1, ny).
+
+        The viscosity of a face is the geometric mean: the integral of the shear stress then has the error of
+        the midpoint rule.
         """
         k, properties = self._evaluate(fluid, pressure, thickness, mesh)
-        slip = self._slip(fluid)
-        faces = self._faces(_Nodes(k, properties, thickness, pressure), mesh.dx, slip, fluid, None)
+        faces = self._faces(_Nodes(k, properties, thickness, pressure), mesh.dx, 0.0, fluid, None)
         log_viscosity, density = (face_mean(values)[np.newaxis] for values in (k.log_viscosity, k.density))
         if faces.profile is not None:
             log_viscosity, density = log_viscosity + faces.profile[0], faces.profile[1]
-        gradient = np.stack(gradients(pressure, mesh))
-        between = np.stack([np.diff(pressure, axis=0) / mesh.dx, face_mean(gradient[1])])
-        at_faces = self._columns(fluid, (log_viscosity, density), between, faces.gap, faces.scale)
-        return at_faces.at_nodes(gradient)
+        lateral = face_mean(gradients(pressure, mesh)[1])
+        gradient = np.stack([np.diff(pressure, axis=0) / mesh.dx, lateral])[:, needed]
+        properties_of = log_viscosity[:, needed], density[:, needed]
+        return self._columns(fluid, properties_of, gradient, faces.gap[needed], faces.scale[needed])
 
     def _columns(
         self, fluid: Fluid, properties: tuple[Array, Array], gradient: Array, thickness: Array, scale: Array
@@ -519,7 +539,7 @@ def _fluxes(rheology: Rheology, groups: list[_Faces]) -> list[Flux]:
 
 @dataclass(frozen=True)
 class Columns:
-    """Stress, speed and heat across the film in columns, at the faces along x or at the nodes of a grid."""
+    """Stress, speed and heat across the film in columns, at the nodes of a grid or at some faces along x."""
 
     across: Across  # nodes zeta across the film, nz of them
     # Heat of shear tau gamma_dot h/u_m over the stress scale p_h b/R, shape (nz, nx, ny).
@@ -531,24 +551,48 @@ class Columns:
     gradient: Array  # dP/dX and dP/dY, shape (2, nx, ny)
     middle: Array  # stress at zeta = 1/2 along x and y over the stress scale, shape (2, nx, ny)
 
-    def at_nodes(self, gradient: Array) -> Columns:
-        """Columns at the nodes from columns at the faces, with dP/dX and dP/dY at the nodes (2, nx, ny)."""
-        return Columns(
-            across=self.across,
-            heating=_at_nodes(self.heating),
-            speed=_at_nodes(self.speed),
-            softening=_at_nodes(self.softening),
-            density=_at_nodes(self.density),
-            gradient=gradient,
-            middle=_at_nodes(self.middle),
+    @property
+    def mean_speed(self) -> Array:
+        """Mean speed along x of the mass across the film, over u_m, shape (nx, ny)."""
+        mass = np.tensordot(self.across.weights, self.density, axes=1)
+        return np.asarray(np.tensordot(self.across.weights, self.density * self.speed[0], axes=1) / mass)
+
+    def mixed(self, at_faces: Columns, needed: Mask, part: Array) -> Columns:
+        """Columns at the nodes with a part (nx, ny) of the means of both faces along x.
+
+        ``at_faces`` has the columns (n,) of the faces of a mask ``needed`` (nx - 1, ny).
+        """
+
+        def mix(of_nodes: Array, of_faces: Array) -> Array:
+            faces = np.zeros((*of_nodes.shape[:-2], *needed.shape))
+            faces[..., needed] = of_faces
+            means = 0.5 * (np.concatenate([faces[..., :1, :], faces], axis=-2))
+            means += 0.5 * (np.concatenate([faces, faces[..., -1:, :]], axis=-2))
+            return np.asarray(of_nodes + part * (means - of_nodes))
+
+        return replace(
+            self,
+            heating=mix(self.heating, at_faces.heating),
+            speed=mix(self.speed, at_faces.speed),
+            softening=mix(self.softening, at_faces.softening),
         )
 
 
-def _at_nodes(values: Array) -> Array:
-    """Mean (..., nx, ny) of the faces before and behind each node, from values (..., nx - 1, ny)."""
-    before = np.concatenate([values[..., :1, :], values], axis=-2)
-    after = np.concatenate([values, values[..., -1:, :]], axis=-2)
-    return np.asarray(0.5 * (before + after))
+# Error of the mean speed over u_m at which half of a column is the mean of the columns at its faces, and
+# up to which no part of it is.
+_HALF_OF_FACES, _NONE_OF_FACES = 0.1, 0.01
+
+
+def _part_of_faces(error: Array) -> Array:
+    """Part of the columns at the faces in the columns of the nodes, from the error of their mean speed.
+
+    Examples
+    --------
+    >>> _part_of_faces(np.array([0.01, 0.11, 10.0, np.nan])).round(3).tolist()
+    [0.0, 0.5, 1.0, 0.0]
+    """
+    above = np.maximum(np.nan_to_num(error) - _NONE_OF_FACES, 0.0) / _HALF_OF_FACES
+    return np.asarray(1.0 - 1.0 / (1.0 + above**2))
 
 
 def columns_of(

@@ -183,20 +183,40 @@ def test_columns_carry_the_flux_between_the_surfaces(rheology):
 
 
 @given(st.lists(st.floats(0.0, 2.0), min_size=9, max_size=9), st.floats(1.0, 30.0))
-def test_no_column_of_faces_carries_more_than_the_flow_of_the_film(pressures, slope):
-    """However much the viscosity changes from node to node: ln(eta) = slope P, between parallel surfaces."""
+def test_no_column_is_much_faster_than_the_flow_of_the_film(pressures, slope):
+    """However much the viscosity changes from node to node: ln(eta) = slope P, between parallel surfaces.
+
+    The mean of the columns at the faces is not faster. What remains of an error e of the mean speed at the
+    node is e/(1 + ((e - 0.01)/0.1)^2), at most 0.056.
+    """
     mesh = Mesh.over(9, -2.0, 1.0)
     fluid = replace(
         sheared(Rheology(), mesh),
         log_viscosity=lambda p: (slope * p, slope + 0.0 * p),
         density=lambda p: (1.0 + 0.0 * p, 0.0 * p),
     )
-    pressure, thickness = np.array(pressures)[:, np.newaxis], np.full(mesh.shape, 0.2)
-    columns = fluid.flow.columns_by_faces(fluid, pressure, thickness, mesh)
-    driven = thickness * (np.tensordot(columns.across.weights, columns.speed[0], axes=1) - 1.0)
-    through = mesh.dx * np.abs(flow(fluid, pressure, thickness, mesh).along.flux)
-    largest = 0.5 * (through[1:] + through[:-1])
-    assert np.all(np.abs(driven[1:-1]) <= (1.0 + 1e-9) * largest + 1e-12)
+    pressure, gap = np.array(pressures)[:, np.newaxis], 0.2
+    thickness = np.full(mesh.shape, gap)
+    driven = -mesh.dx / gap * flow(fluid, pressure, thickness, mesh).along.flux
+    speed = 1.0 + 0.5 * (np.concatenate([driven[:1], driven]) + np.concatenate([driven, driven[-1:]]))
+    columns = fluid.flow.columns_that_pass(fluid, pressure, thickness, mesh, speed)
+    largest = 0.5 * (np.abs(driven[1:]) + np.abs(driven[:-1]))
+    assert np.all(np.abs(columns.mean_speed - 1.0)[1:-1] <= largest + 0.056)
+
+
+def test_columns_keep_the_nodes_whose_speed_the_mass_balance_confirms():
+    mesh = Mesh.over(9, -2.0, 1.0)
+    fluid = sheared(Rheology("eyring", {"eyring_stress": 5e6}), mesh)
+    pressure, thickness, _ = state(mesh, 4)
+    nodes = fluid.flow.columns(fluid, pressure, thickness, mesh)
+    for speed in (nodes.mean_speed, np.full(mesh.shape, np.nan)):
+        columns = fluid.flow.columns_that_pass(fluid, pressure, thickness, mesh, speed)
+        np.testing.assert_array_equal(columns.heating, nodes.heating)
+    wrong = nodes.mean_speed.copy()
+    wrong[4] += 1e6
+    columns = fluid.flow.columns_that_pass(fluid, pressure, thickness, mesh, wrong)
+    changed = np.any(columns.heating != nodes.heating, axis=(0, 2))
+    assert np.flatnonzero(changed).tolist() == [4]
 
 
 def test_profiles_are_moved_to_other_meshes():
