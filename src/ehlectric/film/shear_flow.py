@@ -281,13 +281,9 @@ class ShearedFlow:
 
     def columns(self, fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh) -> Columns:
         """Stress, speed and heat across the film at the nodes, with central differences of P."""
-        k, properties = self._evaluate(fluid, pressure, thickness, mesh)
-        log_viscosity, density = k.log_viscosity[np.newaxis], k.density[np.newaxis]
-        if properties is not None:
-            log_viscosity, density = log_viscosity + properties.log_ratio, properties.density
-        scale, _ = self._scale(np.maximum(pressure, fluid.ambient_pressure))
+        log_viscosity, density = self._across(fluid, pressure, thickness, mesh)
         gradient = np.stack(gradients(pressure, mesh))
-        return self._columns(fluid, (log_viscosity, density), gradient, thickness, scale)
+        return self._columns(fluid, pressure, (log_viscosity, density), gradient, thickness)
 
     def columns_that_pass(
         self, fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh, speed: Array
@@ -301,44 +297,53 @@ class ShearedFlow:
         node may give arbitrary speeds. The means of the columns at both faces replace the columns of these
         nodes, and a part of the columns whose speed differs little.
         """
-        nodes = self.columns(fluid, pressure, thickness, mesh)
+        properties, gradient = self._across(fluid, pressure, thickness, mesh), gradients(pressure, mesh)
+        nodes = self._columns(fluid, pressure, properties, np.stack(gradient), thickness)
         part = _part_of_faces(np.abs(nodes.mean_speed - speed))
         wrong = part > 0.0
         if not wrong.any():
             return nodes
         needed = wrong[1:] | wrong[:-1]
-        at_faces = self._columns_at_faces(fluid, pressure, thickness, mesh, needed)
-        return nodes.mixed(at_faces, needed, part)
 
-    def _columns_at_faces(
-        self, fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh, needed: Mask
-    ) -> Columns:
-        """Columns (n,) at the faces along x of a mask (nx - 1, ny).
+        def at_faces(values: Array) -> Array:
+            return 0.5 * (values[..., 1:, :][..., needed] + values[..., :-1, :][..., needed])
 
-        The viscosity of a face is the geometric mean: the integral of the shear stress then has the error of
-        the midpoint rule.
-        """
+        # The mean of ln eta is a geometric mean of eta: the integral of the shear stress then has the error
+        # of the midpoint rule.
+        log_viscosity, density = (at_faces(values) for values in properties)
+        along = np.diff(pressure, axis=0)[needed] / mesh.dx
+        faces = self._columns(
+            fluid,
+            at_faces(pressure),
+            (log_viscosity, density),
+            np.stack([along, at_faces(gradient[1])]),
+            at_faces(thickness),
+        )
+        return nodes.mixed(faces, needed, part)
+
+    def _across(self, fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh) -> tuple[Array, Array]:
+        """Logarithm of eta/eta_0 and rho/rho_0 across the film, (nz, nx, ny), or (1, nx, ny) if uniform."""
         k, properties = self._evaluate(fluid, pressure, thickness, mesh)
-        faces = self._faces(_Nodes(k, properties, thickness, pressure), mesh.dx, 0.0, fluid, None)
-        log_viscosity, density = (face_mean(values)[np.newaxis] for values in (k.log_viscosity, k.density))
-        if faces.profile is not None:
-            log_viscosity, density = log_viscosity + faces.profile[0], faces.profile[1]
-        lateral = face_mean(gradients(pressure, mesh)[1])
-        gradient = np.stack([np.diff(pressure, axis=0) / mesh.dx, lateral])[:, needed]
-        properties_of = log_viscosity[:, needed], density[:, needed]
-        return self._columns(fluid, properties_of, gradient, faces.gap[needed], faces.scale[needed])
+        if properties is None:
+            return k.log_viscosity[np.newaxis], k.density[np.newaxis]
+        return k.log_viscosity + properties.log_ratio, properties.density
 
     def _columns(
-        self, fluid: Fluid, properties: tuple[Array, Array], gradient: Array, thickness: Array, scale: Array
+        self,
+        fluid: Fluid,
+        pressure: Array,
+        properties: tuple[Array, Array],
+        gradient: Array,
+        thickness: Array,
     ) -> Columns:
-        """Columns with the arguments of ``columns_of``."""
+        """Columns at a pressure P, with further arguments of ``columns_of``."""
         return columns_of(
             self.rheology,
             Across.of(_DEGREE if self.profile is None else self.profile.across.zeta.size - 1),
             properties,
             gradient=gradient,
             thickness=thickness,
-            scale=scale,
+            scale=self._scale(np.maximum(pressure, fluid.ambient_pressure))[0],
             slip=self._slip(fluid),
             speed_unit=12.0 / fluid.velocity_parameter,
         )
