@@ -126,12 +126,12 @@ def test_heat_is_carried_by_the_oil_that_passes_the_contact():
 @pytest.mark.gate
 @pytest.mark.parametrize("hot", [False, True])
 def test_a_layer_that_floods_is_no_supply(hot):
-    """To 1e-8 of the film."""
+    """To 1e-8 of the film, and of a hot film to a fiftieth of the tolerance of film and temperature in turns."""
     problem = posed("line", hot=hot, rough=False)
     flooded = film_of(problem)
     thick = 1.3 * flooded.central_thickness / problem.scales.thickness
     supplied = replace(problem, supply=OilSupply(layer=lambda y: np.full(y.shape, thick)))
-    np.testing.assert_allclose(film_of(supplied).thickness, flooded.thickness, rtol=1e-8)
+    np.testing.assert_allclose(film_of(supplied).thickness, flooded.thickness, rtol=1e-6 if hot else 1e-8)
 
 
 @pytest.mark.slow
