@@ -126,7 +126,7 @@ def test_heat_is_carried_by_the_oil_that_passes_the_contact():
 @pytest.mark.gate
 @pytest.mark.parametrize("hot", [False, True])
 def test_a_layer_that_floods_is_no_supply(hot):
-    """To 1e-8 of the film, and of a hot film to a fiftieth of the tolerance of film and temperature in turns."""
+    """To 1e-8 of the film, and of a hot film to a fiftieth of the tolerance of its turns."""
     problem = posed("line", hot=hot, rough=False)
     flooded = film_of(problem)
     thick = 1.3 * flooded.central_thickness / problem.scales.thickness
