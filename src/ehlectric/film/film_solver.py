@@ -9,7 +9,6 @@ from functools import cached_property
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.film.dry_contact import relieved
 from ehlectric.film.far_field import side_deficit
 from ehlectric.film.film_errors import (
     LEAST_UNSEEN,
@@ -20,15 +19,8 @@ from ehlectric.film.film_errors import (
     upstream_deficits,
 )
 from ehlectric.film.mesh import Mesh, at_centre
-from ehlectric.film.nested import (
-    filled_on,
-    grid_problem,
-    interpolated_state,
-    levels_of,
-    nested_iteration,
-    open_state,
-)
-from ehlectric.film.newton import GridSolution, Guess, Progress, State
+from ehlectric.film.nested import filled_on, grid_problem, levels_of, nested_iteration, open_state
+from ehlectric.film.newton import GridSolution, Guess, Progress
 from ehlectric.film.patch import Patch
 from ehlectric.film.problem import FilmProblem, OilSupply
 from ehlectric.film.starved_solver import (
@@ -39,7 +31,6 @@ from ehlectric.film.starved_solver import (
     isothermal,
     taken_layer,
 )
-from ehlectric.film.touching_solver import NEAR_DAMPING
 from ehlectric.quantities.field_metadata import number
 
 # Number of successive grids without an error estimate after which refinement stops. Each grid takes several
@@ -354,21 +345,10 @@ def starved_on_grids(
         near, last = None, solutions[-1] if solutions else None
         if last is not None and last.status == "converged" and last.content is not None:
             filled = filled_on(starved.level.mesh, last.level.mesh, last.content.filled)
-            near = Guess(_near(starved, last), filled, last)
+            near = Guess(open_state(starved.level, last), filled, last)
         layer, film = _layer_and_film(starved, supply, near, layer)
         solutions.append(starved.flooded if film is None else film)
     return StarvedSolution(grids[-1].problem, solutions, flooded=grids[-1].flooded, layer=layer)
-
-
-def _near(starved: StarvedProblem, coarse: GridSolution) -> State:
-    """Guess on a grid from the film on the next coarser grid.
-
-    The asperities of a point contact that this film pushes through the other surface are flattened first.
-    """
-    level = starved.level
-    if not coarse.touches or level.mesh.dy is None:
-        return open_state(level, coarse)
-    return relieved(level, interpolated_state(level, coarse), starved.posed.asperities.boundary_film)
 
 
 def _isothermal_grids(
@@ -381,9 +361,7 @@ def _isothermal_grids(
         posed = grid_problem(
             problem, levels_of(problem), progress, finest=problem.nodes == finest, times=_MORE
         )
-        touching = problem.boundary_film > 0.0 and problem.width is not None
-        film = isothermal(posed, first_damping=NEAR_DAMPING if touching else 0.0)
-        grids.append(StarvedProblem(problem, posed, by_nodes[problem.nodes], film))
+        grids.append(StarvedProblem(problem, posed, by_nodes[problem.nodes], isothermal(posed)))
         problem = problem.halved()
     return grids[::-1]
 

@@ -61,9 +61,6 @@ _MOST_CHANGE = 40.0
 # most, as far as this residual: its temperature is still to change.
 MOST_LOOPS, _STEPS, _LOOSE = 60, 2, 1e-3
 
-# The same residual of a point contact with mass-conserving cavitation.
-_LOOSE_CARRIED = 1e-6
-
 # The same number of loops of a flooded film that is only a guess for one with a layer of oil.
 _GUESS_LOOPS = 25
 
@@ -236,13 +233,7 @@ class OuterIteration:
         fluid = replace(self.problem.fluid, flow=law)
         posed = replace(self.posed, fluid=fluid, tolerance=tolerance, max_iterations=steps)
         if carried is not None:
-            touching = posed.asperities.boundary_film > 0.0 and self.level.mesh.dy is not None
-            solver = isothermal(
-                self._with_steps(posed),
-                full_order=False,
-                min_iterations=1,
-                first_damping=NEAR_DAMPING if touching else 0.0,
-            )
+            solver = isothermal(self._with_steps(posed), full_order=False, min_iterations=1)
             solution = solver(Guess(state, carried.filled), carried.supply)
         else:
             solution = self._apart_or_touching(posed, state, jacobians, spike=spike)
@@ -455,10 +446,7 @@ class OuterIteration:
         """
         most, times = self.problem.max_iterations, 1 if carried is None else _CARRYING
         # The temperature in cavities and next to spots follows small changes of the film.
-        loose = max(self.posed.tolerance, _LOOSE)
-        if carried is not None:
-            line = self.level.mesh.dy is None
-            loose = self.posed.tolerance if line else max(self.posed.tolerance, _LOOSE_CARRIED)
+        loose = self.posed.tolerance if carried is not None else max(self.posed.tolerance, _LOOSE)
         surfaces, mixing, taken = self.surfaces(thermal), _mixing(weight, heat), list[NewtonStep]()
         rises, films, central, ends, missed = list[float](), list[float](), np.inf, False, 0
         unsettled: Unsettled | None = None

@@ -16,7 +16,6 @@ import scipy
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.film.deflection import Geometry
-from ehlectric.film.dry_contact import relieved
 from ehlectric.film.levels import Level, hierarchy
 from ehlectric.film.mesh import Mesh, at_centre, on_mesh
 from ehlectric.film.newton import GridProblem, GridSolution, Guess, Progress, State, newton
@@ -200,8 +199,7 @@ def _mixed(
     from_coarse = None
     if near is not None and near.touching.any() and coarse is not None and coarse.fraction is not None:
         filled = filled_on(level.mesh, coarse.level.mesh, with_inlet(coarse.final.full_film))
-        start = near if level.mesh.dy is None else relieved(level, near, problem.boundary_film)
-        from_coarse = Guess(start, filled)
+        from_coarse = Guess(near, filled)
         grids.extend(conserving.films([(from_coarse, USUAL)]))
         if grids[-1].status == "converged":
             return [*grids[:-1], _apart(problem, levels, grids[-1], progress)]

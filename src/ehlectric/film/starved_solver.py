@@ -218,9 +218,7 @@ class StarvedProblem:
             yield from self._with_heat(layer, near)
             return
         if near is not None:
-            yield from self._from_near(layer, near)
-            # From there the simpler schemes of a point contact did not converge either.
-            near = near if self.level.mesh.dy is None else None
+            yield self._under(layer, near)
         guesses = [self._from_flooded, self._from_dry]
         scarce = at_centre_line(self.level, layer) < _DRY * self.flooded_mass
         for guess in reversed(guesses) if scarce else guesses:
@@ -230,25 +228,6 @@ class StarvedProblem:
         yield from self._in_steps(layer)
         if self.posed.asperities.boundary_film and self._taken.simpler is not None:
             yield from replace(self, scheme=self._taken.simpler)._attempts(layer, near)
-
-    def _from_near(self, layer: Array, near: Guess) -> Iterator[GridSolution]:
-        """Films from a guess that is likely to be close, also with simpler schemes where surfaces may touch.
-
-        The film of a simpler scheme is a start for the more accurate ones.
-        """
-        film = self._under(layer, near)
-        simpler, better = self._taken.simpler, [self]
-        while film.status != "converged" and self.posed.asperities.boundary_film and simpler is not None:
-            yield film
-            better.insert(0, replace(self, scheme=simpler))
-            film, simpler = better[0]._under(layer, near), simpler.simpler
-        for each in better[1:]:
-            if film.status == "converged" and film.content is not None:
-                closer = each._under(layer, Guess(film.state, film.content.filled, film))
-                film = (
-                    replace(closer, steps=film.steps + closer.steps) if closer.status == "converged" else film
-                )
-        yield film
 
     def _with_heat(self, layer: Array, near: Guess | None) -> Iterator[GridSolution]:
         """Films with heat from the guesses near the film, as one from further away takes long to fail.

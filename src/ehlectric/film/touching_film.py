@@ -436,23 +436,10 @@ def _with_contact_rows(level: Level, by_h: Stencil, contact: Mask) -> Stencil:
     return Stencil(rows)
 
 
-# Part of the largest entry of its column that a pivot of SuperLU has at least.
-_LEAST_PIVOT = 0.1
-
-
 def _factored(stencil: Stencil, nodes: Mask) -> scipy.sparse.linalg.SuperLU:
     """Factorisation of a stencil between nodes; an error where its matrix is singular."""
-    # The pattern of the matrix is nearly symmetric. With the order and the pivots of a symmetric matrix the
-    # factors take two thirds of the memory.
     try:
-        return scipy.sparse.linalg.splu(
-            stencil_matrix(stencil, nodes),
-            permc_spec="MMD_AT_PLUS_A",
-            diag_pivot_thresh=_LEAST_PIVOT,
-            relax=8,
-            panel_size=8,
-            options={"SymmetricMode": True},
-        )
+        return scipy.sparse.linalg.splu(stencil_matrix(stencil, nodes))
     except RuntimeError as error:
         raise np.linalg.LinAlgError("the flow of the oil has a singular matrix") from error
 
