@@ -304,10 +304,12 @@ class OuterIteration:
         scales, thermal, mesh = self.problem.scales, self.physics.thermal, self.level.mesh
         assert thermal is not None
         state, gap = solution.state, solution.state.thickness
+        moving = filled is not None
         filled = self.filled(solution) if filled is None else filled
         along, across = self._through(solution, filled)
         passing = 0.5 * (np.concatenate([along[:1], along]) + np.concatenate([along, along[-1:]]))
-        speed = passing / (filled * solution.final.coefficients.density * gap)
+        # The flow of a transient film also depends on the oil that the gap stores.
+        speed = np.nan * gap if moving else passing / (filled * solution.final.coefficients.density * gap)
         unit = scales.thickness * self.physics.mean_speed
         unit *= float(thermal.oil.density(np.zeros(1), np.full(1, thermal.inlet_temperature)).value[0])
         return stream_of(
