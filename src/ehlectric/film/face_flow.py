@@ -357,6 +357,19 @@ def face_mean(values: Array) -> Array:
     return np.asarray(0.5 * (values[..., 1:, :] + values[..., :-1, :]))
 
 
+def node_mean(faces: Array) -> Array:
+    """Mean of both faces of each node, along the axis before the last; the nodes at the ends have one face.
+
+    Examples
+    --------
+    >>> node_mean(np.array([[1.0], [3.0]]))[:, 0].tolist()
+    [1.0, 2.0, 3.0]
+    """
+    before = np.concatenate([faces[..., :1, :], faces], axis=-2)
+    after = np.concatenate([faces, faces[..., -1:, :]], axis=-2)
+    return np.asarray(0.5 * (before + after))
+
+
 def gradients(pressure: Array, mesh: Mesh) -> tuple[Array, Array]:
     """Central differences dP/dX and dP/dY at the nodes, one-sided on the edges, each of shape (nx, ny)."""
     by_x = np.asarray(np.gradient(pressure, mesh.dx, axis=0))

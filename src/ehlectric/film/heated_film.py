@@ -23,6 +23,7 @@ from ehlectric.film.energy_equation import (
     moving_surface,
     stream_of,
 )
+from ehlectric.film.face_flow import node_mean
 from ehlectric.film.hot_oil import Physics, Thermal
 from ehlectric.film.levels import Level
 from ehlectric.film.mesh import Mesh, at_centre, on_mesh
@@ -278,7 +279,7 @@ class OuterIteration:
         return again if again.status == "converged" else solution
 
     def columns(self, solution: GridSolution, flow: ShearedFlow) -> Columns:
-        """Stresses and speeds across the film at the nodes."""
+        """Stress, speed and heat across the film at the nodes."""
         state = solution.state
         return flow.columns(self.problem.fluid, state.oil_pressure, state.thickness, self.level.mesh)
 
@@ -304,17 +305,20 @@ class OuterIteration:
         scales, thermal, mesh = self.problem.scales, self.physics.thermal, self.level.mesh
         assert thermal is not None
         state, gap = solution.state, solution.state.thickness
-        moving = filled is not None
-        filled = self.filled(solution) if filled is None else filled
-        along, across = self._through(solution, filled)
-        passing = 0.5 * (np.concatenate([along[:1], along]) + np.concatenate([along, along[-1:]]))
-        # The flow of a transient film also depends on the oil that the gap stores.
-        speed = np.nan * gap if moving else passing / (filled * solution.final.coefficients.density * gap)
+        if filled is None:
+            filled = self.filled(solution)
+            along, across = self._through(solution, filled)
+            speed = node_mean(along) / (filled * solution.final.coefficients.density * gap)
+            columns = flow.columns_that_pass(self.problem.fluid, state.oil_pressure, gap, mesh, speed)
+        else:
+            # The flow of a transient film also depends on the oil that the gap stores.
+            along, across = self._through(solution, filled)
+            columns = self.columns(solution, flow)
         unit = scales.thickness * self.physics.mean_speed
         unit *= float(thermal.oil.density(np.zeros(1), np.full(1, thermal.inlet_temperature)).value[0])
         return stream_of(
             thermal.oil,
-            flow.columns_that_pass(self.problem.fluid, state.oil_pressure, gap, mesh, speed),
+            columns,
             heat.temperature,
             pressure=self.pressure(state),
             thickness=scales.thickness * gap,

@@ -438,22 +438,20 @@ def with_kept_preconditioner(
 ) -> list[Linearised] | None:
     """Jacobian at a new state with the coarser grids and, if the same nodes are cavitated, the line
     relaxation of an older state. ``thickness`` and ``full_film``, film thickness H and full-film nodes of the
-    new state, shape (nx, ny). Returns None where the states differ too much for the older preconditioner, or
-    in a line contact are cavitated elsewhere.
+    new state, shape (nx, ny). Returns None where the states differ too much for the older preconditioner.
+    Other nodes are cavitated at the most in a point contact, and there only few.
     """
     if not jacobians:
         return None
     last, *coarser = jacobians
     old, log_viscosity = last.kept or last, at_faces.coefficients.log_viscosity
-    relaxed = np.array_equal(old.full_film, full_film) and _change(old, thickness, log_viscosity) < _ALIKE
+    moved = np.count_nonzero(old.full_film != full_film)
+    relaxed = moved == 0 and _change(old, thickness, log_viscosity) < _ALIKE
     if not relaxed:
         # The coarser grids of a point contact barely depend on a few nodes at the edge of the full film.
-        if last.level.mesh.dy is None or not coarser:
+        if last.level.mesh.dy is None or not coarser or moved > _FEW_MOVED * full_film.shape[1]:
             return None
         level = coarser[0].level
-        moved = np.count_nonzero(old.full_film != full_film)
-        if moved > _FEW_MOVED * full_film.shape[1]:
-            return None
         if not _change(coarser[0], level.inject(thickness), level.inject(log_viscosity)) < _ALIKE_COARSE:
             return None
     new = Linearised.of(Gap(old.level, thickness), at_faces, full_film)

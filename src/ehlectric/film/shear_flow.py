@@ -49,6 +49,7 @@ from ehlectric.film.face_flow import (
     face_mean,
     gradients,
     logarithmic_mean,
+    node_mean,
     with_mirror,
 )
 from ehlectric.film.mesh import Mesh
@@ -306,7 +307,7 @@ class ShearedFlow:
         needed = wrong[1:] | wrong[:-1]
 
         def at_faces(values: Array) -> Array:
-            return 0.5 * (values[..., 1:, :][..., needed] + values[..., :-1, :][..., needed])
+            return face_mean(values)[..., needed]
 
         # The mean of ln eta is a geometric mean of eta: the integral of the shear stress then has the error
         # of the midpoint rule.
@@ -571,9 +572,7 @@ class Columns:
         def mix(of_nodes: Array, of_faces: Array) -> Array:
             faces = np.zeros((*of_nodes.shape[:-2], *needed.shape))
             faces[..., needed] = of_faces
-            means = 0.5 * (np.concatenate([faces[..., :1, :], faces], axis=-2))
-            means += 0.5 * (np.concatenate([faces, faces[..., -1:, :]], axis=-2))
-            return np.asarray(of_nodes + part * (means - of_nodes))
+            return np.asarray(of_nodes + part * (node_mean(faces) - of_nodes))
 
         return replace(
             self,
