@@ -25,6 +25,7 @@ from ehlectric.contact.contact_heat import physics_of
 from ehlectric.contact.preparation import portable, prepare
 from ehlectric.lubricant.viscosity import roelands
 from ehlectric.tables.html_tables import html_of
+from tests.helpers.each import each
 
 CONTACT = {"reduced_radius": "12.7 mm", "reduced_modulus": "226 GPa", "max_hertz_pressure": "0.8 GPa"}
 CONTACT |= {"entrainment_speed": "2 m/s", "temperature": "40 degC"}
@@ -246,3 +247,21 @@ def test_many_cases_and_sweeps_take_laws(tmp_path):
     assert other.points[0].summary["film"]["minimum_thickness"] == pytest.approx(
         film(solve(cases[0])), rel=1e-12
     )
+
+
+@pytest.mark.slow
+@pytest.mark.gate
+@each("other", ["heat", "laws"])
+def test_the_smooth_contact_of_a_rough_one_has_its_laws_and_heat(other):
+    """Also if the contact before it differed in nothing else: the smooth contact is not shared then."""
+    wave = {"surface": 1, "generator": "sinusoid", "amplitude": "20 nm", "wavelength": "80 um"}
+    plain = hot_case(OIL | VOGEL, roughness=[wave]).replace(
+        {"film.thermal": False, "film.rheology": "newtonian"}
+    )
+    changed = plain.replace({"film.thermal": True}) if other == "heat" else plain
+    laws = LAWS if other == "laws" else None
+    apart = solve(plain).smooth
+    rough = solve(changed, laws=laws)
+    smooth = solve(changed.replace(roughness=()), laws=laws)
+    np.testing.assert_array_equal(rough.smooth.thickness, smooth.film.thickness)
+    assert np.any(rough.smooth.thickness != apart.thickness)

@@ -582,9 +582,9 @@ class Columns:
         )
 
 
-# Error of the mean speed over u_m at which half of a column is the mean of the columns at its faces, and
-# up to which no part of it is.
-_HALF_OF_FACES, _NONE_OF_FACES = 0.1, 0.01
+# Error of the mean speed over u_m at which half of a column is the mean of the columns at its faces, up to
+# which no part of it is, and above which it makes no difference.
+_HALF_OF_FACES, _NONE_OF_FACES, _LARGEST_ERROR = 0.1, 0.01, 1e100
 
 
 def _part_of_faces(error: Array) -> Array:
@@ -592,10 +592,10 @@ def _part_of_faces(error: Array) -> Array:
 
     Examples
     --------
-    >>> _part_of_faces(np.array([0.01, 0.11, 10.0, np.nan])).round(3).tolist()
-    [0.0, 0.5, 1.0, 0.0]
+    >>> _part_of_faces(np.array([0.01, 0.11, 10.0, np.inf, np.nan])).round(3).tolist()
+    [0.0, 0.5, 1.0, 1.0, 0.0]
     """
-    above = np.maximum(np.nan_to_num(error) - _NONE_OF_FACES, 0.0) / _HALF_OF_FACES
+    above = np.clip(np.nan_to_num(error) - _NONE_OF_FACES, 0.0, _LARGEST_ERROR) / _HALF_OF_FACES
     return np.asarray(1.0 - 1.0 / (1.0 + above**2))
 
 

@@ -232,15 +232,13 @@ def touching_films(
     starts = [replace(dry, contact_pressure=0.0), dry]
     if film_guess <= boundary_film:
         starts.reverse()
-    from_dry: list[Callable[[], GridSolution]] = [
-        partial(touching_newton, problem, start) for start in starts
-    ]
-    if thorough:
-        long = replace(problem, max_iterations=_IN_TIME * problem.max_iterations)
-        # Newton's method from the dry contact seldom converges on fine grids of line contacts.
-        place = 0 if problem.level.mesh.y.size == 1 else len(from_dry)
-        from_dry.insert(place, partial(pseudo_transient_film, long, dry))
-    for solved in from_dry:
+    at_once: list[Callable[[], GridSolution]] = [partial(touching_newton, problem, start) for start in starts]
+    long = replace(problem, max_iterations=_IN_TIME * problem.max_iterations)
+    in_time: list[Callable[[], GridSolution]]
+    in_time = [partial(pseudo_transient_film, long, dry)] if thorough else []
+    # Newton's method from the dry contact seldom converges on fine grids of line contacts.
+    line = problem.level.mesh.y.size == 1
+    for solved in in_time + at_once if line else at_once + in_time:
         yield (film := solved())
         if film.status == "converged" or not thorough:
             return

@@ -219,6 +219,33 @@ def test_columns_keep_the_nodes_whose_speed_the_mass_balance_confirms():
     assert np.flatnonzero(changed).tolist() == [4]
 
 
+@each("rheology", LAWS)
+def test_a_film_that_is_uniform_across_has_the_columns_of_a_line_contact(rheology):
+    """With a temperature that changes across the film and along it; the speeds of one line are corrected."""
+    line = Mesh.over(9, -2.0, 1.0)
+    ball = Mesh.over(9, -2.0, 1.0, Width(5, 2.0))
+    pressure, thickness, _ = state(line, 4)
+    columns = []
+    for mesh in (line, ball):
+        fluid = sheared(rheology, mesh)
+        across = Across.of(6)
+        zeta = across.zeta[:, np.newaxis, np.newaxis]
+        temperature = np.broadcast_to(zeta * (1.0 + 0.5 * mesh.x[:, np.newaxis]), (7, *mesh.shape))
+        fluid = replace(fluid, flow=replace(fluid.flow, profile=Warm(across, temperature, mesh, fluid)))
+        uniform = [np.broadcast_to(values, mesh.shape) for values in (pressure, thickness)]
+        nodes = fluid.flow.columns(fluid, *uniform, mesh)
+        wrong = nodes.mean_speed + np.where(np.arange(9)[:, np.newaxis] == 4, 0.3, 0.0)
+        columns.append(fluid.flow.columns_that_pass(fluid, *uniform, mesh, wrong))
+    of_line, of_ball = columns
+    assert np.any(of_line.heating[:, 4] > 0.0)
+    for name in ("heating", "softening", "density"):
+        expected = np.broadcast_to(getattr(of_line, name), getattr(of_ball, name).shape)
+        np.testing.assert_allclose(getattr(of_ball, name), expected, rtol=1e-12)
+    along = np.broadcast_to(of_line.speed[0], of_ball.speed[0].shape)
+    np.testing.assert_allclose(of_ball.speed[0], along, rtol=1e-12)
+    np.testing.assert_allclose(of_ball.speed[1], 0.0, atol=1e-15)
+
+
 def test_profiles_are_moved_to_other_meshes():
     """A temperature linear in x and y is the same on a coarser grid and on a strip of the grid."""
     width = Width(9, 2.0)
