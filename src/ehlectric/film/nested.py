@@ -18,7 +18,7 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.film.deflection import Geometry
 from ehlectric.film.levels import Level, hierarchy
 from ehlectric.film.mesh import Mesh, at_centre, on_mesh
-from ehlectric.film.newton import GridProblem, GridSolution, Guess, Progress, State, newton
+from ehlectric.film.newton import GridProblem, GridSolution, Guess, Progress, Start, State, newton
 from ehlectric.film.oil_content import SCHEMES, USUAL
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.reynolds import wedge_stencil
@@ -41,9 +41,9 @@ DIRECT = 401
 # such grids, which take about 10 MB at most.
 _MOST_KEPT, _GRIDS_KEPT = 3201, 12
 
-# Residual of the film of first order that a line contact starts from: the Newton steps below it change less
-# than the order of the wedge term does.
-_WARM_TOLERANCE = 1e-2
+# Residual of the film of first order that a line and a point contact start from: the Newton steps below it
+# change less than the order of the wedge term does.
+_WARM_TOLERANCE, _WARM_TOLERANCE_POINT = 1e-2, 1e-3
 
 # Multiple of the boundary film above which a smooth film that did not converge is not taken to be pierced.
 _THICK = 10.0
@@ -62,10 +62,13 @@ _START_TOLERANCE = 1e-3
 
 
 def nested_iteration(
-    problem: FilmProblem, progress: Progress | None, known: Sequence[GridSolution] = ()
+    problem: FilmProblem,
+    progress: Progress | None,
+    known: Sequence[GridSolution] = (),
+    start: Start | None = None,
 ) -> list[GridSolution]:
     """Solve the film on a sequence of grids, from coarse to fine. Returns all solutions in the order in which
-    they were computed, after the known ones.
+    they were computed, after the known ones. ``start``, rule by which films of surfaces apart may end early.
 
     If the solution on a grid does not converge, this grid and the next finer grid start from the Hertz
     pressure. If the surfaces touch on a grid, the next finer grid starts from this film at once.
@@ -73,7 +76,7 @@ def nested_iteration(
     solutions = list(known)
     for levels in reversed(_grids(problem, solved=known[-1].level.nodes if known else 0)):
         coarse = solutions[-1] if solutions and solutions[-1].status == "converged" else None
-        grids = _full_film(problem, levels, coarse, progress)
+        grids = _full_film(problem, levels, coarse, progress, start)
         best = grids[-1] if grids else None
         solutions.extend(grids)
         if problem.boundary_film > 0.0 and (best is None or _is_pierced(problem, best)):
@@ -87,7 +90,11 @@ def mixed_from_dry(problem: FilmProblem, levels: list[Level]) -> list[GridSoluti
 
 
 def _full_film(
-    problem: FilmProblem, levels: list[Level], coarse: GridSolution | None, progress: Progress | None
+    problem: FilmProblem,
+    levels: list[Level],
+    coarse: GridSolution | None,
+    progress: Progress | None,
+    start: Start | None,
 ) -> list[GridSolution]:
     """Solutions on one grid with surfaces apart, the best one last.
 
@@ -107,11 +114,11 @@ def _full_film(
                 return [conserved]
             # A second converged solution on this grid would be taken for one of other surfaces.
             grids = [] if conserved.status == "converged" else [conserved]
-        best = _newton_on(problem, levels, progress, spike=True)(state)
+        best = _newton_on(problem, levels, progress, spike=True, start=start)(state)
     # A solution that nearly converged does not start again.
-    if coarse is None or (not rough and (best is None or best.final.norm > NESTED_TOLERANCE)):
+    if coarse is None or (not rough and (best is None or _is_missed(best))):
         state = _hertz_state(problem, levels[0])
-        for solve in _restarts(problem, levels, progress):
+        for solve in _restarts(problem, levels, progress, start):
             grids.append(solve(state))
             if rough and grids[-1].status == "diverged" and len(grids) == 1:
                 # The surfaces touch.
@@ -166,9 +173,12 @@ def _is_pierced(problem: FilmProblem, solution: GridSolution) -> bool:
     if thinnest < problem.boundary_film:
         return True
     thick = problem.added_gap is None and solution.status == "stalled"
-    return solution.final.norm > NESTED_TOLERANCE and not (
-        thick and thinnest > _THICK * problem.boundary_film
-    )
+    return _is_missed(solution) and not (thick and thinnest > _THICK * problem.boundary_film)
+
+
+def _is_missed(solution: GridSolution) -> bool:
+    """Whether an iteration did not converge, and ended far from its tolerance too."""
+    return solution.status != "converged" and solution.final.norm > NESTED_TOLERANCE
 
 
 def _mixed(
@@ -345,16 +355,22 @@ def _line_levels(
 
 
 def _newton_on(
-    problem: FilmProblem, levels: list[Level], progress: Progress | None, *, spike: bool
+    problem: FilmProblem,
+    levels: list[Level],
+    progress: Progress | None,
+    *,
+    spike: bool,
+    start: Start | None = None,
 ) -> Callable[[State], GridSolution]:
     """Newton's method for the film equations on the first of ``levels``: a function of the initial guess.
 
     The tolerance is the problem's tolerance on its own grid, and larger on coarser grids. ``spike`` is
-    whether to solve the nodes of the pressure spike separately.
+    whether to solve the nodes of the pressure spike separately, and ``start`` the rule by which the iteration
+    may end early.
     """
     return partial(
         newton,
-        grid_problem(problem, levels, progress),
+        replace(grid_problem(problem, levels, progress), start=start),
         # The residual of an interpolated film may be small although the film is still the film of the coarser
         # grid.
         min_iterations=1,
@@ -436,20 +452,20 @@ def _hertz_state(problem: FilmProblem, level: Level) -> State:
 
 
 def _restarts(
-    problem: FilmProblem, levels: list[Level], progress: Progress | None
+    problem: FilmProblem, levels: list[Level], progress: Progress | None, start: Start | None
 ) -> list[Callable[[State], GridSolution]]:
     """Newton's method for a restart from the Hertz pressure, in the order of the solutions.
 
     The first solution has the wedge term of first order, which is monotone and converges from a worse initial
     guess. It is the initial guess of the second solution, which has the wedge term of the problem.
     """
-    last = _newton_on(problem, levels, progress, spike=False)
+    ended = start if start is not None and start.always else None
+    last = _newton_on(problem, levels, progress, spike=False, start=ended)
     if problem.wedge_order == 1:
         return [last]
     monotone = [
         replace(level, wedge=wedge_stencil(level.mesh.shape, level.mesh.dx, order=1)) for level in levels
     ]
-    loosely = problem
-    if problem.width is None:
-        loosely = replace(problem, tolerance=max(problem.tolerance, _WARM_TOLERANCE))
+    warm = _WARM_TOLERANCE if problem.width is None else _WARM_TOLERANCE_POINT
+    loosely = replace(problem, tolerance=max(problem.tolerance, warm))
     return [_newton_on(loosely, monotone, progress, spike=False), last]

@@ -160,6 +160,17 @@ class Asperities:
 
 
 @dataclass(frozen=True)
+class Start:
+    """Rule by which a film is only a start on a finer grid, which needs no film of full accuracy."""
+
+    tolerance: float  # residual of a film from which a finer grid starts, a pressure over p_h
+    # Whether a finer grid follows a film with this residual.
+    is_followed: Callable[[GridSolution], bool]
+    # Whether a finer grid follows a film whose error is unknown.
+    always: bool
+
+
+@dataclass(frozen=True)
 class GridProblem:
     """Film to be solved on one grid, with the stopping rule of its iteration."""
 
@@ -172,6 +183,7 @@ class GridProblem:
     asperities: Asperities = Asperities()  # boundary film and hardness where surfaces touch
     # Whether the film is only a start on finer grids: the oil where surfaces touch may change further.
     only_start: bool = False
+    start: Start | None = None  # rule by which the iteration ends early; None if it does not
 
     @property
     def level(self) -> Level:
@@ -240,7 +252,7 @@ def newton(
     now = assess(fluid, level, state)
     near = jacobians is not None
     jacobians = [] if jacobians is None else jacobians
-    before = np.inf
+    before, start = np.inf, problem.start
     while len(steps) < min_iterations or (now.norm > tolerance and len(steps) < problem.max_iterations):
         problem.report(steps, now.norm)
         if eliminate_spike:
@@ -264,6 +276,11 @@ def newton(
         if grown > 1 and tolerance < assessed.norm < _NEAR:
             assessed = _refilled(assessed)
         state, now = candidate, assessed
+        if start is not None and now.norm <= start.tolerance:
+            film = GridSolution(level, state, now, tuple(steps), "converged")
+            if start.is_followed(film):
+                return film
+            start = None
     status: Status = "converged" if now.norm <= tolerance else "stalled"
     return GridSolution(level, state, now, tuple(steps), status)
 
