@@ -408,8 +408,11 @@ def _finer(level: Level, of: Mesh, values: Array) -> Array:
         finer = halved(values)
     else:
         finer = scipy.interpolate.PchipInterpolator(of.x, values, axis=0)(level.mesh.x)
-    if of.y.size > 1:
-        finer = scipy.interpolate.PchipInterpolator(of.whole_y, of.mirrored(finer), axis=1)(level.mesh.y)
+    whole = of.mirrored(finer)
+    if whole.shape[1] > 1 and level.mesh.whole_y.size == 2 * whole.shape[1] - 1:
+        finer = halved(whole.T).T[:, -level.mesh.y.size :]
+    elif of.y.size > 1:
+        finer = scipy.interpolate.PchipInterpolator(of.whole_y, whole, axis=1)(level.mesh.y)
     return finer
 
 
