@@ -162,19 +162,34 @@ class Joined:
         """
         mesh, values = self.coarse, self.coarse.mirrored(coarse)
         if values.dtype == bool:
-            at = np.stack(np.meshgrid(self.x, self.y, indexing="ij"), axis=-1)
-            nearest = scipy.interpolate.RegularGridInterpolator(
-                (mesh.x, mesh.whole_y), values.astype(float), method="nearest"
-            )
-            whole: NDArray[Any] = nearest(at) > 0.5
+            whole: NDArray[Any] = values[
+                np.ix_(_nearest_each(mesh.x, self.x), _nearest_each(mesh.whole_y, self.y))
+            ]
         else:
-            whole = scipy.interpolate.PchipInterpolator(mesh.x, values, axis=0)(self.x)
-            whole = scipy.interpolate.PchipInterpolator(mesh.whole_y, whole, axis=1)(self.y)
-            # The interpolation is monotone: only its rounding leaves the range of the values.
-            whole = np.clip(whole, np.min(values), np.max(values))
+            whole = self._interpolated(values)
         inside = self.fine.mirrored(fine)[1:-1, 1:-1]
         i, j = self.first
         whole[i : i + inside.shape[0], j : j + inside.shape[1]] = inside
+        return whole
+
+    def _interpolated(self, values: Array) -> Array:
+        """Nodal values (nx, ny) outside the patch, from those on the whole coarse mesh; not set inside.
+
+        The lines outside the patch are lines of the coarse mesh, so that only values between them along the
+        other axis are interpolated.
+        """
+        mesh, (i, j) = self.coarse, self.first
+        behind = len(self.x) - (self.fine.x.size - 2) - i
+        whole = np.empty((self.x.size, self.y.size))
+        rows, lines = _ends(i, behind), _ends(j, j)
+        for here in rows:
+            whole[here] = scipy.interpolate.PchipInterpolator(mesh.whole_y, values[here], axis=1)(self.y)
+        for here in lines:
+            whole[:, here] = scipy.interpolate.PchipInterpolator(mesh.x, values[:, here], axis=0)(self.x)
+        # The interpolation is monotone: only its rounding leaves the range of the values.
+        least, most = np.min(values), np.max(values)
+        for part in (*(whole[here] for here in rows), *(whole[:, here] for here in lines)):
+            np.clip(part, least, most, out=part)
         return whole
 
 
@@ -195,6 +210,16 @@ def part_of_domain(problem: FilmProblem, thickness: float) -> float:
     along = min(outlet, problem.outlet) - max(inlet, problem.inlet)
     part = along * min(side / problem.width.side, 1.0) / (problem.outlet - problem.inlet)
     return part if part <= _LARGEST else 1.0
+
+
+def _ends(first: int, last: int) -> tuple[slice, slice]:
+    """Slices of a number of the first and of the last entries along an axis."""
+    return slice(None, first), slice(-last, None)
+
+
+def _nearest_each(nodes: Array, positions: Array) -> NDArray[np.int64]:
+    """Index of the node nearest to each position, the smaller one half-way between two."""
+    return np.asarray(np.searchsorted(0.5 * (nodes[1:] + nodes[:-1]), positions))
 
 
 def _nearest(nodes: Array, position: float) -> int:
