@@ -8,7 +8,6 @@ from functools import partial
 from typing import Any, TypeVar
 
 import numpy as np
-import scipy
 from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
@@ -18,6 +17,7 @@ from ehlectric.film.film_solver import RefinedSolution, StarvedSolution, film_me
 from ehlectric.film.heated_solution import HeatedSolution, heated_result, solve_heated_film
 from ehlectric.film.newton import COLLAPSED, Progress
 from ehlectric.film.problem import FilmProblem
+from ehlectric.formulas.polynomials import interval
 from ehlectric.quantities.field_metadata import number, stored
 from ehlectric.runtime.threads import quiet_solution
 
@@ -201,7 +201,13 @@ class PointFilm(FilmSolution):
 
     def _at(self, x: Array, y: Array) -> Array:
         """Film thickness at positions x and y of one shape [m], by linear interpolation."""
-        return scipy.interpolate.RegularGridInterpolator((self.x, self.y), self.thickness)((x, y))
+        (i, part_x), (j, part_y) = interval(self.x, x), interval(self.y, y)
+        before, behind = (
+            (1.0 - part_y) * self.thickness[row, j] + part_y * self.thickness[row, j + 1]
+            for row in (i, i + 1)
+        )
+        film: Array = (1.0 - part_x) * before + part_x * behind
+        return film
 
     @property
     def central_thickness(self) -> float:

@@ -12,7 +12,6 @@ from dataclasses import replace
 from functools import lru_cache, partial
 
 import numpy as np
-import scipy
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.film.deflection import Geometry
@@ -24,6 +23,7 @@ from ehlectric.film.problem import FilmProblem
 from ehlectric.film.reynolds import wedge_stencil
 from ehlectric.film.starved_solver import conserving_film, forms_again, with_inlet
 from ehlectric.film.touching_solver import Conserving, guess_of, touching_films
+from ehlectric.formulas.monotone_cubic import along_axis
 
 # Tolerance of the residual on the coarser grids, far below their discretisation error.
 NESTED_TOLERANCE = 1e-6
@@ -407,12 +407,12 @@ def _finer(level: Level, of: Mesh, values: Array) -> Array:
     if level.nodes == 2 * of.x.size - 1:
         finer = halved(values)
     else:
-        finer = scipy.interpolate.PchipInterpolator(of.x, values, axis=0)(level.mesh.x)
+        finer = along_axis(of.x, values, level.mesh.x, axis=0)
     whole = of.mirrored(finer)
     if whole.shape[1] > 1 and level.mesh.whole_y.size == 2 * whole.shape[1] - 1:
         finer = halved(whole.T).T[:, -level.mesh.y.size :]
     elif of.y.size > 1:
-        finer = scipy.interpolate.PchipInterpolator(of.whole_y, whole, axis=1)(level.mesh.y)
+        finer = along_axis(of.whole_y, whole, level.mesh.y, axis=1)
     return finer
 
 

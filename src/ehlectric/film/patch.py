@@ -14,13 +14,14 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-import scipy
 from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
 from ehlectric.film.mesh import Mesh, at_centre
 from ehlectric.film.newton import GridSolution
 from ehlectric.film.problem import FilmProblem
+from ehlectric.formulas.monotone_cubic import along_axis
+from ehlectric.formulas.tensor_spline import TensorSpline
 
 # Distances of the patch's edges from the dry contact, in semi-axes along entrainment: ahead of it, behind it
 # and at its sides; and these distances in lengths sqrt(2 H) over which the pressure of a thick film builds
@@ -126,8 +127,9 @@ class Patch:
 
     def _spline(self, values: Array) -> OnGrid:
         mesh = self.coarse.level.mesh
-        spline = scipy.interpolate.RectBivariateSpline(mesh.x, mesh.whole_y, mesh.mirrored(values))
-        return lambda x, y: spline(x, y)
+        nodal = mesh.mirrored(values)[..., np.newaxis]
+        spline = TensorSpline.through((mesh.x, mesh.whole_y), nodal)
+        return lambda x, y: spline.on_grid((x, y))[..., 0]
 
     def join(self, fine: Mesh) -> Joined:
         """Grid of the whole domain with the nodes of a fine mesh inside the patch."""
@@ -183,9 +185,9 @@ class Joined:
         whole = np.empty((self.x.size, self.y.size))
         rows, lines = _ends(i, behind), _ends(j, j)
         for here in rows:
-            whole[here] = scipy.interpolate.PchipInterpolator(mesh.whole_y, values[here], axis=1)(self.y)
+            whole[here] = along_axis(mesh.whole_y, values[here], self.y, axis=1)
         for here in lines:
-            whole[:, here] = scipy.interpolate.PchipInterpolator(mesh.x, values[:, here], axis=0)(self.x)
+            whole[:, here] = along_axis(mesh.x, values[:, here], self.x, axis=0)
         # The interpolation is monotone: only its rounding leaves the range of the values.
         least, most = np.min(values), np.max(values)
         for part in (*(whole[here] for here in rows), *(whole[:, here] for here in lines)):

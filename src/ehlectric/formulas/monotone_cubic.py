@@ -85,6 +85,20 @@ class MonotoneCubic:
         return np.moveaxis(values, -1, 0)
 
 
+def along_axis(nodes: Array, values: Array, at: Array, axis: int) -> Array:
+    """Values of the monotone cubic along one axis of an array. ``nodes``, increasing abscissae, shape (m,);
+    ``values``, values at the nodes, shape (m, n) or (n, m); ``at``, abscissae, shape (k,). Returns values,
+    shape (k, n) or (n, k).
+
+    Examples
+    --------
+    >>> along_axis(np.array([0.0, 1.0, 2.0]), np.array([[0.0], [0.5], [2.0]]), np.array([0.5]), 0).tolist()
+    [[0.15625]]
+    """
+    curves = MonotoneCubic(nodes, values.T if axis == 0 else values)(at)
+    return curves.T if axis == 0 else curves
+
+
 def inner_slope(before: Array, after: Array, left: Array, right: Array) -> Array:
     """Slope at a node from the lengths of the intervals before and after it and the slopes of their chords.
 

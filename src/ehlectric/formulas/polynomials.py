@@ -58,11 +58,23 @@ def on_nodes(values: Array, axes: tuple[Array, ...], nodes: tuple[Array, ...]) -
     for axis, (old, new) in enumerate(zip(axes, nodes, strict=True), -len(axes)):
         if old.size == 1 or (old.size == new.size and np.array_equal(old, new)):
             continue
-        left = np.clip(np.searchsorted(old, new, side="right") - 1, 0, old.size - 2)
-        part = (new - old[left]) / (old[left + 1] - old[left])
+        left, part = interval(old, new)
         part = part.reshape(-1, *(1,) * (-1 - axis))
         values = (1.0 - part) * np.take(values, left, axis) + part * np.take(values, left + 1, axis)
     return values
+
+
+def interval(nodes: Array, at: Array) -> tuple[IntArray, Array]:
+    """Node before each position, and the distance from it as a part of the interval. ``nodes``, increasing,
+    shape (n,); ``at``, positions of any shape; positions beyond the ends belong to the end intervals.
+
+    Examples
+    --------
+    >>> [values.tolist() for values in interval(np.array([0.0, 1.0, 3.0]), np.array([0.5, 2.0]))]
+    [[0, 1], [0.5, 0.5]]
+    """
+    left = np.clip(np.searchsorted(nodes, at, side="right") - 1, 0, nodes.size - 2)
+    return left, (at - nodes[left]) / (nodes[left + 1] - nodes[left])
 
 
 def linear_interpolation(left: IntArray, share: Array, size: int) -> scipy.sparse.csr_array:

@@ -55,6 +55,27 @@ class TensorSpline:
             degrees.append(k)
         return cls(tuple(knots), tuple(degrees), np.ascontiguousarray(coefficients))
 
+    def on_grid(self, axes: Sequence[Array]) -> Array:
+        """Values at all points of a grid, from its nodes along each variable, shape (..., n).
+
+        Examples
+        --------
+        >>> axis = np.array([0.0, 1.0, 2.0, 4.0])
+        >>> spline = TensorSpline.through([axis, axis], (axis[:, np.newaxis] * axis**2)[..., np.newaxis])
+        >>> spline.on_grid([np.array([1.0, 3.0]), np.array([3.0])])[..., 0].round(12).tolist()
+        [[9.0], [27.0]]
+        """
+        values = self.coefficients
+        for number, (knots, k, at) in enumerate(zip(self.knots, self.degrees, axes, strict=True)):
+            first = _first(knots, k, at)
+            shape = [1] * values.ndim
+            shape[number] = at.size
+            values = sum(
+                part.reshape(shape) * np.take(values, first + place, axis=number)
+                for place, part in enumerate(_basis(knots, k, at, first))
+            )
+        return values
+
     def __call__(self, points: Array) -> Array:
         """Values at points of shape (..., variables), shape (..., n)."""
         flat = np.reshape(points, (-1, points.shape[-1]))
