@@ -179,6 +179,20 @@ class Deflection:
             self._shifted[steps] = self.influence[np.minimum(apart, nx - 1), 0]
         return self._shifted[steps]
 
+    def of_lines(self, pressure: Array) -> Array:
+        """Deflection of lines along x by the pressure on each line only, both of the shape (nx, n)."""
+        length, spectrum = self._along
+        transform = scipy.fft.rfft(pressure, length, axis=0)
+        transform *= spectrum
+        opened: Array = scipy.fft.irfft(transform, length, axis=0)[: len(pressure)]
+        return opened
+
+    @cached_property
+    def _along(self) -> tuple[int, Array]:
+        """Zero-padded length of a line, and the spectrum of the coefficients along it, shape (n, 1)."""
+        of_line = Deflection.from_influence(self.influence[:, :1])
+        return of_line.padded[0], of_line.spectrum
+
     @cached_property
     def _single(self) -> Array:
         """Spectrum of single precision."""

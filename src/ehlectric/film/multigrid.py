@@ -37,6 +37,9 @@ _HALF_BAND = 6
 # Half-bandwidth for a point contact. With 14, GMRES needs as many iterations.
 _HALF_BAND_POINT = 10
 
+# Entries of the band matrices of lines that are set up together: few enough for the processor's cache.
+_BLOCK = 2**18
+
 
 @dataclass(frozen=True)
 class LineRelaxation:
@@ -48,9 +51,9 @@ class LineRelaxation:
     # Offsets of the other nodes over which an unknown is distributed, each with its part.
     neighbours: Distribution
     half_band: int  # number of nodes on each side whose influence is kept
-    # For each of the two sets of lines: the lines, and the LU factors and pivots of the transpose of their
-    # common band matrix.
-    factors: tuple[tuple[slice, Array, Array], ...]
+    # For each of the two sets of lines: blocks of lines, each with the LU factors and pivots of the transpose of
+    # the common band matrix of its lines.
+    factors: tuple[tuple[tuple[slice, Array, Array], ...], ...]
 
     @classmethod
     def of(
@@ -60,19 +63,16 @@ class LineRelaxation:
 
         ``full_film`` and ``distributed`` are masks of nodes (nx, ny).
         """
-        band = half_band(gap.level)
-        rows = _rows(gap, stencils, distributed, band)
-        rows[~full_film.T, 2 * band] = 1.0
-        factors = []
-        for lines in (slice(0, None, 2), slice(1, None, 2))[: full_film.shape[1]]:
-            # The rows of the matrix are the columns of its transpose, which LAPACK factorises.
-            part = rows[lines].reshape(-1, 3 * band + 1).T
-            factorised = (
-                scipy.linalg.lapack.sgbtrf if rows.dtype == np.float32 else scipy.linalg.lapack.dgbtrf
+        band, (nx, ny) = half_band(gap.level), full_film.shape
+        lines = 2 * max(1, _BLOCK // (nx * (3 * band + 1)))
+        factors = tuple(
+            tuple(
+                _factors(gap, stencils, full_film, distributed, slice(block, min(block + lines, ny), 2))
+                for block in range(first, ny, lines)
             )
-            lu, pivots, _ = factorised(part, band, band, overwrite_ab=1)
-            factors.append((lines, lu, pivots))
-        return cls(stencils[0], full_film, distributed, _neighbours(gap.level), band, tuple(factors))
+            for first in range(min(2, ny))
+        )
+        return cls(stencils[0], full_film, distributed, _neighbours(gap.level), band, factors)
 
     def __call__(self, r: Array) -> Array:
         """Change dP (nx, ny) that solves (band of the Jacobian) dP = r at the full-film nodes.
@@ -80,17 +80,35 @@ class LineRelaxation:
         The second set of lines includes the flow across entrainment that the change of the first set causes.
         """
         dp = np.zeros_like(r)
-        for lines, lu, pivots in self.factors:
-            if lines.start:
+        for number, blocks in enumerate(self.factors):
+            if number:
                 r = r - self.by_p.add_across(dp, np.zeros_like(r))
-            right = r[:, lines].T.reshape(-1).astype(lu.dtype)
-            solved = scipy.linalg.lapack.sgbtrs if lu.dtype == np.float32 else scipy.linalg.lapack.dgbtrs
-            solution, _ = solved(lu, self.half_band, self.half_band, right, pivots, trans=1)
-            unknown = solution.reshape(-1, r.shape[0]).T
-            dp[:, lines] = unknown
-            _share(np.where(self.distributed[:, lines], unknown, 0.0), self.neighbours, dp[:, lines])
+            for lines, lu, pivots in blocks:
+                right = r[:, lines].T.reshape(-1).astype(lu.dtype)
+                solved = scipy.linalg.lapack.sgbtrs if lu.dtype == np.float32 else scipy.linalg.lapack.dgbtrs
+                solution, _ = solved(lu, self.half_band, self.half_band, right, pivots, trans=1)
+                unknown = solution.reshape(-1, r.shape[0]).T
+                dp[:, lines] = unknown
+                _share(np.where(self.distributed[:, lines], unknown, 0.0), self.neighbours, dp[:, lines])
             dp[~self.full_film] = 0.0
         return dp
+
+
+def _factors(
+    gap: Gap, stencils: tuple[Stencil, Stencil], full_film: Mask, distributed: Mask, lines: slice
+) -> tuple[slice, Array, Array]:
+    """Lines, and the LU factors and pivots of the transpose of their common band matrix.
+
+    ``stencils`` and the masks (nx, ny) are those of all lines.
+    """
+    band = half_band(gap.level)
+    of_lines = tuple(Stencil(part.coefficients[:ALONG, :, lines]) for part in stencils)
+    rows = _rows(gap, (of_lines[0], of_lines[1]), distributed[:, lines], band)
+    rows[~full_film[:, lines].T, 2 * band] = 1.0
+    factorised = scipy.linalg.lapack.sgbtrf if rows.dtype == np.float32 else scipy.linalg.lapack.dgbtrf
+    # The rows of the matrix are the columns of its transpose, which LAPACK factorises.
+    lu, pivots, _ = factorised(rows.reshape(-1, 3 * band + 1).T, band, band, overwrite_ab=1)
+    return lines, lu, pivots
 
 
 def half_band(level: Level) -> int:
@@ -144,17 +162,15 @@ def _shifted(offset: int) -> tuple[slice, slice]:
 
 
 def _rows(gap: Gap, stencils: tuple[Stencil, Stencil], distributed: Mask, band: int) -> Array:
-    """Rows of the band of the Jacobian for the distributed unknowns, shape (ny, nx, 3 band + 1).
+    """Rows of the band of the Jacobian for the distributed unknowns of lines, shape (ny, nx, 3 band + 1).
 
-    The diagonal has the index 2 band. The first ``band`` entries are space for the factorisation.
+    ``stencils`` are those along the lines. The diagonal has the index 2 band. The first ``band`` entries are space for the factorisation.
     """
     nx, ny = distributed.shape
     offsets = np.arange(-band - 1, band + 2)
     steps = np.array([step for step, _ in OFFSETS[:ALONG]])
     kind = preconditioner_type(gap.level)
-    by_p, by_h = (
-        np.ascontiguousarray(part.coefficients[:ALONG].transpose(2, 1, 0), dtype=kind) for part in stencils
-    )
+    by_p, by_h = (np.ascontiguousarray(part.coefficients.transpose(2, 1, 0), dtype=kind) for part in stencils)
     # Derivatives by P of all nodes within the band and one beyond, and of these by the flow at fixed H.
     nodal = by_h @ gap.along(steps[:, np.newaxis] - offsets).astype(kind)
     nodal[..., steps[0] + band + 1 : steps[-1] + band + 2] += by_p
@@ -190,9 +206,8 @@ def _row_sums(gap: Gap, stencils: tuple[Stencil, Stencil], distributed: Mask) ->
     """
     pressure = distributed.astype(float)
     _share(distributed, _neighbours(gap.level), pressure)
-    opened = scipy.linalg.matmul_toeplitz(gap.level.deflection.influence[:, 0], pressure)
-    by_p, by_h = (Stencil(part.coefficients[:ALONG]) for part in stencils)
-    return by_p(pressure) + by_h(opened)
+    by_p, by_h = stencils
+    return by_p(pressure) + by_h(gap.level.deflection.of_lines(pressure))
 
 
 # Change of ln eps between neighbours above which a coarser grid cannot resolve the solution.
