@@ -51,8 +51,8 @@ class LineRelaxation:
     # Offsets of the other nodes over which an unknown is distributed, each with its part.
     neighbours: Distribution
     half_band: int  # number of nodes on each side whose influence is kept
-    # For each of the two sets of lines: blocks of lines, each with the LU factors and pivots of the transpose of
-    # the common band matrix of its lines.
+    # For each of the two sets of lines: blocks of lines, each with the LU factors and pivots of the transpose
+    # of the common band matrix of its lines.
     factors: tuple[tuple[tuple[slice, Array, Array], ...], ...]
 
     @classmethod
@@ -164,7 +164,8 @@ def _shifted(offset: int) -> tuple[slice, slice]:
 def _rows(gap: Gap, stencils: tuple[Stencil, Stencil], distributed: Mask, band: int) -> Array:
     """Rows of the band of the Jacobian for the distributed unknowns of lines, shape (ny, nx, 3 band + 1).
 
-    ``stencils`` are those along the lines. The diagonal has the index 2 band. The first ``band`` entries are space for the factorisation.
+    ``stencils`` are those along the lines. The diagonal has the index 2 band. The first ``band`` entries are
+    space for the factorisation.
     """
     nx, ny = distributed.shape
     offsets = np.arange(-band - 1, band + 2)
