@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, IntArray
 from ehlectric.cases.case import Case
 from ehlectric.cases.film_inputs import Inlet
 from ehlectric.cases.grid_inputs import MOST_DEGREE, Solver
@@ -35,6 +35,7 @@ from ehlectric.film import (
 from ehlectric.formulas.film_line import CentralThickness, moes
 from ehlectric.formulas.film_point import load_exponent, nijenbanning_venner_moes
 from ehlectric.formulas.monotone_cubic import MonotoneCubic
+from ehlectric.formulas.polynomials import interval
 from ehlectric.lubricant.law import PressureLaw
 from ehlectric.lubricant.oil import Oil
 from ehlectric.surfaces.generated_profiles import Domain
@@ -199,8 +200,9 @@ def _on_columns(
     def resampled(values: Array) -> Array:
         # Monotone cubic interpolation is exact at the nodes, and makes the film nowhere thinner.
         for k, (nodes, columns) in enumerate(zip(film.axes, axes, strict=True)):
-            lines = np.moveaxis(values, k, -1)
-            curves = MonotoneCubic(nodes, lines.reshape(-1, nodes.size))(columns)
+            used = _nodes_of(nodes, columns)
+            lines = np.moveaxis(np.take(values, used, axis=k), k, -1)
+            curves = MonotoneCubic(nodes[used], lines.reshape(-1, used.size))(columns)
             values = np.moveaxis(curves.reshape(*lines.shape[:-1], columns.size), -1, k)
         return values
 
@@ -215,6 +217,13 @@ def _on_columns(
         "potential_2": setup.electric.potential_2,
         "degree": setup.grid.field_degree,
     }
+
+
+def _nodes_of(nodes: Array, columns: Array) -> IntArray:
+    """Numbers of the nodes that the monotone cubic needs at columns: two on each side, or the node itself."""
+    before, part = interval(nodes, columns)
+    near = before[:, np.newaxis] + np.where(part[:, np.newaxis] == 0.0, 0, np.arange(-1, 3))
+    return np.unique(np.clip(near, 0, nodes.size - 1))
 
 
 def halves_alike(film: PointFilm, roughness: Array) -> bool:

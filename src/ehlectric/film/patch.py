@@ -184,8 +184,10 @@ class Joined:
         behind = len(self.x) - (self.fine.x.size - 2) - i
         whole = np.empty((self.x.size, self.y.size))
         rows, lines = _ends(i, behind), _ends(j, j)
+        # Both halves of a symmetric film are equal to the last digit.
+        half = self.y[self.y.size // 2 :] if mesh.symmetric else self.y
         for here in rows:
-            whole[here] = along_axis(mesh.whole_y, values[here], self.y, axis=1)
+            whole[here] = mesh.mirrored(along_axis(mesh.whole_y, values[here], half, axis=1))
         for here in lines:
             whole[:, here] = along_axis(mesh.x, values[:, here], self.x, axis=0)
         # The interpolation is monotone: only its rounding leaves the range of the values.
