@@ -262,9 +262,7 @@ def newton(
         jacobians[:] = _linearised(fluid, levels, state, now, last=jacobians if keeps else [])
         close = LINEAR_TOLERANCE
         if loose:
-            close = linear_tolerance(
-                now.norm, before, tolerance if transient or near else 0.0, first=now.norm if near else np.inf
-            )
+            close = linear_tolerance(now.norm, before, tolerance, first=now.norm if near else np.inf)
         dp, dh00, krylov = _direction(fluid, jacobians, state, now, close)
         before = now.norm
         candidate = after_step(level, state, dp, dh00)
