@@ -1,17 +1,22 @@
-"""Nested iteration of line contacts: what direct solutions, kept grids and loose starts must not change."""
+"""Nested iteration: what direct solutions, kept grids, loose starts and early ends must not change."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from scipy.interpolate import PchipInterpolator
 
+from ehlectric import Case
 from ehlectric.contact.conditions import resolve
+from ehlectric.contact.preparation import prepare
 from ehlectric.contact.problems import film_problem
-from ehlectric.film import nested, newton
-from ehlectric.film.isothermal_film import solve_film
+from ehlectric.film import film_solver, nested, newton
+from ehlectric.film.isothermal_film import solve_film, solve_point_film
 from ehlectric.film.nested import accurate_film, nested_iteration
 from ehlectric.film.shear_laws import Rheology
 from tests.film.sheared.contacts import line_contact
 from tests.helpers.each import each
+from tests.helpers.places import EXAMPLES
 
 
 def problem_of(paper_case, **changes):
@@ -79,3 +84,28 @@ def test_accurate_films_keep_the_law_of_a_sheared_oil():
         start = nested_iteration(problem, None)[-1]
         films.append(accurate_film(problem, 201, start.state).state.thickness.min())
     assert films[1] < 0.8 * films[0]
+
+
+@pytest.mark.parametrize(
+    ("speed", "target"), [("12 mm/s", 0.2), ("12 mm/s", 0.05), ("1 m/s", 0.005), ("1 m/s", 0.02)]
+)
+def test_films_that_are_only_starts_lead_to_the_same_film(monkeypatch, speed, target):
+    """The film of the last grid has the tolerance of the case, whatever the films of coarser grids have.
+
+    At 12 mm/s the surfaces seem to touch on the coarsest grids, which are too coarse for this film.
+    """
+    case = Case.from_toml(EXAMPLES / "ball_contact.toml")
+    case = case.replace({"contact.entrainment_speed": speed, "grid.error": target})
+    problem = replace(prepare(case).film_problem(case), target_error=target)
+    early = solve_point_film(problem)
+    monkeypatch.setattr(film_solver, "_start", lambda *_: None)
+    accurate = solve_point_film(problem)
+    assert early.converged
+    assert accurate.converged
+    assert early.residual <= problem.tolerance
+    assert early.steps[-1].nodes == accurate.steps[-1].nodes
+    close = 1e-3 * accurate.discretisation_error
+    assert early.minimum_thickness == pytest.approx(accurate.minimum_thickness, rel=close)
+    assert early.central_thickness == pytest.approx(accurate.central_thickness, rel=close)
+    assert early.discretisation_error == pytest.approx(accurate.discretisation_error, rel=1e-2)
+    assert len(early.steps) <= len(accurate.steps)

@@ -105,7 +105,7 @@ def test_film_on_a_patch_covers_the_whole_domain(tmp_path):
     # A given inlet stays; the default one costs more than this error.
     assert film.x[[0, -1]] == pytest.approx([-4.25 * b, 1.5 * b], rel=1e-12)
     np.testing.assert_allclose(film.y, -film.y[::-1], rtol=1e-12)
-    np.testing.assert_allclose(film.thickness, film.thickness[:, ::-1], rtol=1e-10)
+    np.testing.assert_array_equal(film.thickness, film.thickness[:, ::-1])
     carried = np.trapezoid(np.trapezoid(film.pressure, film.y, axis=1), film.x)
     assert carried == pytest.approx(20.0, rel=2e-3)
     # The film has no step at the edges of the patch: its second difference there is that of its neighbours.

@@ -1,9 +1,10 @@
-"""Splines of several variables against polynomials, which they contain, and against the splines of SciPy."""
+"""Splines and monotone cubics against polynomials, which splines contain, and against SciPy."""
 
 import numpy as np
 import pytest
-from scipy.interpolate import NdBSpline, make_interp_spline
+from scipy.interpolate import NdBSpline, PchipInterpolator, RectBivariateSpline, make_interp_spline
 
+from ehlectric.formulas.monotone_cubic import along_axis
 from ehlectric.formulas.tensor_spline import TensorSpline
 
 
@@ -49,3 +50,23 @@ def test_splines_are_those_of_scipy(sizes, degree):
     np.testing.assert_allclose(
         TensorSpline.through(axes, values, degree)(points), expected(points), rtol=1e-9, atol=1e-9
     )
+
+
+def test_values_on_a_grid_are_those_of_scipy():
+    random = np.random.default_rng(7)
+    axes = grid(random, 15, 12)
+    values = random.normal(size=(15, 12))
+    fine = [np.linspace(axis[0], axis[-1], 40) for axis in axes]
+    spline = TensorSpline.through(axes, values[..., np.newaxis])
+    expected = RectBivariateSpline(*axes, values)(*fine)
+    np.testing.assert_allclose(spline.on_grid(fine)[..., 0], expected, rtol=1e-8, atol=1e-8)
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+def test_monotone_cubics_along_an_axis_are_those_of_scipy(axis):
+    random = np.random.default_rng(9)
+    (nodes,) = grid(random, 12)
+    values = random.normal(size=(12, 5) if axis == 0 else (5, 12))
+    fine = np.linspace(nodes[0], nodes[-1], 40)
+    expected = PchipInterpolator(nodes, values, axis=axis)(fine)
+    np.testing.assert_allclose(along_axis(nodes, values, fine, axis), expected, rtol=1e-12, atol=1e-12)

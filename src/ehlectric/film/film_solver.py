@@ -115,7 +115,7 @@ def refined_solution(problem: FilmProblem, progress: Progress | None) -> Refined
     first grid on which no film conserves its oil.
     """
     target, unknown, times = problem.target_error, 0, 1
-    start = _start(problem, [], None, unknown) if 2 * problem.nodes - 1 <= problem.most_nodes else None
+    start = _start(problem, None, unknown) if 2 * problem.nodes - 1 <= problem.most_nodes else None
     refined = RefinedSolution(problem, nested_iteration(problem, progress, start=start))
     while target is not None:
         error, times = refined.error, 2 * times
@@ -130,7 +130,7 @@ def refined_solution(problem: FilmProblem, progress: Progress | None) -> Refined
             break
         posed, patch = finer_problem(refined)
         last = 2 * times * (problem.nodes - 1) + 1 > problem.most_nodes
-        start = None if last else _start(posed, refined.solutions, patch, unknown)
+        start = None if last else _start(posed, patch, unknown)
         finer = RefinedSolution(posed, nested_iteration(posed, progress, refined.solutions, start), patch)
         # A finer film that makes oil is worse than one that conserves it on fewer nodes.
         if finer.makes_oil and not refined.makes_oil:
@@ -139,24 +139,22 @@ def refined_solution(problem: FilmProblem, progress: Progress | None) -> Refined
     return refined
 
 
-def _start(
-    problem: FilmProblem, known: list[GridSolution], patch: Patch | None, unknown: int
-) -> Start | None:
+def _start(problem: FilmProblem, patch: Patch | None, unknown: int) -> Start | None:
     """Rule by which the film of a smooth point contact on a grid is only a start on the next grid: its error
     is above the target. None for other contacts, and without a target.
 
-    ``known`` are the films on the coarser grids; the error is unknown on the last ``unknown`` ones. More
-    nodes must be allowed.
+    The error is unknown on the last ``unknown`` grids. More nodes must be allowed.
     """
     target = problem.target_error
     if target is None or problem.width is None or problem.added_gap is not None:
         return None
 
-    def is_followed(film: GridSolution) -> bool:
+    def is_followed(solutions: list[GridSolution]) -> bool:
+        film = solutions[-1]
         # A film that seems to form again behind a cavity may not do so once it is accurate.
         if film.level.nodes < problem.nodes or forms_again(film.final.full_film):
             return False
-        error = RefinedSolution(problem, [*known, film], patch).error
+        error = RefinedSolution(problem, solutions, patch).error
         return always if error is None else error > (1.0 + _CLEAR) * target
 
     always = unknown + 1 < UNKNOWN

@@ -99,7 +99,7 @@ def _factors(
 ) -> tuple[slice, Array, Array]:
     """Lines, and the LU factors and pivots of the transpose of their common band matrix.
 
-    ``stencils`` and the masks (nx, ny) are those of all lines.
+    ``stencils`` and the masks (nx, ny) cover all lines.
     """
     band = half_band(gap.level)
     of_lines = tuple(Stencil(part.coefficients[:ALONG, :, lines]) for part in stencils)
@@ -164,7 +164,7 @@ def _shifted(offset: int) -> tuple[slice, slice]:
 def _rows(gap: Gap, stencils: tuple[Stencil, Stencil], distributed: Mask, band: int) -> Array:
     """Rows of the band of the Jacobian for the distributed unknowns of lines, shape (ny, nx, 3 band + 1).
 
-    ``stencils`` are those along the lines. The diagonal has the index 2 band. The first ``band`` entries are
+    ``stencils`` have the neighbours along the lines only. The diagonal has the index 2 band. The first ``band`` entries are
     space for the factorisation.
     """
     nx, ny = distributed.shape

@@ -76,7 +76,8 @@ def nested_iteration(
     solutions = list(known)
     for levels in reversed(_grids(problem, solved=known[-1].level.nodes if known else 0)):
         coarse = solutions[-1] if solutions and solutions[-1].status == "converged" else None
-        grids = _full_film(problem, levels, coarse, progress, start)
+        here = None if start is None else replace(start, coarser=tuple(solutions))
+        grids = _full_film(problem, levels, coarse, progress, here)
         best = grids[-1] if grids else None
         solutions.extend(grids)
         if problem.boundary_film > 0.0 and (best is None or _is_pierced(problem, best)):
@@ -177,7 +178,7 @@ def _is_pierced(problem: FilmProblem, solution: GridSolution) -> bool:
 
 
 def _is_missed(solution: GridSolution) -> bool:
-    """Whether an iteration did not converge, and ended far from its tolerance too."""
+    """Whether an iteration missed its tolerance by far."""
     return solution.status != "converged" and solution.final.norm > NESTED_TOLERANCE
 
 

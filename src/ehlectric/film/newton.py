@@ -164,10 +164,11 @@ class Start:
     """Rule by which a film is only a start on a finer grid, which needs no film of full accuracy."""
 
     tolerance: float  # residual of a film from which a finer grid starts, a pressure over p_h
-    # Whether a finer grid follows a film with this residual.
-    is_followed: Callable[[GridSolution], bool]
+    # Whether a finer grid follows the last one of the films on successive grids; it has this residual.
+    is_followed: Callable[[list[GridSolution]], bool]
     # Whether a finer grid follows a film whose error is unknown.
     always: bool
+    coarser: tuple[GridSolution, ...] = ()  # films on the coarser grids
 
 
 @dataclass(frozen=True)
@@ -276,7 +277,7 @@ def newton(
         state, now = candidate, assessed
         if start is not None and now.norm <= start.tolerance:
             film = GridSolution(level, state, now, tuple(steps), "converged")
-            if start.is_followed(film):
+            if start.is_followed([*start.coarser, film]):
                 return film
             start = None
     status: Status = "converged" if now.norm <= tolerance else "stalled"
