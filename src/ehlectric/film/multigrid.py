@@ -164,8 +164,8 @@ def _shifted(offset: int) -> tuple[slice, slice]:
 def _rows(gap: Gap, stencils: tuple[Stencil, Stencil], distributed: Mask, band: int) -> Array:
     """Rows of the band of the Jacobian for the distributed unknowns of lines, shape (ny, nx, 3 band + 1).
 
-    ``stencils`` have the neighbours along the lines only. The diagonal has the index 2 band. The first ``band`` entries are
-    space for the factorisation.
+    ``stencils`` have the neighbours along the lines only. The diagonal has the index 2 band. The first
+    ``band`` entries are space for the factorisation.
     """
     nx, ny = distributed.shape
     offsets = np.arange(-band - 1, band + 2)
