@@ -4,6 +4,7 @@ An effect that is absent changes nothing.
 """
 
 from dataclasses import replace
+from importlib import import_module
 from itertools import product
 
 import numpy as np
@@ -99,6 +100,24 @@ def test_every_combination_at_rest_converges_and_conserves(geometry, effects):
     if effects["hot"]:
         assert film.heated.energy_imbalance < 0.01
         assert film.heated.max_temperature_rise > 0.5
+
+
+@pytest.mark.slow
+def test_a_hot_starved_film_that_touches_is_the_same_from_both_ways(monkeypatch):
+    """A film on 65 nodes starts from the isothermal film, and from a coarser grid that is fine enough."""
+    problem = posed("point", starved=True, hot=True, touching=True)
+    usual = film_of(problem)
+    monkeypatch.setattr(import_module("ehlectric.film.heated_solution"), "_LEAST_OF_SPOTS", 33)
+    quick = film_of(problem)
+    assert quick.heated.outer_iterations != usual.heated.outer_iterations
+    for film in (quick, usual):
+        assert film.converged
+    assert np.array_equal(quick.contact, usual.contact)
+    np.testing.assert_allclose(quick.thickness, usual.thickness, rtol=2e-3)
+    cold = [film.heated.isothermal_central_thickness for film in (quick, usual)]
+    assert cold[0] == pytest.approx(cold[1], rel=2e-3)
+    rises = [film.heated.max_temperature_rise for film in (quick, usual)]
+    assert rises[0] == pytest.approx(rises[1], rel=6e-3)
 
 
 @pytest.mark.slow

@@ -28,7 +28,14 @@ from ehlectric.film.hot_oil import Physics, Thermal
 from ehlectric.film.levels import Level
 from ehlectric.film.mesh import Mesh, at_centre, on_mesh
 from ehlectric.film.multigrid import Linearised
-from ehlectric.film.nested import filled_on, grid_problem, interpolated_state, levels_of, open_state
+from ehlectric.film.nested import (
+    filled_on,
+    grid_problem,
+    interpolated_state,
+    levels_of,
+    open_state,
+    state_with_spots,
+)
 from ehlectric.film.newton import (
     SMALLEST_GAP,
     GridProblem,
@@ -61,6 +68,10 @@ _MOST_CHANGE = 40.0
 # Largest number of outer loops. In all loops except the last the film has this number of Newton steps at
 # most, as far as this residual: its temperature is still to change.
 MOST_LOOPS, _STEPS, _LOOSE = 60, 2, 1e-3
+
+# Tolerance of a film with mass-conserving cavitation in the quick iteration, divided by the last change of
+# the temperature over the change at which it has converged.
+_FOLLOWING = 1e-5
 
 # The same number of loops of a flooded film that is only a guess for one with a layer of oil.
 _GUESS_LOOPS = 25
@@ -159,6 +170,9 @@ class OuterIteration:
     # Whether properties are evaluated again at the pressure of each film, and changes count as they are and
     # not as parts of a geometric sequence: slower, and it converges for hotter films.
     careful: bool = False
+    # Whether a film starts with the spots of the coarser grid, and is solved as closely as its temperature
+    # changes: faster, and it converges for fewer films.
+    quick: bool = False
     # Whether the flow follows the temperature within the first turns, until the energy equation has converged
     # for a held film.
     held: bool = False
@@ -422,7 +436,9 @@ class OuterIteration:
         heat = self.start(thermal) if heat is None else heat
         weight = node_weight(self.level, state)
         grid = self._alternating(thermal, state, heat, carried, weight=weight, spike=spike)
-        return self._settled(grid, thermal, weight)
+        # A film that is only a guess is not worth another iteration.
+        guess_only = self.quick and self.most_loops < MOST_LOOPS
+        return grid if guess_only else self._settled(grid, thermal, weight)
 
     def _without_heat(self, state: State, carried: Carried | None, *, spike: bool) -> HeatedGrid:
         """Film of an oil that thins under shear, at a temperature that the film does not change."""
@@ -452,13 +468,16 @@ class OuterIteration:
         """
         most, times = self.problem.max_iterations, 1 if carried is None else _CARRYING
         # The temperature in cavities and next to spots follows small changes of the film.
-        loose = self.posed.tolerance if carried is not None else max(self.posed.tolerance, _LOOSE)
+        exact = carried is not None and not self.quick
+        loose = self.posed.tolerance if exact else max(self.posed.tolerance, _LOOSE)
         surfaces, mixing, taken = self.surfaces(thermal), _mixing(weight, heat), list[NewtonStep]()
         rises, films, central, ends, missed = list[float](), list[float](), np.inf, False, 0
         unsettled: Unsettled | None = None
         jacobians: list[Linearised] = []
         for loop in range(self.most_loops):
             steps, tolerance = (most, self.posed.tolerance) if ends else (_STEPS, loose)
+            if self.quick and carried is not None and rises:
+                tolerance = max(self.posed.tolerance, min(tolerance, _FOLLOWING * rises[-1]))
             solution, law, now = self.film(
                 state,
                 heat,
@@ -761,11 +780,13 @@ def heated_on_grids(
     *,
     careful: bool,
     every: bool = False,
+    quick: bool = False,
 ) -> list[HeatedGrid]:
     """Flooded film with heat on all grids.
 
-    Unless on ``every`` grid, the quick iteration ends with the first that it does not solve. ``starts`` are
-    isothermal films over the whole domain, the one on the finest grid last.
+    ``careful`` and ``quick`` are described in ``OuterIteration``. Unless on ``every`` grid, an iteration that
+    is not careful ends with the first grid that it does not solve. ``starts`` are isothermal films over the
+    whole domain, the one on the finest grid last.
     """
     grids, least = [finest], _FIRST_CAREFUL if careful else _FIRST
     if finest.width is not None:
@@ -775,9 +796,8 @@ def heated_on_grids(
     solved: list[HeatedGrid] = []
     for finer, posed in reversed(list(enumerate(grids))):
         most = _GUESS_LOOPS if every else MOST_LOOPS
-        iteration = replace(
-            iteration_on(posed, finer=finer, progress=progress), careful=careful, most_loops=most
-        )
+        iteration = iteration_on(posed, finer=finer, progress=progress)
+        iteration = replace(iteration, careful=careful, quick=quick, most_loops=most)
         if careful:
             solved.append(_careful(iteration, starts, solved))
         else:
@@ -853,7 +873,9 @@ def start_of(
         # The spots of a film on a coarser grid are others.
         guess = simple if same and (simple.touches or grids[-1].touches) else grids[-1]
     state = guess.state
-    if guess not in same:
+    if guess not in same and iteration.quick:
+        state = state_with_spots(level, guess, iteration.problem.boundary_film)
+    elif guess not in same:
         state = (interpolated_state if guess.touches else open_state)(level, guess)
     return state, heat, _filled_on(level, guess)
 
@@ -866,3 +888,12 @@ def _filled_on(level: Level, coarse: GridSolution) -> Mask | None:
 def finer_heat(heat: Heat, coarse: Level, level: Level) -> Heat:
     """Temperature and fluxes on a finer grid, interpolated linearly."""
     return Heat(*(on_mesh(values, coarse.mesh, level.mesh) for values in vars(heat).values()))
+
+
+def changed_heat(fine: Heat, before: Heat, after: Heat, levels: tuple[Level, Level]) -> Heat:
+    """Temperature and fluxes of a film, changed as another film differs from it on the coarser grid.
+
+    ``before`` and ``after`` are temperatures on the first of ``levels``, and ``fine`` is one on the last.
+    """
+    first, last = (vars(finer_heat(heat, *levels)) for heat in (before, after))
+    return Heat(**{name: values + last[name] - first[name] for name, values in vars(fine).items()})

@@ -25,11 +25,13 @@ from ehlectric.film.film_solver import (
     film_method,
     finer_problem,
     starved_on_grids,
+    starved_solution,
 )
 from ehlectric.film.heated_film import (
     MOST_LOOPS,
     HeatedGrid,
     OuterIteration,
+    changed_heat,
     finer_heat,
     heated_on_grids,
     iteration_on,
@@ -37,13 +39,20 @@ from ehlectric.film.heated_film import (
     start_of,
 )
 from ehlectric.film.hot_oil import HeatedFilm, Physics
-from ehlectric.film.nested import nested_iteration
+from ehlectric.film.nested import (
+    NESTED_TOLERANCE,
+    changed_state,
+    filled_on,
+    grid_problem,
+    levels_of,
+    nested_iteration,
+)
 from ehlectric.film.newton import GridSolution, Guess, Progress, Status
-from ehlectric.film.oil_content import Supply
+from ehlectric.film.oil_content import Carried, Supply
 from ehlectric.film.patch import part_of_domain
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.shear_flow import Traction, traction
-from ehlectric.film.starved_solver import Solver, StarvedProblem
+from ehlectric.film.starved_solver import Solver, StarvedProblem, isothermal, with_inlet
 from ehlectric.runtime.threads import quiet_solution
 
 # Part of its heat that a film may make or lose by its grid. If it is more, film and temperature do not
@@ -53,6 +62,13 @@ _MOST_IMBALANCE = 0.1
 # Newton steps on a grid after which no further guess is tried for a starved film, on the finest grid and on
 # coarser ones, whose film is only a guess: 900 steps take about a minute on 65 x 65 nodes.
 _MOST_STEPS, _MOST_STEPS_OF_GUESS = 900, 300
+
+# The same number of a film that has only one guess, and the multiple of the Newton steps of a film without
+# heat from this guess.
+_ONE_GUESS, _CARRYING = 0, 3
+
+# Smallest number of nodes along x of a grid whose spots are near the spots of the next finer grid.
+_LEAST_OF_SPOTS = 65
 
 # Largest number of nodes for a film with shear or heat at a known temperature, and for one with its own
 # temperature: each takes about a minute on one core.
@@ -149,6 +165,8 @@ def heated_solution(
     The film is flooded first, and then has its supply of oil. If the supply is a layer, the flooded film is
     only a guess, and may be missed. ``order`` is the order of the wedge term.
     """
+    if _layer_on_spots(problem) and (quick := _from_coarser_grid(problem, progress, order)):
+        return quick
     cold = replace(problem, physics=None, most_nodes=_most_nodes(problem))
     simple = film_method(cold)(cold, progress)
     finest = _on(simple.problem if simple.patch is None else problem, simple.whole, problem, order)
@@ -169,6 +187,75 @@ def heated_solution(
     if simple.patch is None or grids[-1].status != "converged":
         return _until(simple, simple.whole), RefinedSolution(finest, list(grids))
     return _refined_together(simple, finest, grids, progress)
+
+
+def _layer_on_spots(problem: FilmProblem) -> bool:
+    """Whether rough surfaces of a hot point contact with a layer of oil may touch on its only grid, and on
+    the next coarser one.
+    """
+    hot = problem.physics is not None and problem.physics.thermal is not None
+    layered = problem.supply is not None and problem.supply.layer is not None
+    rough = problem.added_gap is not None and problem.boundary_film > 0.0
+    fine = problem.halved().nodes >= _LEAST_OF_SPOTS and problem.target_error is None
+    return hot and layered and rough and problem.width is not None and fine
+
+
+def _from_coarser_grid(
+    problem: FilmProblem, progress: Progress | None, order: int
+) -> tuple[RefinedSolution, RefinedSolution] | None:
+    """Starved film without and with heat whose surfaces touch, from both films on the next coarser grid.
+
+    On the finest grid the film with heat comes first, and the film without heat starts from it: without
+    another film on this grid it takes longer than the film with heat. None if the surfaces do not touch on
+    the coarser grid, or if a film with heat is missed.
+    """
+    supply, cold = problem.supply, replace(problem, physics=None)
+    assert supply is not None and supply.layer is not None
+    half = replace(cold.halved(), tolerance=max(problem.tolerance, NESTED_TOLERANCE), on_grid=None)
+    simple = starved_solution(half, progress)
+    if simple.flooded is None or not (simple.last.status == "converged" and simple.last.touches):
+        return None
+    posed, starts = replace(problem, wedge_order=order), [simple.flooded]
+    *coarser, flooded = heated_on_grids(posed, starts, progress, careful=False, every=True, quick=True)
+    known = {film.level.mesh.shape: film for film in simple.solutions}
+    refined = starved_on_grids(
+        [_with_supply(grid, known.get(grid.level.mesh.shape)) for grid in coarser], supply
+    )
+    warm, mass = refined.last, problem.fluid.ambient_density * supply.layer(flooded.level.mesh.y)
+    if not (
+        isinstance(warm, HeatedGrid) and warm.status == flooded.status == "converged" and refined.starved
+    ):
+        return None
+    guess = _changed(flooded, coarser[-1], warm, mass)
+    last = replace(_with_supply(flooded, guess), most_steps=_ONE_GUESS)
+    refined = starved_on_grids([last], supply, refined.solutions, refined.layer)
+    hot = refined.last
+    if hot.status != "converged" or not refined.starved:
+        return None
+    on_grid = grid_problem(cold, levels_of(cold), progress, times=_CARRYING)
+    last = StarvedProblem(
+        cold, on_grid, flooded, isothermal(on_grid), known=hot, near_only=True, most_steps=_ONE_GUESS
+    )
+    simple = starved_on_grids([last], supply, simple.solutions, simple.layer)
+    problem.tell(simple.last.level.mesh, simple.error)
+    return simple, refined
+
+
+def _changed(fine: HeatedGrid, before: HeatedGrid, after: HeatedGrid, mass: Array) -> HeatedGrid:
+    """Guess on a grid: a film, changed as another film differs from it on the next coarser grid.
+
+    ``fine`` and ``before`` are one film on both grids; ``after`` is a starved film on the coarser one, and
+    ``mass`` (ny,) the mass of its layer of oil on the finer one.
+    """
+    assert after.content is not None
+    mesh, coarse, problem = fine.level.mesh, after.level.mesh, fine.iteration.problem
+    first, last = (filled_on(mesh, coarse, with_inlet(film.final.full_film)) for film in (before, after))
+    filled = np.where(first == last, with_inlet(fine.final.full_film), last)
+    supply = Supply(mass, problem.wedge_order, scheme=after.content.supply.scheme)
+    state = changed_state(fine, before, after, problem.boundary_film)
+    guess = replace(fine, state=state, content=Carried(supply, filled))
+    assert fine.heat is not None and before.heat is not None and after.heat is not None
+    return replace(guess, heat=changed_heat(fine.heat, before.heat, after.heat, (before.level, fine.level)))
 
 
 def is_too_fine(problem: FilmProblem, times: int) -> bool:
@@ -318,8 +405,8 @@ def _with_supply(
         iteration.posed,
         flooded,
         _solver(iteration),
-        cold=cold,
-        with_heat=True,
+        known=cold,
+        near_only=True,
         most_steps=_MOST_STEPS if iteration.finer == 0 else _MOST_STEPS_OF_GUESS,
         careful=_solver(replace(iteration, careful=True)) if hot and frozen is None else None,
     )

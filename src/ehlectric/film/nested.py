@@ -15,6 +15,7 @@ import numpy as np
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.film.deflection import Geometry
+from ehlectric.film.dry_contact import relieved
 from ehlectric.film.levels import Level, hierarchy
 from ehlectric.film.mesh import Mesh, at_centre, on_mesh
 from ehlectric.film.newton import GridProblem, GridSolution, Guess, Progress, Start, State, newton
@@ -396,6 +397,38 @@ def open_state(level: Level, coarse: GridSolution) -> State:
     Its thinnest gap is at least half of the thinnest gap of the coarser solution.
     """
     return interpolated_state(level, coarse).lifted(0.5 * float(coarse.state.thickness.min()))
+
+
+def state_with_spots(level: Level, coarse: GridSolution, boundary_film: float) -> State:
+    """State on a grid with the pressure of a coarser solution, and with its spots if its surfaces touch.
+
+    The asperities of a point contact that this pressure pushes through the other surface are flattened first.
+    """
+    if not coarse.touches:
+        return open_state(level, coarse)
+    state = interpolated_state(level, coarse)
+    return state if level.mesh.dy is None else relieved(level, state, boundary_film)
+
+
+def changed_state(
+    fine: GridSolution, before: GridSolution, after: GridSolution, boundary_film: float
+) -> State:
+    """State of a film on its grid, changed as another film differs from it on a coarser grid.
+
+    ``fine`` and ``before`` are one film on both grids, and ``after`` is the other one. Spots that the coarser
+    grid does not resolve remain.
+    """
+    level, coarse = fine.level, before.level.mesh
+
+    def changed(of: Array | float, first: Array | float, last: Array | float) -> Array:
+        rise = _finer(level, coarse, np.broadcast_to(np.asarray(last) - np.asarray(first), coarse.shape))
+        return np.maximum(of + rise, 0.0)
+
+    films = [each.state for each in (fine, before, after)]
+    pressure = changed(*(state.pressure for state in films))
+    contact = np.minimum(changed(*(state.contact_pressure for state in films)), pressure)
+    h00 = films[0].h00 + films[2].h00 - films[1].h00
+    return relieved(level, State.of(level, pressure, h00, contact), boundary_film)
 
 
 def filled_on(mesh: Mesh, coarse: Mesh, filled: Mask) -> Mask:

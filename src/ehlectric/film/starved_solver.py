@@ -165,10 +165,10 @@ class StarvedProblem:
     posed: GridProblem  # lubricant, grids, asperities and stopping rule
     flooded: GridSolution
     film: Solver
-    # Film without heat with the same supply on this grid, from which the film with heat starts; None without
+    # Film of another temperature with the same supply on this grid, from which the film starts; None without
     # one.
-    cold: GridSolution | None = None
-    with_heat: bool = False  # whether ``film`` finds films with heat or shear
+    known: GridSolution | None = None
+    near_only: bool = False  # whether only guesses near the film are tried, as for a film with heat or shear
     scheme: Scheme = USUAL  # formulas of the mass at the faces
     careful: Solver | None = None  # slower solver, which is tried where ``film`` finds no film with heat
     most_steps: float = np.inf  # Newton steps after which no further guess is tried
@@ -214,8 +214,8 @@ class StarvedProblem:
 
     def _attempts(self, layer: Array, near: Guess | None) -> Iterator[GridSolution]:
         """Films from all guesses by all solvers, the likeliest one first."""
-        if self.with_heat:
-            yield from self._with_heat(layer, near)
+        if self.near_only:
+            yield from self._from_near(layer, near)
             return
         if near is not None:
             yield self._under(layer, near)
@@ -229,21 +229,22 @@ class StarvedProblem:
         if self.posed.asperities.boundary_film and self._taken.simpler is not None:
             yield from replace(self, scheme=self._taken.simpler)._attempts(layer, near)
 
-    def _with_heat(self, layer: Array, near: Guess | None) -> Iterator[GridSolution]:
-        """Films with heat from the guesses near the film, as one from further away takes long to fail.
+    def _from_near(self, layer: Array, near: Guess | None) -> Iterator[GridSolution]:
+        """Films from the guesses near the film, as one from further away takes long to fail.
 
-        These are the film on the coarser grid, the film without heat, the dry contact, and the flooded film.
+        These are the film on the coarser grid, the film of another temperature, the dry contact, and the
+        flooded film.
         """
         guesses = [] if near is None else [near]
-        cold, scheme = self.cold, self
-        if cold is not None and cold.status == "converged" and cold.content is not None:
+        known, scheme = self.known, self
+        if known is not None and known.status == "converged" and known.content is not None:
             # Both films pass nearly the same part of their layer.
-            supplied = at_centre_line(self.level, cold.content.supply.mass)
+            supplied = at_centre_line(self.level, known.content.supply.mass)
             ambient = self.posed.fluid.ambient_density
             fall = ambient * at_centre_line(self.level, layer) / supplied
             # The spots of a film on a coarser grid are others.
-            guesses.insert(0 if cold.touches else len(guesses), self._follow(cold, fall))
-            scheme = replace(self, scheme=cold.content.supply.scheme)
+            guesses.insert(0 if known.touches else len(guesses), self._follow(known, fall))
+            scheme = replace(self, scheme=known.content.supply.scheme)
         guesses.append(self._from_dry(layer))
         for solver in (self.film, self.careful):
             if solver is not None:
