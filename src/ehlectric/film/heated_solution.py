@@ -63,9 +63,9 @@ _MOST_IMBALANCE = 0.1
 # coarser ones, whose film is only a guess: 900 steps take about a minute on 65 x 65 nodes.
 _MOST_STEPS, _MOST_STEPS_OF_GUESS = 900, 300
 
-# The same number of a film that has only one guess, and the multiple of the Newton steps of a film without
-# heat from this guess.
-_ONE_GUESS, _CARRYING = 0, 3
+# The same number of a film that has a single guess, and the multiple of the Newton steps of a film without
+# heat from this guess. Its first step is damped, as its temperature is far from the temperature of the guess.
+_SINGLE, _CARRYING, _FIRST_DAMPING = 0, 3, 1.0
 
 # Smallest number of nodes along x of a grid whose spots are near the spots of the next finer grid.
 _LEAST_OF_SPOTS = 65
@@ -215,27 +215,28 @@ def _from_coarser_grid(
     simple = starved_solution(half, progress)
     if simple.flooded is None or not (simple.last.status == "converged" and simple.last.touches):
         return None
-    posed, starts = replace(problem, wedge_order=order), [simple.flooded]
-    *coarser, flooded = heated_on_grids(posed, starts, progress, careful=False, every=True, quick=True)
-    known = {film.level.mesh.shape: film for film in simple.solutions}
-    refined = starved_on_grids(
-        [_with_supply(grid, known.get(grid.level.mesh.shape)) for grid in coarser], supply
-    )
+    finest, starts = replace(problem, wedge_order=order), [simple.flooded]
+    *coarser, flooded = heated_on_grids(finest, starts, progress, careful=False, every=True, quick=True)
+    films = {film.level.mesh.shape: film for film in simple.solutions}
+    grids = [_with_supply(grid, films.get(grid.level.mesh.shape)) for grid in coarser]
+    refined = starved_on_grids(grids, supply)
     warm, mass = refined.last, problem.fluid.ambient_density * supply.layer(flooded.level.mesh.y)
     if not (
         isinstance(warm, HeatedGrid) and warm.status == flooded.status == "converged" and refined.starved
     ):
         return None
     guess = _changed(flooded, coarser[-1], warm, mass)
-    last = replace(_with_supply(flooded, guess), most_steps=_ONE_GUESS)
+    last = replace(_with_supply(flooded, guess), most_steps=_SINGLE)
     refined = starved_on_grids([last], supply, refined.solutions, refined.layer)
     hot = refined.last
-    if hot.status != "converged" or not refined.starved:
+    if hot.status != "converged" or hot.content is None or not refined.starved:
         return None
-    on_grid = grid_problem(cold, levels_of(cold), progress, times=_CARRYING)
-    last = StarvedProblem(
-        cold, on_grid, flooded, isothermal(on_grid), known=hot, near_only=True, most_steps=_ONE_GUESS
-    )
+    # The film without heat is a comparison, for which a scheme is close enough that converges more often.
+    scheme = hot.content.supply.scheme.simpler or hot.content.supply.scheme
+    known = replace(hot, content=replace(hot.content, supply=replace(hot.content.supply, scheme=scheme)))
+    posed = grid_problem(cold, levels_of(cold), progress, times=_CARRYING)
+    solver = isothermal(posed, full_order=False, first_damping=_FIRST_DAMPING)
+    last = StarvedProblem(cold, posed, flooded, solver, known=known, near_only=True, most_steps=_SINGLE)
     simple = starved_on_grids([last], supply, simple.solutions, simple.layer)
     problem.tell(simple.last.level.mesh, simple.error)
     return simple, refined
