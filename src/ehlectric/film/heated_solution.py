@@ -231,13 +231,17 @@ def _from_coarser_grid(
     hot = refined.last
     if hot.status != "converged" or hot.content is None or not refined.starved:
         return None
-    # The film without heat is a comparison, for which a scheme is close enough that converges more often.
-    scheme = hot.content.supply.scheme.simpler or hot.content.supply.scheme
-    known = replace(hot, content=replace(hot.content, supply=replace(hot.content.supply, scheme=scheme)))
     posed = grid_problem(cold, levels_of(cold), progress, times=_CARRYING)
     solver = isothermal(posed, full_order=False, first_damping=_FIRST_DAMPING)
-    last = StarvedProblem(cold, posed, flooded, solver, known=known, near_only=True, most_steps=_SINGLE)
-    simple = starved_on_grids([last], supply, simple.solutions, simple.layer)
+    content, coarse = hot.content, simple
+    # The film without heat is a comparison: a scheme that converges more often is close enough.
+    for scheme in (content.supply.scheme.simpler, content.supply.scheme):
+        supplied = replace(content.supply, scheme=scheme or content.supply.scheme)
+        known = replace(hot, content=replace(content, supply=supplied))
+        last = StarvedProblem(cold, posed, flooded, solver, known=known, near_only=True, most_steps=_SINGLE)
+        simple = starved_on_grids([last], supply, coarse.solutions, coarse.layer)
+        if simple.last.status == "converged":
+            break
     problem.tell(simple.last.level.mesh, simple.error)
     return simple, refined
 
