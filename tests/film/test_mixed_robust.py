@@ -56,6 +56,19 @@ def test_lines_of_every_surface(name, ratio):
     assert film.share < 0.1
 
 
+@pytest.mark.parametrize(("name", "ratio"), [("gaussian 400 nm", 1.0), ("sinusoid 140 nm", 1.0)])
+def test_films_that_conserve_their_oil_agree_on_fine_grids(name, ratio):
+    """A film whose cavities count as full is twice as thick over the Gaussian surface, on any of the grids."""
+    films = [at_lambda(rough_line(LINES[name], nodes=nodes), ratio) for nodes in (801, 1601, 3201)]
+    means = []
+    for film in films:
+        assert film.converged
+        assert film.last.content is not None
+        means.append(float(np.mean(film.gap[film.zone])))
+    assert means[0] == pytest.approx(means[2], rel=0.015, abs=0.0)
+    assert means[1] == pytest.approx(means[2], rel=0.006, abs=0.0)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "ratio"), share(list(product(POINTS, [1.0, 0.3, 0.1])), 2))
 def test_points_of_every_surface(name, ratio):
