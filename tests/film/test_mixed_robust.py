@@ -58,7 +58,7 @@ def test_lines_of_every_surface(name, ratio):
 
 @pytest.mark.parametrize(("name", "ratio"), [("gaussian 400 nm", 1.0), ("sinusoid 140 nm", 1.0)])
 def test_films_that_conserve_their_oil_agree_on_fine_grids(name, ratio):
-    """A film whose cavities count as full is twice as thick over the Gaussian surface, on any of the grids."""
+    """A film whose cavities count as full is twice as thick over the Gaussian surface."""
     films = [at_lambda(rough_line(LINES[name], nodes=nodes), ratio) for nodes in (801, 1601, 3201)]
     means = []
     for film in films:

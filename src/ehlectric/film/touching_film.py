@@ -467,8 +467,8 @@ _KRYLOV_LIMIT = 100
 _MOST_DAMPING, _LEAST_RAISED = 4.0, 0.1
 _FALL, _RISE, _LONG = 0.3, 2.0, 0.5
 
-# Largest number of nodes of a line contact whose linear systems are solved loosely. A linear system that is not
-# solved closely leaves errors in the inlet. On fine grids films with cavities do not converge then.
+# Largest number of nodes of a line contact whose linear systems are solved loosely. A linear system that is
+# not solved closely leaves errors in the inlet. On fine grids films with cavities do not converge then.
 _LOOSE_LINE = 401
 
 # Steps after which the iteration ends if they have not halved the smallest residual so far. Of 290 films that
