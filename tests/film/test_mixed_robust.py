@@ -29,7 +29,7 @@ def test_line_with_a_thin_film(name, nodes):
     """Where the film of the formula is 3 % of the roughness, ridges float on grids that resolve them.
 
     On 801 nodes most of the load is on asperities. Of the Gaussian surface asperities have 6 % of the load on
-    1601 nodes, 16 % on 2401 and none on 3201: a warning says that the share is not resolved.
+    1601 nodes, 16 % on 2401 and 2 % on 3201: a warning says that the share is not resolved.
     """
     film = at_lambda(rough_line(LINES[name], nodes=nodes), 0.03)
     assert film.converged
@@ -56,7 +56,10 @@ def test_lines_of_every_surface(name, ratio):
     assert film.share < 0.1
 
 
-@pytest.mark.parametrize(("name", "ratio"), [("gaussian 400 nm", 1.0), ("sinusoid 140 nm", 1.0)])
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("name", "ratio"), gated([("gaussian 400 nm", 1.0), ("sinusoid 140 nm", 1.0)], ("gaussian 400 nm", 1.0))
+)
 def test_films_that_conserve_their_oil_agree_on_fine_grids(name, ratio):
     """A film whose cavities count as full is twice as thick over the Gaussian surface."""
     films = [at_lambda(rough_line(LINES[name], nodes=nodes), ratio) for nodes in (801, 1601, 3201)]

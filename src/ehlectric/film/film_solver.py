@@ -37,9 +37,9 @@ from ehlectric.quantities.field_metadata import number
 # times as long as the grid before.
 UNKNOWN = 3
 
-# Residual of a smooth point contact's film that is only a start on the next grid, and its largest part of the
-# target of the error: a residual of 1e-4 leaves an error of 5e-4 at most (validation/error_estimates.md). The
-# error of such a film is above the target by more than the second number.
+# Residual at which the film of a smooth point contact ends if it is only a start on the next grid; the
+# largest residual divided by the target of the error; and the smallest relative excess of its error over the
+# target. A residual of 1e-4 leaves an error of 5e-4 at most (validation/error_estimates.md).
 _START_TOLERANCE, _START_PART, _CLEAR = 1e-4, 1e-2, 0.05
 
 
@@ -141,12 +141,14 @@ def refined_solution(problem: FilmProblem, progress: Progress | None) -> Refined
 
 def _start(problem: FilmProblem, patch: Patch | None, unknown: int) -> Start | None:
     """Rule by which the film of a smooth point contact on a grid is only a start on the next grid: its error
-    is above the target. None for other contacts, and without a target.
+    is above the target. None for other contacts, without a target, and for the first order, whose error
+    estimate takes two more films.
 
     The error is unknown on the last ``unknown`` grids. More nodes must be allowed.
     """
     target = problem.target_error
-    if target is None or problem.width is None or problem.added_gap is not None:
+    smooth_point = problem.width is not None and problem.added_gap is None
+    if target is None or not smooth_point or problem.wedge_order == 1:
         return None
 
     def is_followed(solutions: list[GridSolution]) -> bool:

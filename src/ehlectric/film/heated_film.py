@@ -69,12 +69,12 @@ _MOST_CHANGE = 40.0
 # most, as far as this residual: its temperature is still to change.
 MOST_LOOPS, _STEPS, _LOOSE = 60, 2, 1e-3
 
+# The same number of loops of a flooded film that is only a guess for one with a layer of oil.
+_GUESS_LOOPS = 25
+
 # Tolerance of a film with mass-conserving cavitation in the quick iteration, divided by the last change of
 # the temperature over the change at which it has converged.
 _FOLLOWING = 1e-5
-
-# The same number of loops of a flooded film that is only a guess for one with a layer of oil.
-_GUESS_LOOPS = 25
 
 # Multiple of the Newton steps of a film with mass-conserving cavitation, whose cavities grow by few nodes a
 # step, and least number of steps of one whose surfaces may touch: fewer would leave its spots unsettled.
@@ -436,8 +436,8 @@ class OuterIteration:
         heat = self.start(thermal) if heat is None else heat
         weight = node_weight(self.level, state)
         grid = self._alternating(thermal, state, heat, carried, weight=weight, spike=spike)
-        # A film that is only a guess is not worth another iteration.
-        guess_only = self.quick and self.most_loops < MOST_LOOPS
+        # A film that is only a guess on the next grid is not worth another iteration.
+        guess_only = self.quick and self.most_loops < MOST_LOOPS and self.finer > 0
         return grid if guess_only else self._settled(grid, thermal, weight)
 
     def _without_heat(self, state: State, carried: Carried | None, *, spike: bool) -> HeatedGrid:
@@ -786,7 +786,7 @@ def heated_on_grids(
 
     ``careful`` and ``quick`` are described in ``OuterIteration``. Unless on ``every`` grid, an iteration that
     is not careful ends with the first grid that it does not solve. ``starts`` are isothermal films over the
-    whole domain, the one on the finest grid last.
+    whole domain, the one on their finest grid last.
     """
     grids, least = [finest], _FIRST_CAREFUL if careful else _FIRST
     if finest.width is not None:

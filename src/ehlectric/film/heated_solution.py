@@ -122,8 +122,8 @@ class HeatedSolution(HeatedNodes):
 
 
 def solve_heated_film(problem: FilmProblem, progress: Progress | None = None) -> HeatedSolution:
-    """Solve the film with the physics of its problem, after the isothermal Newtonian film. Returns both
-    films, the temperature, and the friction.
+    """Solve the film with the physics of its problem, and the isothermal Newtonian film. Returns both films,
+    the temperature, and the friction.
 
     Both films have the grid on which their discretisation error is below the ``target_error`` of the problem,
     or the finest one that heat or shear may have. A Newtonian oil without heat has one film. In a point
@@ -196,7 +196,7 @@ def _layer_on_spots(problem: FilmProblem) -> bool:
     hot = problem.physics is not None and problem.physics.thermal is not None
     layered = problem.supply is not None and problem.supply.layer is not None
     rough = problem.added_gap is not None and problem.boundary_film > 0.0
-    fine = problem.halved().nodes >= _LEAST_OF_SPOTS and problem.target_error is None
+    fine = problem.nodes >= 2 * _LEAST_OF_SPOTS - 1 and problem.target_error is None
     return hot and layered and rough and problem.width is not None and fine
 
 
@@ -235,9 +235,9 @@ def _from_coarser_grid(
     solver = isothermal(posed, full_order=False, first_damping=_FIRST_DAMPING)
     content, coarse = hot.content, simple
     # The film without heat is a comparison: a scheme that converges more often is close enough.
-    for scheme in (content.supply.scheme.simpler, content.supply.scheme):
-        supplied = replace(content.supply, scheme=scheme or content.supply.scheme)
-        known = replace(hot, content=replace(content, supply=supplied))
+    schemes = (content.supply.scheme.simpler, content.supply.scheme)
+    for scheme in (each for each in schemes if each is not None):
+        known = replace(hot, content=replace(content, supply=replace(content.supply, scheme=scheme)))
         last = StarvedProblem(cold, posed, flooded, solver, known=known, near_only=True, most_steps=_SINGLE)
         simple = starved_on_grids([last], supply, coarse.solutions, coarse.layer)
         if simple.last.status == "converged":

@@ -61,6 +61,10 @@ _MIXED, _MIXED_COARSE = 6, 2
 # spots of the next grid.
 _START_TOLERANCE = 1e-3
 
+# Multiple of the largest number of Newton steps of a smooth film from a coarser grid. The ridge of its
+# pressure spike may take many steps to its place on the finer grid, and a restart takes more.
+_FROM_COARSER = 2
+
 
 def nested_iteration(
     problem: FilmProblem,
@@ -116,7 +120,8 @@ def _full_film(
                 return [conserved]
             # A second converged solution on this grid would be taken for one of other surfaces.
             grids = [] if conserved.status == "converged" else [conserved]
-        best = _newton_on(problem, levels, progress, spike=True, start=start)(state)
+        times = 1 if rough else _FROM_COARSER
+        best = _newton_on(problem, levels, progress, spike=True, start=start, times=times)(state)
     # A solution that nearly converged does not start again.
     if coarse is None or (not rough and (best is None or _is_missed(best))):
         state = _hertz_state(problem, levels[0])
@@ -363,16 +368,17 @@ def _newton_on(
     *,
     spike: bool,
     start: Start | None = None,
+    times: int = 1,
 ) -> Callable[[State], GridSolution]:
     """Newton's method for the film equations on the first of ``levels``: a function of the initial guess.
 
     The tolerance is the problem's tolerance on its own grid, and larger on coarser grids. ``spike`` is
-    whether to solve the nodes of the pressure spike separately, and ``start`` the rule by which the iteration
-    may end early.
+    whether to solve the nodes of the pressure spike separately, ``start`` the rule by which the iteration may
+    end early, and ``times`` multiplies the largest number of Newton steps.
     """
     return partial(
         newton,
-        replace(grid_problem(problem, levels, progress), start=start),
+        replace(grid_problem(problem, levels, progress, times=times), start=start),
         # The residual of an interpolated film may be small although the film is still the film of the coarser
         # grid.
         min_iterations=1,
