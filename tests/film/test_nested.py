@@ -98,7 +98,7 @@ def test_films_that_are_only_starts_lead_to_the_same_film(monkeypatch, speed, ta
     case = case.replace({"contact.entrainment_speed": speed, "grid.error": target})
     problem = replace(prepare(case).film_problem(case), target_error=target)
     early = solve_point_film(problem)
-    monkeypatch.setattr(film_solver, "_start", lambda *_: None)
+    monkeypatch.setattr(film_solver, "_early_end", lambda *_: None)
     accurate = solve_point_film(problem)
     assert early.converged
     assert accurate.converged

@@ -34,7 +34,7 @@ from ehlectric.film import (
 )
 from ehlectric.formulas.film_line import CentralThickness, moes
 from ehlectric.formulas.film_point import load_exponent, nijenbanning_venner_moes
-from ehlectric.formulas.monotone_cubic import MonotoneCubic
+from ehlectric.formulas.monotone_cubic import along_axis
 from ehlectric.formulas.polynomials import interval
 from ehlectric.lubricant.law import PressureLaw
 from ehlectric.lubricant.oil import Oil
@@ -201,9 +201,7 @@ def _on_columns(
         # Monotone cubic interpolation is exact at the nodes, and makes the film nowhere thinner.
         for k, (nodes, columns) in enumerate(zip(film.axes, axes, strict=True)):
             used = _nodes_of(nodes, columns)
-            lines = np.moveaxis(np.take(values, used, axis=k), k, -1)
-            curves = MonotoneCubic(nodes[used], lines.reshape(-1, used.size))(columns)
-            values = np.moveaxis(curves.reshape(*lines.shape[:-1], columns.size), -1, k)
+            values = along_axis(nodes[used], np.take(values, used, axis=k), columns, axis=k)
         return values
 
     # Middle and gap are interpolated, because separately interpolated walls could cross between nodes.

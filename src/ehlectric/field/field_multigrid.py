@@ -17,7 +17,7 @@ import scipy
 
 from ehlectric.arrays import Array, IntArray, Mask
 from ehlectric.field.poisson import Across
-from ehlectric.formulas.polynomials import linear_interpolation
+from ehlectric.formulas.polynomials import interval, linear_interpolation
 
 # An axis with at most this many nodes is not coarsened. With fewer than three nodes, index offsets of the
 # nine neighbours would coincide.
@@ -163,9 +163,7 @@ def _every_other(x: Array) -> tuple[Array, scipy.sparse.csr_array]:
     if x.size <= COARSEST:
         return x, scipy.sparse.csr_array(scipy.sparse.eye_array(x.size))
     coarse = x[np.unique(np.append(np.arange(0, x.size, 2), x.size - 1))]
-    left = np.clip(np.searchsorted(coarse, x, side="right") - 1, 0, coarse.size - 2)
-    share = (x - coarse[left]) / (coarse[left + 1] - coarse[left])
-    return coarse, linear_interpolation(left, share, coarse.size)
+    return coarse, linear_interpolation(*interval(coarse, x), coarse.size)
 
 
 def _with_identity(matrix: scipy.sparse.csr_array, free: Mask) -> scipy.sparse.csr_array:

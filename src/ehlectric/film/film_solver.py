@@ -20,7 +20,7 @@ from ehlectric.film.film_errors import (
 )
 from ehlectric.film.mesh import Mesh, at_centre
 from ehlectric.film.nested import filled_on, grid_problem, levels_of, nested_iteration, open_state
-from ehlectric.film.newton import GridSolution, Guess, Progress, Start
+from ehlectric.film.newton import EarlyEnd, GridSolution, Guess, Progress
 from ehlectric.film.patch import Patch
 from ehlectric.film.problem import FilmProblem, OilSupply
 from ehlectric.film.starved_solver import (
@@ -40,7 +40,7 @@ UNKNOWN = 3
 # Residual at which the film of a smooth point contact ends if it is only a start on the next grid; the
 # largest residual divided by the target of the error; and the smallest relative excess of its error over the
 # target. A residual of 1e-4 leaves an error of 5e-4 at most (validation/error_estimates.md).
-_START_TOLERANCE, _START_PART, _CLEAR = 1e-4, 1e-2, 0.05
+_EARLY_TOLERANCE, _EARLY_PART, _CLEAR = 1e-4, 1e-2, 0.05
 
 
 @dataclass(frozen=True)
@@ -115,8 +115,8 @@ def refined_solution(problem: FilmProblem, progress: Progress | None) -> Refined
     first grid on which no film conserves its oil.
     """
     target, unknown, times = problem.target_error, 0, 1
-    start = _start(problem, None, unknown) if 2 * problem.nodes - 1 <= problem.most_nodes else None
-    refined = RefinedSolution(problem, nested_iteration(problem, progress, start=start))
+    ends = _early_end(problem, None, unknown) if 2 * problem.nodes - 1 <= problem.most_nodes else None
+    refined = RefinedSolution(problem, nested_iteration(problem, progress, early_end=ends))
     while target is not None:
         error, times = refined.error, 2 * times
         problem.tell(refined.last.level.mesh, error)
@@ -130,8 +130,8 @@ def refined_solution(problem: FilmProblem, progress: Progress | None) -> Refined
             break
         posed, patch = finer_problem(refined)
         last = 2 * times * (problem.nodes - 1) + 1 > problem.most_nodes
-        start = None if last else _start(posed, patch, unknown)
-        finer = RefinedSolution(posed, nested_iteration(posed, progress, refined.solutions, start), patch)
+        ends = None if last else _early_end(posed, patch, unknown)
+        finer = RefinedSolution(posed, nested_iteration(posed, progress, refined.solutions, ends), patch)
         # A finer film that makes oil is worse than one that conserves it on fewer nodes.
         if finer.makes_oil and not refined.makes_oil:
             break
@@ -139,7 +139,7 @@ def refined_solution(problem: FilmProblem, progress: Progress | None) -> Refined
     return refined
 
 
-def _start(problem: FilmProblem, patch: Patch | None, unknown: int) -> Start | None:
+def _early_end(problem: FilmProblem, patch: Patch | None, unknown: int) -> EarlyEnd | None:
     """Rule by which the film of a smooth point contact on a grid is only a start on the next grid: its error
     is above the target. None for other contacts, without a target, and for the first order, whose error
     estimate takes two more films.
@@ -157,10 +157,10 @@ def _start(problem: FilmProblem, patch: Patch | None, unknown: int) -> Start | N
         if film.level.nodes < problem.nodes or forms_again(film.final.full_film):
             return False
         error = RefinedSolution(problem, solutions, patch).error
-        return always if error is None else error > (1.0 + _CLEAR) * target
+        return if_unknown if error is None else error > (1.0 + _CLEAR) * target
 
-    always = unknown + 1 < UNKNOWN
-    return Start(min(_START_TOLERANCE, _START_PART * target), is_followed, always)
+    if_unknown = unknown + 1 < UNKNOWN
+    return EarlyEnd(min(_EARLY_TOLERANCE, _EARLY_PART * target), is_followed, if_unknown)
 
 
 def finer_problem(refined: RefinedSolution) -> tuple[FilmProblem, Patch | None]:

@@ -18,7 +18,7 @@ from ehlectric.film.deflection import Geometry
 from ehlectric.film.dry_contact import relieved
 from ehlectric.film.levels import Level, hierarchy
 from ehlectric.film.mesh import Mesh, at_centre, on_mesh
-from ehlectric.film.newton import GridProblem, GridSolution, Guess, Progress, Start, State, newton
+from ehlectric.film.newton import EarlyEnd, GridProblem, GridSolution, Guess, Progress, State, newton
 from ehlectric.film.oil_content import SCHEMES, USUAL
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.reynolds import wedge_stencil
@@ -70,10 +70,10 @@ def nested_iteration(
     problem: FilmProblem,
     progress: Progress | None,
     known: Sequence[GridSolution] = (),
-    start: Start | None = None,
+    early_end: EarlyEnd | None = None,
 ) -> list[GridSolution]:
     """Solve the film on a sequence of grids, from coarse to fine. Returns all solutions in the order in which
-    they were computed, after the known ones. ``start``, rule by which films of surfaces apart may end early.
+    they were computed, after the known ones. Films of surfaces apart may end early by the rule ``early_end``.
 
     If the solution on a grid does not converge, this grid and the next finer grid start from the Hertz
     pressure. If the surfaces touch on a grid, the next finer grid starts from this film at once.
@@ -81,7 +81,7 @@ def nested_iteration(
     solutions = list(known)
     for levels in reversed(_grids(problem, solved=known[-1].level.nodes if known else 0)):
         coarse = solutions[-1] if solutions and solutions[-1].status == "converged" else None
-        here = None if start is None else replace(start, coarser=tuple(solutions))
+        here = None if early_end is None else replace(early_end, coarser=tuple(solutions))
         grids = _full_film(problem, levels, coarse, progress, here)
         best = grids[-1] if grids else None
         solutions.extend(grids)
@@ -100,7 +100,7 @@ def _full_film(
     levels: list[Level],
     coarse: GridSolution | None,
     progress: Progress | None,
-    start: Start | None,
+    early_end: EarlyEnd | None,
 ) -> list[GridSolution]:
     """Solutions on one grid with surfaces apart, the best one last.
 
@@ -121,11 +121,11 @@ def _full_film(
             # A second converged solution on this grid would be taken for one of other surfaces.
             grids = [] if conserved.status == "converged" else [conserved]
         times = 1 if rough else _FROM_COARSER
-        best = _newton_on(problem, levels, progress, spike=True, start=start, times=times)(state)
+        best = _newton_on(problem, levels, progress, spike=True, early_end=early_end, times=times)(state)
     # A solution that nearly converged does not start again.
     if coarse is None or (not rough and (best is None or _is_missed(best))):
         state = _hertz_state(problem, levels[0])
-        for solve in _restarts(problem, levels, progress, start):
+        for solve in _restarts(problem, levels, progress, early_end):
             grids.append(solve(state))
             if rough and grids[-1].status == "diverged" and len(grids) == 1:
                 # The surfaces touch.
@@ -367,18 +367,18 @@ def _newton_on(
     progress: Progress | None,
     *,
     spike: bool,
-    start: Start | None = None,
+    early_end: EarlyEnd | None = None,
     times: int = 1,
 ) -> Callable[[State], GridSolution]:
     """Newton's method for the film equations on the first of ``levels``: a function of the initial guess.
 
     The tolerance is the problem's tolerance on its own grid, and larger on coarser grids. ``spike`` is
-    whether to solve the nodes of the pressure spike separately, ``start`` the rule by which the iteration may
-    end early, and ``times`` multiplies the largest number of Newton steps.
+    whether to solve the nodes of the pressure spike separately, ``early_end`` the rule by which the iteration
+    may end early, and ``times`` multiplies the largest number of Newton steps.
     """
     return partial(
         newton,
-        replace(grid_problem(problem, levels, progress, times=times), start=start),
+        replace(grid_problem(problem, levels, progress, times=times), early_end=early_end),
         # The residual of an interpolated film may be small although the film is still the film of the coarser
         # grid.
         min_iterations=1,
@@ -495,15 +495,15 @@ def _hertz_state(problem: FilmProblem, level: Level) -> State:
 
 
 def _restarts(
-    problem: FilmProblem, levels: list[Level], progress: Progress | None, start: Start | None
+    problem: FilmProblem, levels: list[Level], progress: Progress | None, early_end: EarlyEnd | None
 ) -> list[Callable[[State], GridSolution]]:
     """Newton's method for a restart from the Hertz pressure, in the order of the solutions.
 
     The first solution has the wedge term of first order, which is monotone and converges from a worse initial
     guess. It is the initial guess of the second solution, which has the wedge term of the problem.
     """
-    ended = start if start is not None and start.always else None
-    last = _newton_on(problem, levels, progress, spike=False, start=ended)
+    ends = early_end if early_end is not None and early_end.if_unknown else None
+    last = _newton_on(problem, levels, progress, spike=False, early_end=ends)
     if problem.wedge_order == 1:
         return [last]
     monotone = [

@@ -160,14 +160,13 @@ class Asperities:
 
 
 @dataclass(frozen=True)
-class Start:
-    """Rule by which a film is only a start on a finer grid, which needs no film of full accuracy."""
+class EarlyEnd:
+    """Rule by which the iteration of a film ends early that is only a start on a finer grid."""
 
     tolerance: float  # residual of a film from which a finer grid starts, a pressure over p_h
     # Whether a finer grid follows the last one of the films on successive grids; it has this residual.
     is_followed: Callable[[list[GridSolution]], bool]
-    # Whether a finer grid follows a film whose error is unknown.
-    always: bool
+    if_unknown: bool  # whether a finer grid follows a film whose error is unknown
     coarser: tuple[GridSolution, ...] = ()  # films on the coarser grids
 
 
@@ -184,7 +183,7 @@ class GridProblem:
     asperities: Asperities = Asperities()  # boundary film and hardness where surfaces touch
     # Whether the film is only a start on finer grids: the oil where surfaces touch may change further.
     only_start: bool = False
-    start: Start | None = None  # rule by which the iteration ends early; None if it does not
+    early_end: EarlyEnd | None = None  # rule by which the iteration ends early; None if it does not
 
     @property
     def level(self) -> Level:
@@ -253,7 +252,7 @@ def newton(
     now = assess(fluid, level, state)
     near = jacobians is not None
     jacobians = [] if jacobians is None else jacobians
-    before, start = np.inf, problem.start
+    before, early_end = np.inf, problem.early_end
     while len(steps) < min_iterations or (now.norm > tolerance and len(steps) < problem.max_iterations):
         problem.report(steps, now.norm)
         if eliminate_spike:
@@ -275,11 +274,11 @@ def newton(
         if grown > 1 and tolerance < assessed.norm < _NEAR:
             assessed = _refilled(assessed)
         state, now = candidate, assessed
-        if start is not None and now.norm <= start.tolerance:
+        if early_end is not None and now.norm <= early_end.tolerance:
             film = GridSolution(level, state, now, tuple(steps), "converged")
-            if start.is_followed([*start.coarser, film]):
+            if early_end.is_followed([*early_end.coarser, film]):
                 return film
-            start = None
+            early_end = None
     status: Status = "converged" if now.norm <= tolerance else "stalled"
     return GridSolution(level, state, now, tuple(steps), status)
 

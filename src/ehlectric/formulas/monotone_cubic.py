@@ -87,16 +87,17 @@ class MonotoneCubic:
 
 def along_axis(nodes: Array, values: Array, at: Array, axis: int) -> Array:
     """Values of the monotone cubic along one axis of an array. ``nodes``, increasing abscissae, shape (m,);
-    ``values``, values at the nodes, shape (m, n) or (n, m); ``at``, abscissae, shape (k,). Returns values,
-    shape (k, n) or (n, k).
+    ``values``, values at the nodes, of length m along the axis; ``at``, abscissae, shape (k,). Returns values
+    of length k along the axis.
 
     Examples
     --------
     >>> along_axis(np.array([0.0, 1.0, 2.0]), np.array([[0.0], [0.5], [2.0]]), np.array([0.5]), 0).tolist()
     [[0.15625]]
     """
-    curves = MonotoneCubic(nodes, values.T if axis == 0 else values)(at)
-    return curves.T if axis == 0 else curves
+    lines = np.moveaxis(values, axis, -1)
+    curves = MonotoneCubic(nodes, lines.reshape(-1, nodes.size))(at)
+    return np.moveaxis(curves.reshape(*lines.shape[:-1], at.size), -1, axis)
 
 
 def inner_slope(before: Array, after: Array, left: Array, right: Array) -> Array:
