@@ -21,7 +21,6 @@ from ehlectric.film.mesh import Mesh, at_centre
 from ehlectric.film.newton import GridSolution
 from ehlectric.film.problem import FilmProblem
 from ehlectric.formulas.monotone_cubic import along_axis
-from ehlectric.formulas.tensor_spline import TensorSpline
 
 # Distances of the patch's edges from the dry contact, in semi-axes along entrainment: ahead of it, behind it
 # and at its sides; and these distances in lengths sqrt(2 H) over which the pressure of a thick film builds
@@ -128,6 +127,9 @@ class Patch:
     def _spline(self, values: Array) -> OnGrid:
         mesh = self.coarse.level.mesh
         nodal = mesh.mirrored(values)[..., np.newaxis]
+        # late: line contacts do not need it
+        from ehlectric.formulas.tensor_spline import TensorSpline
+
         spline = TensorSpline.through((mesh.x, mesh.whole_y), nodal)
         return lambda x, y: spline.on_grid((x, y))[..., 0]
 
