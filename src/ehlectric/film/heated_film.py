@@ -78,7 +78,7 @@ _FOLLOWING = 1e-5
 
 # Multiple of the Newton steps of a film with mass-conserving cavitation, whose cavities grow by few nodes a
 # step, and least number of steps of one whose surfaces may touch: fewer would leave its spots unsettled.
-_CARRYING, _TOUCHING = 3, 40
+CARRYING, _TOUCHING = 3, 40
 
 # Successive loops in which a film with mass-conserving cavitation misses its residual, at which the iteration
 # ends, and successive loops without a smaller change of the temperature. It goes on where the least change is
@@ -285,7 +285,7 @@ class OuterIteration:
         """
         if solution.content is None or solution.status != "converged":
             return solution
-        most = _CARRYING * self.problem.max_iterations
+        most = CARRYING * self.problem.max_iterations
         posed = replace(self.posed, fluid=replace(self.problem.fluid, flow=law), max_iterations=most)
         guess = Guess(solution.state, solution.content.filled)
         solver = isothermal(posed, full_order=full_order, min_iterations=0 if full_order else 1)
@@ -443,7 +443,7 @@ class OuterIteration:
     def _without_heat(self, state: State, carried: Carried | None, *, spike: bool) -> HeatedGrid:
         """Film of an oil that thins under shear, at a temperature that the film does not change."""
         most, tolerance = self.problem.max_iterations, self.posed.tolerance
-        steps = most if carried is None else _CARRYING * most
+        steps = most if carried is None else CARRYING * most
         solution, law, _ = self.film(
             state, None, steps=steps, tolerance=tolerance, spike=spike, carried=carried
         )
@@ -466,7 +466,7 @@ class OuterIteration:
 
         ``weight`` (nx, ny) multiplies the changes of the temperature.
         """
-        most, times = self.problem.max_iterations, 1 if carried is None else _CARRYING
+        most, times = self.problem.max_iterations, 1 if carried is None else CARRYING
         # The temperature in cavities and next to spots follows small changes of the film.
         exact = carried is not None and not self.quick
         loose = self.posed.tolerance if exact else max(self.posed.tolerance, _LOOSE)

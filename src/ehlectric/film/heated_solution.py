@@ -28,6 +28,7 @@ from ehlectric.film.film_solver import (
     starved_solution,
 )
 from ehlectric.film.heated_film import (
+    CARRYING,
     MOST_LOOPS,
     HeatedGrid,
     OuterIteration,
@@ -52,7 +53,7 @@ from ehlectric.film.oil_content import Carried, Supply
 from ehlectric.film.patch import part_of_domain
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.shear_flow import Traction, traction
-from ehlectric.film.starved_solver import Solver, StarvedProblem, isothermal, with_inlet
+from ehlectric.film.starved_solver import FIRST_DAMPING, Solver, StarvedProblem, isothermal, with_inlet
 from ehlectric.runtime.threads import quiet_solution
 
 # Part of its heat that a film may make or lose by its grid. If it is more, film and temperature do not
@@ -63,9 +64,8 @@ _MOST_IMBALANCE = 0.1
 # coarser ones, whose film is only a guess: 900 steps take about a minute on 65 x 65 nodes.
 _MOST_STEPS, _MOST_STEPS_OF_GUESS = 900, 300
 
-# The same number of a film that has a single guess, and the multiple of the Newton steps of a film without
-# heat from this guess. Its first step is damped, as its temperature is far from the temperature of the guess.
-_SINGLE, _CARRYING, _FIRST_DAMPING = 0, 3, 1.0
+# The same number of a film that has a single guess.
+_SINGLE = 0
 
 # Smallest number of nodes along x of a grid whose spots are near the spots of the next finer grid.
 _LEAST_OF_SPOTS = 65
@@ -217,9 +217,7 @@ def _from_coarser_grid(
         return None
     finest, starts = replace(problem, wedge_order=order), [simple.flooded]
     *coarser, flooded = heated_on_grids(finest, starts, progress, careful=False, every=True, quick=True)
-    films = {film.level.mesh.shape: film for film in simple.solutions}
-    grids = [_with_supply(grid, films.get(grid.level.mesh.shape)) for grid in coarser]
-    refined = starved_on_grids(grids, supply)
+    refined = starved_on_grids(_with_supplies(coarser, simple), supply)
     warm, mass = refined.last, problem.fluid.ambient_density * supply.layer(flooded.level.mesh.y)
     if not (
         isinstance(warm, HeatedGrid) and warm.status == flooded.status == "converged" and refined.starved
@@ -231,9 +229,29 @@ def _from_coarser_grid(
     hot = refined.last
     if hot.status != "converged" or hot.content is None or not refined.starved:
         return None
-    posed = grid_problem(cold, levels_of(cold), progress, times=_CARRYING)
-    solver = isothermal(posed, full_order=False, first_damping=_FIRST_DAMPING)
-    content, coarse = hot.content, simple
+    simple = _isothermal_from(hot, cold, simple, flooded, progress)
+    problem.tell(simple.last.level.mesh, simple.error)
+    return simple, refined
+
+
+def _isothermal_from(
+    hot: GridSolution,
+    cold: FilmProblem,
+    coarse: StarvedSolution,
+    flooded: GridSolution,
+    progress: Progress | None,
+) -> StarvedSolution:
+    """Starved film without heat, the solution of ``cold``, from the film with heat on the same grid.
+
+    ``coarse`` contains the films without heat on the coarser grids, and ``flooded`` is a flooded film on this
+    grid.
+    """
+    content, supply = hot.content, cold.supply
+    assert content is not None
+    assert supply is not None
+    posed = grid_problem(cold, levels_of(cold), progress, times=CARRYING)
+    # The temperature is far from the temperature of the guess.
+    solver = isothermal(posed, full_order=False, first_damping=FIRST_DAMPING)
     # The film without heat is a comparison: a scheme that converges more often is close enough.
     schemes = (content.supply.scheme.simpler, content.supply.scheme)
     for scheme in (each for each in schemes if each is not None):
@@ -242,8 +260,7 @@ def _from_coarser_grid(
         simple = starved_on_grids([last], supply, coarse.solutions, coarse.layer)
         if simple.last.status == "converged":
             break
-    problem.tell(simple.last.level.mesh, simple.error)
-    return simple, refined
+    return simple
 
 
 def _changed(fine: HeatedGrid, before: HeatedGrid, after: HeatedGrid, mass: Array) -> HeatedGrid:
@@ -377,23 +394,32 @@ def _starved(
     grids the films keep their temperatures.
     """
     assert problem.supply is not None
-    cold = {film.level.mesh.shape: film for film in simple.solutions}
-    grids = [_with_supply(grid, cold.get(grid.level.mesh.shape)) for grid in hot_grids]
-    refined = starved_on_grids(grids, problem.supply)
+    refined = starved_on_grids(_with_supplies(hot_grids, simple), problem.supply)
     warm, flooded = refined.last, list(hot_grids)
     while problem.nodes < simple.problem.nodes:
         finer = None
         if isinstance(warm, HeatedGrid) and refined.last.status == "converged":
             posed = problem.doubled()
             flooded.append(_on_grid(posed, flooded, simple, _frozen(hot_grids[-1]), progress))
-            starved = _with_supply(flooded[-1], cold.get(flooded[-1].level.mesh.shape), _frozen(warm))
-            finer = starved_on_grids([starved], problem.supply, refined.solutions, refined.layer)
+            starved = _with_supplies(flooded[-1:], simple, _frozen(warm))
+            finer = starved_on_grids(starved, problem.supply, refined.solutions, refined.layer)
         if finer is None or finer.last.status != "converged":
             # The last grid with both films counts.
             coarser = replace(problem, physics=None, target_error=None)
             return film_method(coarser)(coarser, progress), refined
         problem, refined = posed, finer
     return simple, refined
+
+
+def _with_supplies(
+    flooded: list[HeatedGrid], simple: StarvedSolution, frozen: FrozenTemperature | None = None
+) -> list[StarvedProblem]:
+    """Starved films with heat to be solved on the grids of flooded films, see ``_with_supply``.
+
+    ``simple`` contains the starved films without heat.
+    """
+    cold = {film.level.mesh.shape: film for film in simple.solutions}
+    return [_with_supply(grid, cold.get(grid.level.mesh.shape), frozen) for grid in flooded]
 
 
 def _with_supply(

@@ -102,8 +102,8 @@ def _factors(
     ``stencils`` and the masks (nx, ny) cover all lines.
     """
     band = half_band(gap.level)
-    of_lines = tuple(Stencil(part.coefficients[:ALONG, :, lines]) for part in stencils)
-    rows = _rows(gap, (of_lines[0], of_lines[1]), distributed[:, lines], band)
+    by_p, by_h = (Stencil(part.coefficients[:ALONG, :, lines]) for part in stencils)
+    rows = _rows(gap, (by_p, by_h), distributed[:, lines], band)
     rows[~full_film[:, lines].T, 2 * band] = 1.0
     factorised = scipy.linalg.lapack.sgbtrf if rows.dtype == np.float32 else scipy.linalg.lapack.dgbtrf
     # The rows of the matrix are the columns of its transpose, which LAPACK factorises.

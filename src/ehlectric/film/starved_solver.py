@@ -48,7 +48,7 @@ def forms_again(full_film: Mask) -> bool:
 
 
 # Damping of the first Newton step of a film that did not converge without damping.
-_FIRST_DAMPING = 1.0
+FIRST_DAMPING = 1.0
 
 
 def conserving_film(problem: GridProblem, start: tuple[State, Mask], order: int) -> GridSolution:
@@ -63,7 +63,7 @@ def conserving_film(problem: GridProblem, start: tuple[State, Mask], order: int)
     apart, films = replace(problem, asperities=Asperities()), []
     # The last scheme differs only where surfaces may touch.
     for scheme in SCHEMES[:-1]:
-        for damping in (0.0, _FIRST_DAMPING):
+        for damping in (0.0, FIRST_DAMPING):
             solved = isothermal(apart, first_damping=damping)
             films.append(solved(guess, flooded_inlet(problem.level, order, scheme)))
             if films[-1].status == "converged":

@@ -23,7 +23,7 @@ In the end it is infinite, so that the film is a solution of the stationary equa
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -232,12 +232,11 @@ def touching_films(
     starts = [replace(dry, contact_pressure=0.0), dry]
     if film_guess <= boundary_film:
         starts.reverse()
-    at_once: list[Callable[[], GridSolution]] = [partial(touching_newton, problem, start) for start in starts]
+    at_once = [partial(touching_newton, problem, start) for start in starts]
     long = replace(problem, max_iterations=_IN_TIME * problem.max_iterations)
-    in_time: list[Callable[[], GridSolution]]
     in_time = [partial(pseudo_transient_film, long, dry)] if thorough else []
     # Newton's method from the dry contact seldom converges on fine grids of line contacts.
-    line = problem.level.mesh.y.size == 1
+    line = problem.level.mesh.dy is None
     for solved in in_time + at_once if line else at_once + in_time:
         yield (film := solved())
         if film.status == "converged" or not thorough:
