@@ -247,6 +247,7 @@ def moving(geometry, **effects):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize("hot", [False, True])
 @pytest.mark.parametrize("starved", [False, True])
 def test_without_motion_every_film_stays(hot, starved):

@@ -280,21 +280,8 @@ class Stream:
         """Flow of a time step with a pressure (nx, ny) [Pa] at its end; compression in time also heats."""
         rate = self.expansion * (pressure - earlier.pressure) / earlier.step
         by_pressure = self.compression_p + self.expansion / earlier.step
-        through = self.through
-        if through is not None:
-            # What a column stores does not pass through the faces behind it.
-            weights = self.across.weights[:, np.newaxis, np.newaxis]
-            stored = self.dx / earlier.step * np.sum(weights * (self.mass - earlier.mass), axis=0)
-            along = through[0].copy()
-            along[1:] -= np.cumsum(stored[1:-1], axis=0)
-            through = along, through[1]
-        return replace(
-            self,
-            compression=self.compression + rate,
-            compression_p=by_pressure,
-            earlier=earlier,
-            through=through,
-        )
+        compression = self.compression + rate
+        return replace(self, compression=compression, compression_p=by_pressure, earlier=earlier)
 
 
 @dataclass(frozen=True, eq=False)

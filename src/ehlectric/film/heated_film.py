@@ -14,6 +14,7 @@ import numpy as np
 from ehlectric.arrays import Array, Mask
 from ehlectric.film.across_film import Across
 from ehlectric.film.energy_equation import (
+    Earlier,
     FrozenTemperature,
     Heat,
     Mixing,
@@ -310,31 +311,36 @@ class OuterIteration:
         return np.maximum(scales.pressure * state.oil_pressure, scales.ambient_pressure)
 
     def stream(
-        self, solution: GridSolution, heat: Heat, flow: ShearedFlow, filled: Array | None = None
+        self,
+        solution: GridSolution,
+        heat: Heat,
+        flow: ShearedFlow,
+        filled: Array | None = None,
+        earlier: Earlier | None = None,
     ) -> Stream:
         """Flow of the energy equation at a film and a temperature.
 
-        ``filled`` (nx, ny) is the part of the gap that oil fills; None of a stationary film.
+        ``filled`` (nx, ny) is the part of the gap that oil fills, and ``earlier`` the oil before a time step;
+        None of a stationary film.
         """
         scales, thermal, mesh = self.problem.scales, self.physics.thermal, self.level.mesh
         assert thermal is not None
         state, gap = solution.state, solution.state.thickness
-        if filled is None:
-            filled = self.filled(solution)
-            along, across = self._through(solution, filled)
-            speed = node_mean(along) / (filled * solution.final.coefficients.density * gap)
-            columns = flow.columns_that_pass(self.problem.fluid, state.oil_pressure, gap, mesh, speed)
-        else:
-            # The flow of a transient film also depends on the oil that the gap stores.
-            along, across = self._through(solution, filled)
-            columns = self.columns(solution, flow)
+        filled, pressure = self.filled(solution) if filled is None else filled, self.pressure(state)
+        along, across = self._through(solution, filled)
         unit = scales.thickness * self.physics.mean_speed
         unit *= float(thermal.oil.density(np.zeros(1), np.full(1, thermal.inlet_temperature)).value[0])
-        return stream_of(
+        if earlier is not None:
+            # What a column stores does not pass through the faces behind it.
+            mass = filled * scales.thickness * gap * thermal.oil.density(pressure, heat.temperature).value
+            along[1:] -= np.cumsum(self._stored(mass, earlier)[1:-1] / unit, axis=0)
+        full = filled * solution.final.coefficients.density * gap
+        speed = np.divide(node_mean(along), full, out=np.full(mesh.shape, np.nan), where=full > 0.0)
+        stream = stream_of(
             thermal.oil,
-            columns,
+            flow.columns_that_pass(self.problem.fluid, state.oil_pressure, gap, mesh, speed),
             heat.temperature,
-            pressure=self.pressure(state),
+            pressure=pressure,
             thickness=scales.thickness * gap,
             filled=filled,
             mesh=mesh,
@@ -345,6 +351,15 @@ class OuterIteration:
             rubbing=self._rubbing(state),
             through=(unit * along, unit * across),
         )
+        return stream if earlier is None else stream.in_time(earlier, pressure)
+
+    def _stored(self, mass: Array, earlier: Earlier) -> Array:
+        """Mass flow [kg/(m s)] that the columns store in a time step, shape (nx, ny).
+
+        ``mass`` [kg/m^2] is the mass of the oil at the nodes across the film, shape (nz, nx, ny).
+        """
+        gained = np.tensordot(Across.of(len(mass) - 1).weights, mass - earlier.mass, axes=1)
+        return np.asarray(self.level.mesh.dx * self.problem.scales.length / earlier.step * gained)
 
     def _through(self, solution: GridSolution, filled: Array) -> tuple[Array, Array]:
         """Mass flow through the faces along x and across it, dimensionless; NaN on the sides of the domain.

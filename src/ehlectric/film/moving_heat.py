@@ -96,10 +96,8 @@ class MovingHeat:
     ) -> Warmth | None:
         """Heat after a time step T, from the temperature of a last turn; None if it is not finite."""
         seconds, pressure = step * self.time_scale, self.iteration.pressure(solution.state)
-        stream = self._stream(solution, heat, filled)
-        stream = stream.in_time(
-            Earlier(before.heat.temperature, before.mass, before.pressure, seconds), pressure
-        )
+        earlier = Earlier(before.heat.temperature, before.mass, before.pressure, seconds)
+        stream = self._stream(solution, heat, filled, earlier)
         now = float(before.times[-1]) + seconds
         surfaces = self._surface(0, before, now, seconds), self._surface(1, before, now, seconds)
         new = finite_heat(stream, surfaces, heat, self.thermal.inlet_temperature)
@@ -134,9 +132,12 @@ class MovingHeat:
         downstream[0] = response
         return Surface(known, downstream, np.zeros(nodes))
 
-    def _stream(self, solution: GridSolution, heat: Heat, filled: Array) -> Stream:
+    def _stream(
+        self, solution: GridSolution, heat: Heat, filled: Array, earlier: Earlier | None = None
+    ) -> Stream:
         """Flow of the energy equation at a film and a temperature."""
-        return self.iteration.stream(solution, heat, self.iteration.flow(solution.state, heat), filled)
+        flow = self.iteration.flow(solution.state, heat)
+        return self.iteration.stream(solution, heat, flow, filled, earlier)
 
 
 def shifted(values: Array, way: float) -> Array:
