@@ -81,17 +81,22 @@ def _add_deflection(matrix: Array, gap: Gap, by_h: Stencil, nodes: Mask) -> None
     flat = table.ravel()
     i, j = np.nonzero(nodes)
     place = i * lines + j
+    parts, rows, of = [], [], []
     for coefficients, (q, p) in zip(by_h.coefficients, OFFSETS, strict=False):
-        part = coefficients[nodes].astype(matrix.dtype)
-        rows = np.flatnonzero(part)
-        if not rows.size:
-            continue
-        here = (place[rows] + (q * lines + p + centre))[:, np.newaxis]
-        influence = flat[here - place]
-        if deflection.symmetric:
-            mirrored = np.flatnonzero(j)
-            influence[:, mirrored] += flat[here - (i * lines - j)[mirrored]]
-        matrix[rows] += part[rows, np.newaxis] * influence
+        part = coefficients[nodes]
+        at = np.flatnonzero(part)
+        parts.append(part[at])
+        rows.append(at)
+        of.append(place[at] + (q * lines + p))
+    # The gap of a node enters the rows of several nodes: its influence coefficients are read once.
+    gaps, column = np.unique(np.concatenate(of), return_inverse=True)
+    here = (gaps + centre)[:, np.newaxis]
+    influence = flat.take(here - place)
+    if deflection.symmetric:
+        mirrored = np.flatnonzero(j)
+        influence[:, mirrored] += flat.take(here - (i * lines - j)[mirrored])
+    weights = np.concatenate(parts).astype(matrix.dtype), (np.concatenate(rows), column)
+    matrix += scipy.sparse.csr_array(weights, shape=(len(place), len(gaps))) @ influence
 
 
 def _add_flow(matrix: Array, by_p: Stencil, nodes: Mask) -> None:
