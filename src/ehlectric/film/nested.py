@@ -236,6 +236,8 @@ def _mixed(
     if full.status != "converged" or not forms_again(full.final.full_film):
         return grids
     attempts = [(guess_of(full), scheme) for scheme in SCHEMES]
+    if from_coarse is not None:
+        attempts = attempts[1:]
     if from_coarse is not None and finest:
         # From there the usual scheme did not converge.
         attempts += [(from_coarse, scheme) for scheme in SCHEMES[1:]]
