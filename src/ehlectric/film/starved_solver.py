@@ -120,15 +120,17 @@ def of_full_order(problem: GridProblem, film: GridSolution, supply: Supply) -> G
     """
     if film.status != "converged" or film.content is None:
         return film
+    start, filled = film.state, film.content.filled
     for closer in (_CLOSER * problem.tolerance, problem.tolerance):
         posed = replace(problem, max_iterations=_AGAIN, tolerance=closer)
-        carried = Carried(supply, film.content.filled)
-        again = touching_newton(posed, film.state, first_damping=0.0, carried=carried)
+        again = touching_newton(posed, start, first_damping=0.0, carried=Carried(supply, filled))
         if again.status == "converged":
             return replace(again, steps=film.steps + again.steps)
         if min(again.final.norm, *(step.residual for step in again.steps)) > problem.tolerance:
             # The steps to the larger residual do not change.
             break
+        if again.final.norm <= problem.tolerance and again.content is not None:
+            start, filled = again.state, again.content.filled
     return film
 
 

@@ -523,8 +523,9 @@ def touching_newton(
         close = linear_tolerance(now.norm, before, 0.0) if loose else LINEAR_TOLERANCE
         before = now.norm
         weighted = now.carried is not None and now.carried.supply.scheme.continuous
-        part = _part(best, len(steps) - best_step) if weighted else 1.0
-        step = newton_step(fluid, problem.levels, state, now, asperities, close, damping, part)
+        part, frozen = _part(best, len(steps) - best_step) if weighted else (1.0, False)
+        here = _with_frozen_weights(now) if frozen else now
+        step = newton_step(fluid, problem.levels, state, here, asperities, close, damping, part)
         steps.append(step.record)
         assessed = step.now
         thinnest = max(float(np.min(step.state.thickness)), asperities.boundary_film)
@@ -549,19 +550,23 @@ def touching_newton(
 
 # Residual below which Newton steps are shortened where it does not fall, the number of steps in which it has
 # to halve, and the parts of the steps after each of these numbers, which begin again after the last one.
-_CLOSE_TO, _WITHIN, _PARTS = 1e-2, 4, (1.0, 0.5, 0.25, 0.1)
+_CLOSE_TO, _WITHIN = 1e-2, 4
+_PARTS = ((1.0, False), (1.0, True), (1.0, True), (0.5, True), (0.5, True), (0.25, False))
 
 
-def _part(best: float, waited: int) -> float:
-    """Largest part of the next Newton step, smaller where the last steps go in a circle.
-
-    ``best`` is the smallest residual that was half of the one before, and ``waited`` the number of steps
-    since then. The weight of a node changes with its pressure, so that full steps may alternate between two
-    states on either side of the solution.
-    """
+def _part(best: float, waited: int) -> tuple[float, bool]:
     if best > _CLOSE_TO:
-        return 1.0
+        return 1.0, False
     return _PARTS[waited // _WITHIN % len(_PARTS)]
+
+
+def _with_frozen_weights(now: Touching) -> Touching:
+    carried = now.carried
+    if carried is None or carried.supply.fullness is None:
+        return now
+    fullness = carried.supply.fullness
+    fullness = replace(fullness, slope=np.zeros_like(fullness.slope))
+    return replace(now, carried=replace(carried, supply=replace(carried.supply, fullness=fullness)))
 
 
 @dataclass(frozen=True)
