@@ -9,7 +9,7 @@ from ehlectric import Case, load, save, solve
 from ehlectric.film.dry_contact import dry_contact, relieved
 from ehlectric.film.nested import levels_of
 from ehlectric.film.newton import GridProblem, State
-from ehlectric.film.touching_film import touching_newton
+from ehlectric.film.touching_newton import touching_newton
 from tests.helpers.mixed_films import gaussian, posed, rough_point
 
 # Half-width 13 um, and waves higher than the indentation.

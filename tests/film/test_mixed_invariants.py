@@ -11,7 +11,8 @@ from ehlectric.film.dry_contact import dry_contact
 from ehlectric.film.nested import levels_of
 from ehlectric.film.newton import State
 from ehlectric.film.oil_content import Carried
-from ehlectric.film.touching_film import assess_touching, is_solved, newton_step
+from ehlectric.film.touching_film import assess_touching
+from ehlectric.film.touching_newton import is_solved, newton_step
 from tests.helpers.mixed_films import gaussian, mixed_film, on_few_nodes, rough_line, rough_point, sinusoid
 
 pytestmark = pytest.mark.convergence

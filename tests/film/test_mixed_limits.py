@@ -7,7 +7,7 @@ import pytest
 
 from ehlectric.film.nested import grid_problem, levels_of
 from ehlectric.film.newton import GridProblem, State
-from ehlectric.film.touching_film import touching_newton
+from ehlectric.film.touching_newton import touching_newton
 from tests.film import dry_contact
 from tests.helpers.mixed_films import (
     MixedFilm,

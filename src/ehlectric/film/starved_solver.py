@@ -21,7 +21,7 @@ from ehlectric.film.mesh import at_centre
 from ehlectric.film.newton import Asperities, GridProblem, GridSolution, Guess, State
 from ehlectric.film.oil_content import SCHEMES, USUAL, Carried, Scheme, Supply, carried_rows
 from ehlectric.film.problem import FilmProblem
-from ehlectric.film.touching_film import touching_newton
+from ehlectric.film.touching_newton import touching_newton
 
 # Largest number of Newton steps from a solution whose scheme has lower order at some nodes.
 _AGAIN = 25

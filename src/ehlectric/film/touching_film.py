@@ -1,4 +1,4 @@
-"""Films whose surfaces touch at some nodes: the residual, its Jacobian, and the Newton-Krylov iteration.
+"""Films whose surfaces touch at some nodes: the residual and its Jacobian.
 
 The surfaces touch where the gap is as thin as the boundary film that adheres to them, H = H_s. There the
 contact pressure P_c of the asperities adds to the pressure P of the oil. Every node fulfils
@@ -27,8 +27,7 @@ Hertz zone of a heavy contact, and the V-cycles of the film (``ehlectric.film.mu
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -38,25 +37,16 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.film.cavitation import full_film_nodes, with_refilled_nodes
 from ehlectric.film.face_flow import Flow, Fluid, flow
 from ehlectric.film.gap import Gap
-from ehlectric.film.gmres import flexible_gmres
 from ehlectric.film.levels import DIPOLE, Level
 from ehlectric.film.multigrid import Linearised, cycled
 from ehlectric.film.newton import (
-    LINEAR_TOLERANCE,
     LOAD_WEIGHT,
-    SMALLEST_GAP,
     Asperities,
-    GridProblem,
-    GridSolution,
-    NewtonStep,
     Residual,
     State,
-    Status,
-    linear_tolerance,
 )
 from ehlectric.film.oil_content import (
     Carried,
-    MaskMemory,
     behind_cavities,
     filled_anew,
     of_filled,
@@ -455,283 +445,25 @@ def _factored(stencil: Stencil, nodes: Mask) -> scipy.sparse.linalg.SuperLU:
         raise np.linalg.LinAlgError("the flow of the oil has a singular matrix") from error
 
 
-# Largest change of Q in a Newton step.
-_PRESSURE_STEP = 0.5
+def with_oil_step(fluid: Fluid, level: Level, state: State, now: Touching) -> State:
+    """State after one Newton step for the pressure of the oil in the spots and the mass in cavities.
 
-# Part of the gap above the boundary film that a step may close, in addition to half of the boundary film;
-# part of the closing nodes that may close further, as single nodes that come into contact; and the smallest
-# part of a step.
-_CLOSING, _FURTHER, _LEAST_STEP = 0.9, 0.002, 0.05
-
-# Residual of the oil where surfaces touch, a pressure over p_h, that is small enough: it does not move the
-# gap.
-OIL_TOLERANCE = 1e-6
-
-# Largest number of GMRES iterations per Newton step.
-_KRYLOV_LIMIT = 100
-
-# Damping of a Newton step at most, the least one when it is raised, and the factors by which it falls and
-# rises. It falls after a step of more than half its largest length that reduces the residual. Without
-# damping, nodes at the edges of spots come into contact and leave it in turn, and nodes at the edges of
-# cavities are filled and cavitate in turn.
-_MOST_DAMPING, _LEAST_RAISED = 4.0, 0.1
-_FALL, _RISE, _LONG = 0.3, 2.0, 0.5
-
-# Largest number of nodes of a line contact whose linear systems are solved loosely. A linear system that is
-# not solved closely leaves errors in the inlet. On fine grids films with cavities do not converge then.
-_LOOSE_LINE = 401
-
-# Steps after which the iteration ends if they have not halved the smallest residual so far. Of 290 films that
-# converged two took longer.
-_PATIENCE = 30
-
-# Changes of a node, from filled to cavitated or back, above which it goes in a circle.
-_MOST_CHANGES = 4
-
-# Residual below which there is no damping, and the factor by which it falls where a step without damping ends
-# above it.
-_NEAR, _NEARER = 1e-3, 0.03
-
-
-def touching_newton(
-    problem: GridProblem,
-    state: State,
-    *,
-    first_damping: float = 1.0,
-    carried: Carried | None = None,
-    min_iterations: int = 0,
-) -> GridSolution:
-    """Last iterate of Newton's method on one grid, where the surfaces may touch.
-
-    Where the oil in cavities is carried through them, ``carried`` has the nodes that oil fills in the initial
-    guess. The state of the result contains the contact pressure.
+    The gap and the sum of the pressures of oil and asperities do not change. The state itself where no oil is
+    in a spot, or where its flow has a singular matrix.
     """
-    fluid, level, tolerance = problem.fluid, problem.level, problem.reachable_tolerance
-    asperities = problem.asperities
-    loose = level.mesh.dy is not None or level.nodes <= _LOOSE_LINE
-    steps: list[NewtonStep] = []
-    now, memory = assess_touching(fluid, level, state, asperities, carried), MaskMemory(_MOST_CHANGES)
-    before, damping, near = np.inf, first_damping, _NEAR
-    best, best_step = np.inf, 0  # smallest residual that was half of the one before, and its step
-    status: Status = "stalled"
-    while len(steps) < min(problem.max_iterations, best_step + _PATIENCE):
-        if len(steps) >= min_iterations and is_solved(now, tolerance, with_oil=not problem.only_start):
-            break
-        problem.report(steps, now.norm)
-        if now.norm < 0.5 * best:
-            best, best_step = now.norm, len(steps)
-        close = linear_tolerance(now.norm, before, 0.0) if loose else LINEAR_TOLERANCE
-        before = now.norm
-        weighted = now.carried is not None and now.carried.supply.scheme.continuous
-        part, frozen = _part(best, len(steps) - best_step) if weighted else (1.0, False)
-        here = _with_frozen_weights(now) if frozen else now
-        step = newton_step(fluid, problem.levels, state, here, asperities, close, damping, part)
-        steps.append(step.record)
-        assessed = step.now
-        thinnest = max(float(np.min(step.state.thickness)), asperities.boundary_film)
-        if not (np.isfinite(assessed.norm) and thinnest > SMALLEST_GAP):
-            status = "diverged"
-            break
-        state = step.state
-        if now.carried is not None and assessed.carried is not None and not assessed.settled:
-            filled, moved = now.carried.filled, assessed.carried.filled
-            supply = memory.supply_after(assessed.carried.supply, filled, moved)
-            assessed = replace(assessed, carried=replace(assessed.carried, supply=supply))
-        better = assessed.norm < now.norm and step.length > _LONG * part
-        damping = _FALL * damping if better else min(_MOST_DAMPING, max(_RISE * damping, _LEAST_RAISED))
-        near = _NEARER * near if now.norm <= near < assessed.norm else near
-        damped = asperities.boundary_film > 0.0 and (carried is not None or assessed.contact.any())
-        damping = damping if damped and assessed.norm > near else 0.0
-        now = assessed
-        if now.norm <= tolerance and not is_solved(now, tolerance):
-            state, now = _with_oil_solved(fluid, level, state, now, asperities, tolerance)
-    if is_solved(now, tolerance, with_oil=not problem.only_start):
-        status = "converged"
-    return grid_solution(level, projected(fluid, state, now.contact), now, steps, status)
-
-
-def _with_oil_solved(
-    fluid: Fluid, level: Level, state: State, now: Touching, asperities: Asperities, tolerance: float
-) -> tuple[State, Touching]:
-    """Film with the oil of its spots solved at its gap, from a film whose other equations hold.
-
-    The end of a cavity moves through a spot by one node in each step. Here such a step takes no linear system of
-    the whole film. The film itself where other equations no longer hold.
-    """
-    tried, assessed = state, now
-    for _ in range(level.nodes):
-        if is_solved(assessed, tolerance):
-            return tried, assessed
-        carried = assessed.carried
-        if carried is None or assessed.norm > tolerance:
-            break
-        oil = assessed.contact & assessed.full_film
-        rest = oil | carried.hollow
-        if not rest.any():
-            break
-        by_p, _ = _damped(level, assessed.flow, assessed.thickness, 0.0, carried)
-        by_p = by_p.on_rows(assessed.full_film | carried.hollow)
-        resting = fluid.ambient_pressure + level.edge_excess - tried.oil_pressure
-        to_ambient = np.where(assessed.contact & ~assessed.full_film, resting, 0.0)
-        right = -assessed.reynolds - by_p(to_ambient)
-        try:
-            solved = _factored(_by_mass(level, by_p, carried.hollow, 0.0), rest).solve(right[rest])
-        except np.linalg.LinAlgError:
-            break
-        change = to_ambient.copy()
-        change[rest] += np.where(oil[rest], solved, 0.0)
-        oil_pressure = tried.oil_pressure + change
-        tried = projected(
-            fluid, replace(tried, contact_pressure=tried.pressure - oil_pressure), assessed.contact
-        )
-        assessed = assess_touching(fluid, level, tried, asperities, carried)
-    return state, now
-
-
-# Residual below which Newton steps are shortened where it does not fall, the number of steps in which it has
-# to halve, and the parts of the steps after each of these numbers, which begin again after the last one.
-_CLOSE_TO, _WITHIN = 1e-2, 4
-_PARTS = ((1.0, False), (1.0, True), (1.0, True), (0.5, True), (0.5, True), (0.25, False))
-
-
-def _part(best: float, waited: int) -> tuple[float, bool]:
-    if best > _CLOSE_TO:
-        return 1.0, False
-    return _PARTS[waited // _WITHIN % len(_PARTS)]
-
-
-def _with_frozen_weights(now: Touching) -> Touching:
     carried = now.carried
-    if carried is None or carried.supply.fullness is None:
-        return now
-    fullness = carried.supply.fullness
-    fullness = replace(fullness, slope=np.zeros_like(fullness.slope))
-    return replace(now, carried=replace(carried, supply=replace(carried.supply, fullness=fullness)))
-
-
-@dataclass(frozen=True)
-class Stepped:
-    """Film after one Newton step."""
-
-    state: State  # pressures, H00 and gap
-    now: Touching
-    length: float  # part of the full Newton step that was taken
-    record: NewtonStep  # residual before the step, and its GMRES iterations
-
-
-def newton_step(
-    fluid: Fluid,
-    levels: list[Level],
-    state: State,
-    now: Touching,
-    asperities: Asperities,
-    close: float,
-    damping: float = 0.0,
-    part: float = 1.0,
-) -> Stepped:
-    """Film on the first of ``levels`` after the part of a Newton step that keeps P and H within limits.
-
-    ``part`` is the largest part of the step that is taken.
-    """
-    level = levels[0]
-    state = projected(fluid, state, now.contact)
+    if carried is None or not (now.contact & now.full_film).any():
+        return state
+    oil, hollow = now.contact & now.full_film, carried.hollow
+    rest = oil | hollow
+    by_p = _damped(level, now.flow, now.thickness, 0.0, carried)[0].on_rows(now.full_film | hollow)
+    resting = fluid.ambient_pressure + level.edge_excess
+    change = np.where(now.contact & ~now.full_film, resting - state.oil_pressure, 0.0)
+    right = -now.reynolds - by_p(change)
     try:
-        jacobian = TouchingJacobian.of(fluid, levels, state.oil_pressure, now, damping)
+        solved = _factored(_by_mass(level, by_p, hollow, 0.0), rest).solve(right[rest])
     except np.linalg.LinAlgError:
-        return Stepped(state, replace(now, norm=np.inf), 0.0, NewtonStep(level.nodes, now.norm, 0))
-    step = _direction(fluid, jacobian, state, now, close)
-    length = min(part, _length(level, now, step, asperities.boundary_film))
-    moved = _moved(level, state, now.contact, step, length)
-    state = _released(level, moved, projected(fluid, moved, now.contact), asperities.boundary_film)
-    record = NewtonStep(level.nodes, now.norm, step.krylov)
-    assessed = assess_touching(fluid, level, state, asperities, now.carried)
-    return Stepped(state, assessed, length, record)
-
-
-@dataclass(frozen=True)
-class _Step:
-    """Full Newton step."""
-
-    # pressure and oil: changes of Q, and of P where the surfaces touch, shape (nx, ny).
-    pressure: Array
-    oil: Array
-    h00: float
-    krylov: int  # number of GMRES iterations
-
-
-def _moved(level: Level, state: State, contact: Mask, step: _Step, length: float) -> State:
-    """State after a part ``length`` of a Newton step."""
-    pressure = state.pressure + length * step.pressure
-    oil = np.where(contact, state.oil_pressure + length * step.oil, pressure)
-    pressure = np.maximum(pressure, 0.0)
-    return State.of(level, pressure, state.h00 + length * step.h00, pressure - oil)
-
-
-def _released(level: Level, moved: State, state: State, boundary_film: float) -> State:
-    """Projected state of a Newton step, whose nodes with negative contact pressure in the step open.
-
-    The gap of a node in contact is the boundary film up to the error of the linear solution. Without contact
-    pressure, only this error would decide whether the surfaces still touch.
-    """
-    least = np.minimum((state.thickness - boundary_film) / node_compliance(level), 0.0)
-    opens = (moved.contact_pressure < 0.0) & (moved.contact_pressure <= least)
-    return replace(state, contact_pressure=np.where(opens, least, state.contact_pressure))
-
-
-def is_solved(now: Touching, tolerance: float, *, with_oil: bool = True) -> bool:
-    """Whether all equations hold within a tolerance, the equations of the oil where surfaces touch within
-    1e-6. Unless ``with_oil``, these equations, and the nodes that oil fills, are not checked.
-    """
-    if not with_oil:
-        return now.norm <= tolerance
-    return now.settled and now.norm <= tolerance and now.oil_norm <= max(tolerance, OIL_TOLERANCE)
-
-
-def grid_solution(
-    level: Level, state: State, now: Touching, steps: Sequence[NewtonStep], status: Status
-) -> GridSolution:
-    """Solution on a grid, with the residual in the form of a film without contact."""
-    # The gap of flattened asperities is the boundary film. This also holds for asperities at the edges,
-    # where no pressure opens the gap, and wherever an iterate that did not converge sinks into the other
-    # surface.
-    of_flow = now.plastic | level.mesh.edge | (status != "converged")
-    state = replace(state, thickness=np.where(of_flow, now.thickness, state.thickness))
-    final = Residual(**{each.name: getattr(now, each.name) for each in fields(Residual)})
-    return GridSolution(level, state, final, tuple(steps), status, now.carried)
-
-
-def _direction(
-    fluid: Fluid, jacobian: TouchingJacobian, state: State, now: Touching, tolerance: float
-) -> _Step:
-    """Full Newton step at a state, from the linear system solved to a relative tolerance."""
-    finest = jacobian.finest
-    resting = fluid.ambient_pressure + finest.level.edge_excess
-    to_ambient = np.where(now.full_film, 0.0, resting - state.oil_pressure)
-    given = np.where(now.contact, now.to_hardness, to_ambient)
-    right, oil = jacobian.right_side(now, to_ambient, given)
-    load = now.load - finest.gap.load(given)
-    solution, cycles = flexible_gmres(
-        jacobian.image,
-        jacobian.precondition,
-        np.append(finest.scale * right, load),
-        tolerance=tolerance,
-        limit=_KRYLOV_LIMIT,
-    )
-    dh00 = float(solution[-1])
-    dq = solution[:-1].reshape(now.contact.shape)
-    dh, _ = finest.gap.change(dq + given, dh00)
-    dp = np.where(now.full_film, jacobian.oil_of(oil, dq, dh), to_ambient)
-    return _Step(dq + given, dp, dh00, cycles)
-
-
-def _length(level: Level, now: Touching, step: _Step, boundary_film: float) -> float:
-    """Part of a full Newton step that keeps the changes of Q and of the open gap within their limits."""
-    length = min(1.0, _PRESSURE_STEP / max(float(np.max(np.abs(step.pressure))), 1e-300))
-    dh = level.deflection(step.pressure) + step.h00
-    # The nodes of the mirror image count, so that a contact and half of it take the same step.
-    dh, room = (level.mesh.mirrored(values) for values in (dh, now.thickness - boundary_film))
-    closing = (dh < 0.0) & ~level.mesh.mirrored(now.contact)
-    if closing.any():
-        room = _CLOSING * room[closing] + 0.5 * boundary_film
-        length = min(length, float(np.quantile(room / -dh[closing], _FURTHER)))
-    return max(length, _LEAST_STEP)
+        return state
+    change[oil] = solved[oil[rest]]
+    contact_pressure = state.contact_pressure - change
+    return projected(fluid, replace(state, contact_pressure=contact_pressure), now.contact)

@@ -37,15 +37,13 @@ from ehlectric.film.newton import Asperities, GridProblem, GridSolution, Guess, 
 from ehlectric.film.oil_content import SCHEMES, Scheme, Supply
 from ehlectric.film.reynolds import Stencil
 from ehlectric.film.starved_solver import flooded_inlet, isothermal, of_full_order, with_inlet
-from ehlectric.film.touching_film import (
+from ehlectric.film.touching_film import Touching, assess_touching, projected
+from ehlectric.film.touching_newton import (
     OIL_TOLERANCE,
     Stepped,
-    Touching,
-    assess_touching,
     grid_solution,
     is_solved,
     newton_step,
-    projected,
     touching_newton,
 )
 

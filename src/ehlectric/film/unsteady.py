@@ -51,7 +51,7 @@ from ehlectric.film.nested import levels_of
 from ehlectric.film.newton import GridProblem, GridSolution, State, assess, newton
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.reynolds import ALONG, Stencil, residual
-from ehlectric.film.touching_film import touching_newton
+from ehlectric.film.touching_newton import touching_newton
 
 # Distance in grid spacings within which the foot of a line counts as a node.
 SAME_NODE = 1e-9

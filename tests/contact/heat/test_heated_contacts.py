@@ -16,7 +16,7 @@ from ehlectric.discharge.film_breakdown import FieldUtilisation
 from ehlectric.errors import DamagedError
 from ehlectric.figures.contact_figure_files import figure
 from ehlectric.figures.contact_findings import temperature_text
-from ehlectric.film import heated_film, touching_film
+from ehlectric.film import heated_film, touching_newton
 from ehlectric.film.across_film import Across
 from ehlectric.paper.paper_contacts import PAPER
 from ehlectric.runtime.netcdf import read_dataset
@@ -299,7 +299,7 @@ def test_a_film_that_did_not_converge_has_no_friction(tmp_path, monkeypatch):
     contact = HOT_LINE["contact"] | {"entrainment_speed": 0.003}
     table = HOT_LINE | {"contact": contact, "grid": {"nodes": 101}, "film": {"rheology": "eyring"}}
     with monkeypatch.context() as patch:
-        patch.setattr(touching_film, "_PATIENCE", 1)
+        patch.setattr(touching_newton, "_PATIENCE", 1)
         result = solve(Case.from_dict(table))
     assert not result.converged
     save(result, tmp_path)
