@@ -1,8 +1,8 @@
 """Processor time of films that are hard to solve: very thin, hot and touching, rough on a measured map.
 
 Run by hand: ``python -m benchmarks.hard_films``, or with names of parts: ``thin``, ``hot``, ``starved``,
-``maps``, ``apart`` and ``touching``. Times depend on the machine: compare two versions of the package in one run, the
-other one by ``PYTHONPATH=path/to/its/src``.
+``maps``, ``apart`` and ``touching``. Times depend on the machine: compare two versions of the package by runs
+at the same time, each from its own checkout.
 """
 
 from __future__ import annotations
@@ -90,7 +90,7 @@ def maps() -> Iterator[tuple[str, Callable[[], str]]]:
     """Measured maps whose surfaces touch."""
     tables = surfaces(point=True)
     for name in MAPS:
-        case = Contact(name, True, tables[name], MAP_NODES, MAP_LAMBDA).case()[0]
+        case = Contact(name, point=True, table=tables[name], nodes=MAP_NODES, ratio=MAP_LAMBDA).case()[0]
 
         def solve(case: ehlectric.Case = case) -> str:
             film = mixed_film(case)
@@ -105,13 +105,16 @@ def _of_seeds(example: str, change: dict[str, Any], surface: dict[str, Any]) -> 
     table["contact"] |= change
     table |= {"grid": {"nodes": SEED_NODES}}
     cases = [
-        ehlectric.Case.from_dict(table | {"roughness": [surface | {"seed": seed}]}) for seed in range(1, SEEDS + 1)
+        ehlectric.Case.from_dict(table | {"roughness": [surface | {"seed": seed}]})
+        for seed in range(1, SEEDS + 1)
     ]
 
     def solve() -> str:
         # One worker, whose processor time is the time of this process.
-        results = list(ehlectric.solve_many(cases, workers=1))
-        films = [each.summary()["film"]["central_thickness"] for each in results]
+        films = []
+        for one in ehlectric.solve_many(cases, workers=1):
+            assert one.result is not None
+            films.append(one.result.summary()["film"]["central_thickness"])
         return f"{len(films)} films, central from {1e9 * min(films):.4g} to {1e9 * max(films):.4g} nm"
 
     return solve

@@ -43,8 +43,16 @@ def test_oil_of_spots_is_solved_at_a_given_gap():
         moved = with_oil_step(fluid, level, moved, now)
         now = assess_touching(fluid, level, moved, asperities, now.carried)
     assert is_solved(now, film.problem.tolerance)
-    np.testing.assert_array_equal(moved.pressure, state.pressure)
     np.testing.assert_allclose(moved.oil_pressure, film.oil_pressure, atol=1e-6)
+
+
+def test_oil_of_cavities_that_count_as_full_stays():
+    """Without oil in its cavities, the oil of a film is not solved by itself."""
+    film = mixed_film(rough_line(NEARLY_DRY, nodes=801, speed=SPEED))
+    problem, state = film.problem, film.last.state
+    now = assess_touching(problem.fluid, film.last.level, state, problem.asperities)
+    assert now.carried is None
+    assert with_oil_step(problem.fluid, film.last.level, state, now) is state
 
 
 @pytest.mark.slow

@@ -19,7 +19,7 @@ from ehlectric.film.dry_contact import relieved
 from ehlectric.film.levels import Level, hierarchy
 from ehlectric.film.mesh import Mesh, at_centre, on_mesh
 from ehlectric.film.newton import EarlyEnd, GridProblem, GridSolution, Guess, Progress, State, newton
-from ehlectric.film.oil_content import SCHEMES, USUAL, Scheme
+from ehlectric.film.oil_content import SCHEMES, USUAL
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.reynolds import wedge_stencil
 from ehlectric.film.starved_solver import conserving_film, forms_again, with_inlet
@@ -235,25 +235,33 @@ def _mixed(
     full = grids[-1]
     if full.status != "converged" or not forms_again(full.final.full_film):
         return grids
-    *others, best = conserving.films(_attempts(guess_of(full), from_coarse, finest=finest))
+    *others, best = _carrying(conserving, guess_of(full), from_coarse, finest=finest)
     if best.status == "converged":
         return _replaced([*others, *grids], _apart(problem, levels, best, progress))
     # A film that creates oil is better than none; a warning reports it.
     return [*others, best, *grids]
 
 
-def _attempts(counted_full: Guess, from_coarse: Guess | None, *, finest: bool) -> list[tuple[Guess, Scheme]]:
-    """Starts and schemes of films that carry the oil through their cavities, the likeliest one first.
+def _carrying(
+    conserving: Conserving, counted_full: Guess, from_coarse: Guess | None, *, finest: bool
+) -> list[GridSolution]:
+    """Films that carry the oil through their cavities, the best one last, and only this one converged.
 
     ``counted_full`` is the film on the same grid that counts its cavities as full. If there is a film
     ``from_coarse``, the usual scheme did not converge from it. Films of simpler schemes are better starts
-    then, and the usual scheme follows them.
+    then, and the usual scheme follows them. From ``counted_full`` it starts last.
     """
     if from_coarse is None:
-        return [(counted_full, scheme) for scheme in SCHEMES]
+        return conserving.films([(counted_full, scheme) for scheme in SCHEMES])
     starts = [counted_full, from_coarse] if finest else [counted_full]
-    simpler = [(start, scheme) for start in starts for scheme in SCHEMES[1:]]
-    return [*simpler, (counted_full, USUAL)]
+    *others, best = conserving.films([(start, scheme) for start in starts for scheme in SCHEMES[1:]])
+    simple = best.status != "converged" or (best.content is not None and best.content.supply.scheme != USUAL)
+    if not simple or (best.status == "converged" and conserving.problem.only_start):
+        return [*others, best]
+    *_, usual = conserving.films([(counted_full, USUAL)])
+    if usual.status == "converged":
+        return [*others, replace(usual, steps=best.steps + usual.steps)]
+    return [*others, usual, best]
 
 
 def _apart(

@@ -120,12 +120,13 @@ def of_full_order(problem: GridProblem, film: GridSolution, supply: Supply) -> G
     """
     if film.status != "converged" or film.content is None:
         return film
-    start, filled = film.state, film.content.filled
+    start, filled, steps = film.state, film.content.filled, film.steps
     for closer in (_CLOSER * problem.tolerance, problem.tolerance):
         posed = replace(problem, max_iterations=_AGAIN, tolerance=closer)
         again = touching_newton(posed, start, first_damping=0.0, carried=Carried(supply, filled))
+        steps += again.steps
         if again.status == "converged":
-            return replace(again, steps=film.steps + again.steps)
+            return replace(again, steps=steps)
         if min(again.final.norm, *(step.residual for step in again.steps)) > problem.tolerance:
             # The steps to the larger residual do not change.
             break

@@ -23,6 +23,10 @@ from ehlectric.film.reynolds import OFFSETS, Stencil
 _MOST = 80.0
 
 
+# Rows of influence coefficients that are read together.
+_BLOCK = 256
+
+
 def few_enough(nodes: Mask) -> bool:
     """Whether the dense factorisation of these nodes of a grid (nx, ny) takes less time than V-cycles."""
     return 0 < int(nodes.sum()) <= int(_MOST * np.cbrt(nodes.size))
@@ -90,13 +94,15 @@ def _add_deflection(matrix: Array, gap: Gap, by_h: Stencil, nodes: Mask) -> None
         of.append(place[at] + (q * lines + p))
     # The gap of a node enters the rows of several nodes: its influence coefficients are read once.
     gaps, column = np.unique(np.concatenate(of), return_inverse=True)
-    here = (gaps + centre)[:, np.newaxis]
-    influence = flat.take(here - place)
-    if deflection.symmetric:
-        mirrored = np.flatnonzero(j)
-        influence[:, mirrored] += flat.take(here - (i * lines - j)[mirrored])
+    influence = np.empty((len(gaps), len(place)), dtype=matrix.dtype)
+    mirrored = np.flatnonzero(j)
+    for block in (slice(k, k + _BLOCK) for k in range(0, len(gaps), _BLOCK)):
+        here = (gaps[block] + centre)[:, np.newaxis]
+        influence[block] = flat.take(here - place)
+        if deflection.symmetric:
+            influence[block, mirrored] += flat.take(here - (i * lines - j)[mirrored])
     weights = np.concatenate(parts).astype(matrix.dtype), (np.concatenate(rows), column)
-    matrix += scipy.sparse.csr_array(weights, shape=(len(place), len(gaps))) @ influence
+    matrix += np.asarray(scipy.sparse.csr_array(weights, shape=(len(place), len(gaps))) @ influence)
 
 
 def _add_flow(matrix: Array, by_p: Stencil, nodes: Mask) -> None:

@@ -427,10 +427,11 @@ def _with_contact_rows(level: Level, by_h: Stencil, contact: Mask) -> Stencil:
     return Stencil(rows)
 
 
-# Options of SuperLU for matrices with a symmetric pattern and a dominant diagonal: two thirds of the fill.
+# Options of SuperLU for matrices whose pattern is nearly symmetric and whose diagonal is mostly the largest
+# entry: two thirds of the fill.
 _SYMMETRIC: dict[str, Any] = {
     "permc_spec": "MMD_AT_PLUS_A",
-    "diag_pivot_thresh": 0.01,
+    "diag_pivot_thresh": 0.1,
     "relax": 8,
     "panel_size": 1,
     "options": {"SymmetricMode": True},

@@ -87,13 +87,14 @@ def touching_newton(
     fluid, level, tolerance = problem.fluid, problem.level, problem.reachable_tolerance
     asperities = problem.asperities
     loose = level.mesh.dy is not None or level.nodes <= _LOOSE_LINE
+    with_oil = not problem.only_start
     steps: list[NewtonStep] = []
     now, memory = assess_touching(fluid, level, state, asperities, carried), MaskMemory(_MOST_CHANGES)
     before, damping, near = np.inf, first_damping, _NEAR
     best, best_step = np.inf, 0  # smallest residual that was half of the one before, and its step
     status: Status = "stalled"
     while len(steps) < min(problem.max_iterations, best_step + _PATIENCE):
-        if len(steps) >= min_iterations and is_solved(now, tolerance, with_oil=not problem.only_start):
+        if len(steps) >= min_iterations and is_solved(now, tolerance, with_oil=with_oil):
             break
         problem.report(steps, now.norm)
         if now.norm < 0.5 * best:
@@ -121,9 +122,9 @@ def touching_newton(
         damped = asperities.boundary_film > 0.0 and (carried is not None or assessed.contact.any())
         damping = damping if damped and assessed.norm > near else 0.0
         now = assessed
-        if now.norm <= tolerance and not is_solved(now, tolerance):
+        if with_oil and not is_solved(now, tolerance):
             state, now = _with_oil_solved(fluid, level, state, now, asperities, tolerance)
-    if is_solved(now, tolerance, with_oil=not problem.only_start):
+    if is_solved(now, tolerance, with_oil=with_oil):
         status = "converged"
     return grid_solution(level, projected(fluid, state, now.contact), now, steps, status)
 
@@ -134,14 +135,18 @@ def _with_oil_solved(
     """Film whose oil in the spots is solved at a given gap; the film itself where this is not possible.
 
     The end of a cavity may move through a spot by one node in each step, while all other equations hold. A
-    step of the whole film for each node would take most of the time.
+    step of the whole film for each node would take most of the time. If the same nodes are filled again and
+    the residual of the oil has not fallen, the steps go in a circle and end.
     """
     moved, after = state, now
-    for _ in range(level.nodes):
-        moved = with_oil_step(fluid, level, moved, after)
-        after = assess_touching(fluid, level, moved, asperities, after.carried)
-        if after.norm > tolerance:
+    known: dict[bytes, float] = {}  # residual of the oil by the nodes that are filled
+    while (carried := after.carried) is not None and after.norm <= tolerance:
+        filled = np.packbits(carried.filled).tobytes()
+        if not after.oil_norm < 0.5 * known.get(filled, np.inf):
             break
+        known[filled] = after.oil_norm
+        moved = with_oil_step(fluid, level, moved, after)
+        after = assess_touching(fluid, level, moved, asperities, carried)
         if is_solved(after, tolerance):
             return moved, after
     return state, now
