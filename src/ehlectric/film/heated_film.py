@@ -57,8 +57,7 @@ from ehlectric.film.starved_solver import (
     isothermal,
     with_inlet,
 )
-from ehlectric.film.touching_newton import touching_newton
-from ehlectric.film.touching_solver import NEAR_DAMPING
+from ehlectric.film.touching_newton import NEAR_DAMPING, touching_newton
 
 # Degree of the polynomial across the film.
 DEGREE = 12

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import lru_cache, partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -23,8 +24,10 @@ from ehlectric.film.oil_content import SCHEMES, USUAL
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.reynolds import wedge_stencil
 from ehlectric.film.starved_solver import conserving_film, forms_again, with_inlet
-from ehlectric.film.touching_solver import Conserving, guess_of, touching_films
 from ehlectric.formulas.monotone_cubic import along_axis
+
+if TYPE_CHECKING:
+    from ehlectric.film.touching_solver import Conserving
 
 # Tolerance of the residual on the coarser grids, far below their discretisation error.
 NESTED_TOLERANCE = 1e-6
@@ -199,6 +202,9 @@ def _mixed(
 
     The last one carries the oil through its cavities if it forms again behind one.
     """
+    # late: surfaces that are apart do not need it
+    from ehlectric.film.touching_solver import Conserving, guess_of, touching_films
+
     level, near = levels[0], None
     if full_film is not None and full_film.status == "converged":
         near = full_film.state

@@ -59,6 +59,9 @@ _FALL, _RISE, _LONG = 0.3, 2.0, 0.5
 # not solved closely leaves errors in the inlet. On fine grids films with cavities do not converge then.
 _LOOSE_LINE = 401
 
+# Damping of the first step from a state that is likely to be close.
+NEAR_DAMPING = 0.1
+
 # Steps after which the iteration ends if they have not halved the smallest residual so far. Of 290 films that
 # converged two took longer.
 _PATIENCE = 30
@@ -101,8 +104,7 @@ def touching_newton(
             best, best_step = now.norm, len(steps)
         close = linear_tolerance(now.norm, before, 0.0) if loose else LINEAR_TOLERANCE
         before = now.norm
-        weighted = now.carried is not None and now.carried.supply.scheme.continuous
-        part, constant = _way(best, len(steps) - best_step) if weighted else (1.0, False)
+        part, constant = _way(now, best, len(steps) - best_step)
         here = _at_constant_weights(now) if constant else now
         step = newton_step(fluid, problem.levels, state, here, asperities, close, damping, part)
         steps.append(step.record)
@@ -112,10 +114,7 @@ def touching_newton(
             status = "diverged"
             break
         state = step.state
-        if now.carried is not None and assessed.carried is not None and not assessed.settled:
-            filled, moved = now.carried.filled, assessed.carried.filled
-            supply = memory.supply_after(assessed.carried.supply, filled, moved)
-            assessed = replace(assessed, carried=replace(assessed.carried, supply=supply))
+        assessed = _remembered(memory, now, assessed)
         better = assessed.norm < now.norm and step.length > _LONG * part
         damping = _FALL * damping if better else min(_MOST_DAMPING, max(_RISE * damping, _LEAST_RAISED))
         near = _NEARER * near if now.norm <= near < assessed.norm else near
@@ -127,6 +126,14 @@ def touching_newton(
     if is_solved(now, tolerance, with_oil=with_oil):
         status = "converged"
     return grid_solution(level, projected(fluid, state, now.contact), now, steps, status)
+
+
+def _remembered(memory: MaskMemory, before: Touching, now: Touching) -> Touching:
+    """Residual after a step, whose nodes that are filled and cavitate in turn have an upwind difference."""
+    if before.carried is None or now.carried is None or now.settled:
+        return now
+    supply = memory.supply_after(now.carried.supply, before.carried.filled, now.carried.filled)
+    return replace(now, carried=replace(now.carried, supply=supply))
 
 
 def _with_oil_solved(
@@ -159,7 +166,7 @@ _CLOSE_TO, _WITHIN = 1e-2, 4
 _WAYS = ((1.0, False), (1.0, True), (1.0, True), (0.5, True), (0.5, True), (0.25, False))
 
 
-def _way(best: float, waited: int) -> tuple[float, bool]:
+def _way(now: Touching, best: float, waited: int) -> tuple[float, bool]:
     """Largest part of the next Newton step, and whether it keeps the weights of the nodes.
 
     ``best`` is the smallest residual that was half of the one before, and ``waited`` the number of steps
@@ -167,7 +174,8 @@ def _way(best: float, waited: int) -> tuple[float, bool]:
     with its pressure. If the balance of the node has a minimum above zero there, Newton's method alternates
     between both sides of it. At constant weights the steps lead past it.
     """
-    return (1.0, False) if best > _CLOSE_TO else _WAYS[waited // _WITHIN % len(_WAYS)]
+    weighted = now.carried is not None and now.carried.supply.scheme.continuous
+    return _WAYS[waited // _WITHIN % len(_WAYS)] if weighted and best <= _CLOSE_TO else _WAYS[0]
 
 
 def _at_constant_weights(now: Touching) -> Touching:

@@ -39,6 +39,7 @@ from ehlectric.film.reynolds import Stencil
 from ehlectric.film.starved_solver import flooded_inlet, isothermal, of_full_order, with_inlet
 from ehlectric.film.touching_film import Touching, assess_touching, projected
 from ehlectric.film.touching_newton import (
+    NEAR_DAMPING,
     OIL_TOLERANCE,
     Stepped,
     grid_solution,
@@ -193,9 +194,6 @@ def _time_step(levels: list[Level], now: Touching, rate: float) -> list[Level]:
     gained = np.where(finest.mesh.inner, rate * finest.rate * mass, 0.0)
     return [replace(posed[0], source=finest.source + gained), *posed[1:]]
 
-
-# Damping of the first step from a state that is likely to be close.
-NEAR_DAMPING = 0.1
 
 # Multiple of the largest number of Newton steps from each start, for the film that is followed in time.
 _IN_TIME = 8
