@@ -15,26 +15,21 @@ from time import process_time
 from typing import Any
 
 from tests.film import test_every_effect as every_combination
-from tests.helpers.mixed_films import mixed_film
+from tests.helpers.mixed_films import BALL, mixed_film
 
 import ehlectric
 from benchmarks import every_effect
 from benchmarks.mixed import surfaces
 from benchmarks.mixed_store import Contact
 from benchmarks.time_limit import GivenUpError, processor_limit
+from ehlectric.contact.preparation import prepare
+from ehlectric.contact.setup import Setup
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 
 # The film is 9.2 nm thick.
 THIN = {
-    "contact": {
-        "geometry": "point",
-        "radius_x": "10 mm",
-        "radius_y": "10 mm",
-        "reduced_modulus": "226 GPa",
-        "load": "20 N",
-        "entrainment_speed": "8 mm/s",
-    },
+    "contact": BALL | {"entrainment_speed": "8 mm/s"},
     "lubricant": {"base": "paper"},
     "grid": {"error": 0.03},
 }
@@ -43,9 +38,6 @@ THIN = {
 STARVED, HOT_NODES = (57, 30), 129
 MAPS, MAP_NODES, MAP_LAMBDA = ("al3d map", "x3p map"), 257, 0.3
 SEEDS, SEED_NODES = 40, 193
-
-# Processor time of a hot ball [s].
-LIMIT = 1800.0
 
 
 def thin() -> Iterator[tuple[str, Callable[[], str]]]:
@@ -58,18 +50,21 @@ def thin() -> Iterator[tuple[str, Callable[[], str]]]:
     yield "film of 9.2 nm to 3 %", solve
 
 
+def _with_heat(case: ehlectric.Case) -> Callable[[], str]:
+    def solve() -> str:
+        film = every_combination.film_of(prepare(case).film_problem(Setup.of(case)))
+        touching = int(film.contact.sum())
+        central, rise = 1e9 * film.central_thickness, film.heated.max_temperature_rise
+        return f"{film.status}, central {central:.4g} nm, {touching} nodes touch, {rise:.4g} K"
+
+    return solve
+
+
 def hot() -> Iterator[tuple[str, Callable[[], str]]]:
     """Rough, hot, flooded ball whose surfaces touch, of the combinations of all effects."""
     table = every_combination.table("point", hot=True, touching=True)
     case = ehlectric.Case.from_dict(table | {"grid": {"nodes": HOT_NODES, "nodes_y": HOT_NODES}})
-
-    def solve() -> str:
-        film = ehlectric.solve(case).film
-        rise = film.heated.max_temperature_rise if film.heated is not None else 0.0
-        touching = int(film.contact.sum())
-        return f"central {1e9 * film.central_thickness:.4g} nm, {touching} nodes touch, {rise:.4g} K"
-
-    yield f"hot ball, {HOT_NODES}²", solve
+    yield f"hot ball, {HOT_NODES}²", _with_heat(case)
 
 
 def starved() -> Iterator[tuple[str, Callable[[], str]]]:
@@ -77,13 +72,8 @@ def starved() -> Iterator[tuple[str, Callable[[], str]]]:
     every_effect.NODES["points"] = HOT_NODES
     rows = every_effect.design("points")
     for number in STARVED:
-
-        def solve(number: int = number) -> str:
-            row = every_effect.solved("points", rows[number], LIMIT)
-            numbers = (f"{name} {row[name]:.4g}" for name in ("central", "temperature_rise") if name in row)
-            return ", ".join((row["status"], *numbers))
-
-        yield f"hot starved ball {number}, {HOT_NODES}²", solve
+        case = every_effect.case_of("points", rows[number])
+        yield f"hot starved ball {number}, {HOT_NODES}²", _with_heat(case)
 
 
 def maps() -> Iterator[tuple[str, Callable[[], str]]]:
@@ -140,7 +130,7 @@ def main() -> None:
     """Solve the films of the parts and print a row for each."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("parts", nargs="*", choices=[[], *PARTS], metavar="part", help=", ".join(PARTS))
-    parser.add_argument("--limit", type=float, default=LIMIT, help="processor time of a row [s]")
+    parser.add_argument("--limit", type=float, default=1800.0, help="processor time of a row [s]")
     asked = parser.parse_args()
     print("| film | processor time | result |\n| --- | ---: | --- |", flush=True)
     for part in asked.parts or PARTS:

@@ -1,5 +1,7 @@
 """Oil in the spots of surfaces that touch: it follows from the gap, and takes few steps of the whole film."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -36,7 +38,7 @@ def test_oil_of_spots_is_solved_at_a_given_gap():
     ambient = fluid.ambient_pressure
     factor = np.where(contact, 1.0 + 0.1 * random.random(contact.shape), 1.0)
     oil = np.minimum(ambient + factor * (film.oil_pressure - ambient), state.pressure)
-    moved = type(state)(state.pressure, state.h00, state.thickness, state.pressure - oil)
+    moved = replace(state, contact_pressure=state.pressure - oil)
     now = assess_touching(fluid, level, moved, asperities, carried)
     assert not is_solved(now, film.problem.tolerance)
     for _ in range(30):

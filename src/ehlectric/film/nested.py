@@ -261,8 +261,9 @@ def _carrying(
         return conserving.films([(counted_full, scheme) for scheme in SCHEMES])
     starts = [counted_full, from_coarse] if finest else [counted_full]
     *others, best = conserving.films([(start, scheme) for start in starts for scheme in SCHEMES[1:]])
-    simple = best.status != "converged" or (best.content is not None and best.content.supply.scheme != USUAL)
-    if not simple or (best.status == "converged" and conserving.problem.only_start):
+    content = best.content
+    enough = content is not None and (conserving.problem.only_start or content.supply.scheme == USUAL)
+    if best.status == "converged" and enough:
         return [*others, best]
     *_, usual = conserving.films([(counted_full, USUAL)])
     if usual.status == "converged":

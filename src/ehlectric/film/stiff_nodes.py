@@ -22,7 +22,6 @@ from ehlectric.film.reynolds import OFFSETS, Stencil
 # factorisation then takes about as long as ten V-cycles.
 _MOST = 80.0
 
-
 # Rows of influence coefficients that are read together.
 _BLOCK = 256
 

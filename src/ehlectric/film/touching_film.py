@@ -86,6 +86,26 @@ class Touching(Residual):
     carried: Carried | None = None
     settled: bool = True  # whether the nodes that oil fills equal the nodes at which its mass was carried
 
+    @property
+    def oil(self) -> Mask:
+        """Nodes in contact that oil fills, shape (nx, ny)."""
+        return self.contact & self.full_film
+
+    @property
+    def hollow(self) -> Mask:
+        """Cavitated nodes whose mass is carried to filled ones, shape (nx, ny)."""
+        return np.zeros_like(self.full_film) if self.carried is None else self.carried.hollow
+
+    def rows_of_oil(self, level: Level, by_p: Stencil, damping: float) -> tuple[Stencil, Stencil, Mask]:
+        """Rows of the oil, from the derivatives by P of all rows.
+
+        Returns these rows by P, the rows by the unknowns of the nodes ``oil`` and ``hollow``, and the mask of
+        these nodes (nx, ny). The unknowns are P and, in cavities, the mass that is passed on.
+        """
+        hollow = self.hollow
+        by_p = by_p.on_rows(self.full_film | hollow)
+        return by_p, _by_mass(level, by_p, hollow, damping), self.oil | hollow
+
 
 def node_compliance(level: Level) -> float:
     """Deflection at a node by a unit pressure there and the opposite pressure at its neighbour along x."""
@@ -221,11 +241,8 @@ class TouchingJacobian:
         level, contact, full_film, carried = levels[0], now.contact, now.full_film, now.carried
         plastic = now.plastic
         by_p, by_h = _damped(level, now.flow, now.thickness, damping, carried)
-        oil = contact & full_film
-        hollow = np.zeros_like(oil) if carried is None else carried.hollow
-        rows = full_film | hollow
-        oil_by_p, oil_by_h = by_p.on_rows(rows), without_columns(by_h.on_rows(rows), plastic)
-        rest, by_rest = oil | hollow, _by_mass(level, oil_by_p, hollow, damping)
+        oil_by_p, by_rest, rest = now.rows_of_oil(level, by_p, damping)
+        oil_by_h = without_columns(by_h.on_rows(full_film | now.hollow), plastic)
         factors = _factored(by_rest, rest) if rest.any() else None
         masks: tuple[Mask, ...] = (full_film, contact, plastic)
         finest = _linearised(level, (by_p, by_h), now.flow, now.thickness, masks, None)
@@ -247,7 +264,7 @@ class TouchingJacobian:
             oil_by_p=oil_by_p,
             oil_by_h=oil_by_h,
             contact=contact,
-            oil=oil,
+            oil=now.oil,
             rest=rest,
             by_rest=by_rest,
             factors=factors,
@@ -452,17 +469,16 @@ def with_oil_step(fluid: Fluid, level: Level, state: State, now: Touching) -> St
     The gap and the sum of the pressures of oil and asperities do not change. The state itself where no oil is
     in a spot, or where its flow has a singular matrix.
     """
-    carried = now.carried
-    if carried is None or not (now.contact & now.full_film).any():
+    oil = now.oil
+    if now.carried is None or not oil.any():
         return state
-    oil, hollow = now.contact & now.full_film, carried.hollow
-    rest = oil | hollow
-    by_p = _damped(level, now.flow, now.thickness, 0.0, carried)[0].on_rows(now.full_film | hollow)
+    by_p, _ = _damped(level, now.flow, now.thickness, 0.0, now.carried)
+    by_p, by_rest, rest = now.rows_of_oil(level, by_p, 0.0)
     resting = fluid.ambient_pressure + level.edge_excess
     change = np.where(now.contact & ~now.full_film, resting - state.oil_pressure, 0.0)
     right = -now.reynolds - by_p(change)
     try:
-        solved = _factored(_by_mass(level, by_p, hollow, 0.0), rest).solve(right[rest])
+        solved = _factored(by_rest, rest).solve(right[rest])
     except np.linalg.LinAlgError:
         return state
     change[oil] = solved[oil[rest]]
