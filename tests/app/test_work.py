@@ -143,7 +143,7 @@ TABLE = tomllib.loads(example_text("bearing_6208"))
 WRONG = {**TABLE, "bearing": {**TABLE["bearing"], "radial_load": "-1 N"}}
 
 
-CONCERNED = Call("answer_parts.concerned")
+CONCERNED = Call("answer_parts.concerned", kept=True)
 
 
 def test_an_answer_to_the_same_inputs_is_computed_once(tmp_path):

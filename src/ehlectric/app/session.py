@@ -122,8 +122,8 @@ class Session:
 
     @property
     def made_folder(self) -> Path | None:
-        """Temporary folder of the session; None where it has none yet, and so no uploaded files."""
-        return self._folder
+        """Temporary folder of the session; None if no file was uploaded."""
+        return self._folder if self._folder is not None and (self._folder / SURFACES).is_dir() else None
 
     @property
     def folder(self) -> Path:

@@ -3,8 +3,8 @@
 The process of the server computes nothing, so that every page answers at once whatever is being solved. A
 immediate answer waits for one of a few warm processes. A job has a process of its own, which is killed when
 it is cancelled, when its tab is closed, or when it uses more time or memory than is allowed. Sessions are
-served alternately. Immediate answers that need no file are kept for a while: a page gets an answer that was
-computed before, or that is being computed, without a second computation.
+served alternately. Immediate answers of calls that are ``kept`` stay for a while: a page gets an answer that
+was computed before, or that is being computed, without a second computation.
 """
 
 from __future__ import annotations
@@ -471,13 +471,17 @@ def key_of(function: Call[Any], values: tuple[Any, ...]) -> str:
 
     Examples
     --------
-    >>> key_of(Call("duty_answers.look"), ({"title": "A"}, None))
-    'duty_answers.look [{"title": "A"}, null]'
-    >>> key_of(Call("duty_answers.look"), ({}, Path("folder")))
+    >>> key_of(Call("drive_answers.quick_answer", kept=True), ({"title": "A"}, None))
+    'drive_answers.quick_answer [{"title": "A"}, null]'
+    >>> key_of(Call("drive_answers.quick_answer", kept=True), ({}, Path("folder of uploaded files")))
+    ''
+    >>> key_of(Call("sweep_answers.files"), ("folder of a sweep",))
     ''
     """
+    if not (isinstance(function, Call) and function.kept):
+        return ""
     try:
-        return f"{function.name} {json.dumps(values)}" if isinstance(function, Call) else ""
+        return f"{function.name} {json.dumps(values)}"
     except TypeError:  # Folders and contents of files.
         return ""
 

@@ -38,6 +38,7 @@ from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import ratio_text, readable
 from ehlectric.runs.by_kind import run_contact
 from ehlectric.runs.preview import preview_of
+from ehlectric.runs.result_folders import stored_result
 from ehlectric.runs.solve import load
 from ehlectric.runtime.progress import Progress
 from ehlectric.tables.contact_tables import result_rows
@@ -159,16 +160,16 @@ def cuts_of(folder: str, x: float, y: float) -> dict[str, Figure]:
     """Cuts through a point of a solved point contact. Raises InputError if the folder has no result of a
     point contact that converged.
     """
-    result = _stored(folder)
+    result = _stored(folder, stored_result(Path(folder)).stat().st_mtime_ns)
     if not isinstance(result, PointResult) or not result.converged:
         raise InputError(folder, "contains no converged point contact", takes="a point contact to cut")
     factor = Lengths.of(result).factor
     return point_cuts(result, x / factor, y / factor)
 
 
-# A result is read once for many cuts.
+# A result is read once for many cuts, until its file changes.
 @lru_cache(maxsize=4)
-def _stored(folder: str) -> Result | PointResult:
+def _stored(folder: str, _changed: int) -> Result | PointResult:
     result = load(folder)
     if not isinstance(result, Result | PointResult):
         raise InputError(folder, "contains another result", takes="the result of a contact")

@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 import shutil
 import zipfile
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from importlib import import_module
+from itertools import count, islice, takewhile
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import Any
 
@@ -79,8 +80,9 @@ def uploaded(contents: Mapping[str, bytes], folder: Path) -> Uploaded:
     missing += _missing(table, contents, folder)
     if missing:
         return Uploaded(name, kind, table, tuple(dict.fromkeys(missing)))
-    kept = [_keep(_plain(key, path), contents, folder) for key, path in names_in(table)]
-    table = with_names(table, lambda key, path: f"{SURFACES}/{_plain(key, path)}")
+    names = {_plain(key, path) for key, path in names_in(table)}
+    kept = {name: _keep(name, contents, folder) for name in names}
+    table = with_names(table, lambda key, path: f"{SURFACES}/{kept[_plain(key, path)][0]}")
     try:
         if kind == "sweep":
             sweep_of(table, folder)
@@ -88,8 +90,9 @@ def uploaded(contents: Mapping[str, bytes], folder: Path) -> Uploaded:
             run_case_of(table, folder)
     except InputError:
         # Surfaces of a case that is not opened do not stay.
-        for path in filter(None, kept):
-            path.unlink(missing_ok=True)
+        for stored, new in kept.values():
+            if new:
+                (folder / SURFACES / stored).unlink(missing_ok=True)
         raise
     return Uploaded(name, kind, table)
 
@@ -204,18 +207,33 @@ def _plain(key: str, path: str) -> str:
     return name
 
 
-def _keep(name: str, contents: Mapping[str, bytes], folder: Path) -> Path | None:
-    """Write an uploaded surface into the folder of the session; its path unless it was there before."""
+def _keep(name: str, contents: Mapping[str, bytes], folder: Path) -> tuple[str, bool]:
+    """Store an uploaded surface in the folder of the session; its name there, and whether it is new.
+
+    A stored file never changes, because answers are kept by the inputs that name it: another content of the
+    same name gets a name of its own. A name that is not uploaded means its last content.
+    """
+    place = folder / SURFACES
+    stored = list(takewhile(lambda other: (place / other).exists(), _names_like(name)))
     if name not in contents:
-        return None
-    if len(contents[name]) > MOST_SURFACE:
+        return stored[-1], False
+    content = contents[name]
+    if len(content) > MOST_SURFACE:
         takes = f"a surface of at most {MOST_SURFACE} bytes"
-        raise InputError(name, f"has {len(contents[name])} bytes", takes=takes)
-    (folder / SURFACES).mkdir(exist_ok=True)
-    path = folder / SURFACES / name
-    new = not path.exists()
-    path.write_bytes(contents[name])
-    return path if new else None
+        raise InputError(name, f"has {len(content)} bytes", takes=takes)
+    if stored and (place / stored[-1]).read_bytes() == content:
+        return stored[-1], False
+    place.mkdir(exist_ok=True)
+    new = next(islice(_names_like(name), len(stored), None))
+    (place / new).write_bytes(content)
+    return new, True
+
+
+def _names_like(name: str) -> Iterator[str]:
+    """Names of the contents of a file, from the first: a.csv, a (2).csv, a (3).csv."""
+    path = PurePosixPath(name)
+    yield name
+    yield from (f"{path.stem} ({number}){path.suffix}" for number in count(2))
 
 
 def write(table: Mapping[str, Any], contacts: str, folder: Path, progress: Progress) -> Written:

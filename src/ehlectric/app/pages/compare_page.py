@@ -166,9 +166,6 @@ _START = Inputs(
 # Time for which the page waits for its first answer before it is sent without one [s].
 _FIRST = 0.4
 
-# Number of answers that are kept.
-_KEPT = 20
-
 _LATE = "contacts not solved; the critical speeds took too long and are left out"
 _EARLIER = "A case has no answer: the effects below, if any, are those of earlier inputs."
 _NOTHING = "<p>The effects stand here when both cases have an answer.</p>"
@@ -229,8 +226,6 @@ class ComparePage:
         self._forms: dict[Name, Form] = {}
         self._shapes: dict[Name, Any] = {}
         self._quick: Sides | None = None
-        # Answers by call and case: of two cases, one is mostly as before.
-        self._known: dict[tuple[str, str], Side] = {}
         self._latest_answer: LatestAnswer[Inputs, Sides] = LatestAnswer(
             self._at_once,
             [self._whole],
@@ -378,17 +373,10 @@ class ComparePage:
     async def _ask(self, call: Call[Side], inputs: Inputs, name: Name) -> Side | Exception:
         """Answer about one case, or its error."""
         table = dict(inputs.value(name) or {})
-        known = (call.name, repr(table))
-        if known in self._known:
-            return self._known[known]
         try:
-            answer = await self.session.work.quick(call, table, self.session.folder)
+            return await self.session.work.quick(call, table, self.session.made_folder)
         except (InputError, LostError) as error:
             return error
-        self._known[known] = answer
-        while len(self._known) > _KEPT:
-            del self._known[next(iter(self._known))]
-        return answer
 
     def _show_side(self, name: Name, answer: Side | Exception) -> None:
         self._forms[name].tell(answer if isinstance(answer, Exception) else None)
