@@ -105,7 +105,9 @@ def test_probabilities_of_all_elements(uncertainty, solution):
 def test_the_verdict_names_the_first_elements_and_the_input_to_measure(solution):
     result = solve_axle(solution.case, remedies=False)
     codes = [reason.code for reason in result.verdict.reasons]
-    assert {"probability", "axle-first-chances", "axle-deciding"} <= set(codes)
+    # A verdict has the sampling error of few points, where it is large, in the same statement.
+    assert {"probability", "probability-rough"} & set(codes)
+    assert {"axle-first-chances", "axle-deciding"} <= set(codes)
     assert "uncertainty" in result.summary()
     pending = solve_axle(solution.case, remedies=False, probable=False)
     assert "axle-without-probability" in [reason.code for reason in pending.verdict.reasons]

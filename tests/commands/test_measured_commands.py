@@ -67,4 +67,5 @@ def test_a_contact_is_compared_with_a_log(ehlectric, files):
     printed = json.loads(done.stdout, parse_constant=pytest.fail)
     assert printed["measured"] == json.loads((files / "out" / "measured.json").read_text())
     assert printed["measured"]["film_factor"]["basis"] == "scatter only"
-    assert "[scatter-only]" in done.stderr
+    assert "only the scatter" in done.stderr
+    assert "scatter-only" in printed["measured"]["warning_codes"]

@@ -169,8 +169,8 @@ def test_a_line_of_many_nodes_keeps_its_oil():
 def test_a_refinement_ends_before_a_film_that_makes_oil(monkeypatch):
     """If cavities count as full on 6401 nodes, the film of 3201 nodes stays, and the warning says why."""
 
-    def counted_full(problem, progress, known=()):
-        found = nested_iteration(problem, progress, known)
+    def counted_full(problem, *given, **named):
+        found = nested_iteration(problem, *given, **named)
         return [*found[:-1], replace(found[-1], content=None)] if problem.nodes > 3201 else found
 
     monkeypatch.setattr(film_solver, "nested_iteration", counted_full)

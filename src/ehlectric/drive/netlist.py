@@ -277,7 +277,7 @@ def check_table(results: Sequence[BearingResult]) -> None:
         speeds = ", ".join(speed_text(speed) for speed in sorted(touching))
         raise InputError(
             SPEED,
-            got=f"{speeds}, at which asperity contact is frequent,",
+            got=f"{speeds}, at which asperity contact is frequent",
             takes="in a table over the speed, speeds at which films separate the surfaces",
         )
 
