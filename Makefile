@@ -18,7 +18,7 @@ help:
 	@echo "make app     install and open the web app; options with: make app OPTIONS='--port 8100'"
 	@echo "make browser install what the tests of the web app, reports, netlists and exports need: Chromium, pdftotext, ngspice, Octave"
 	@echo "make test    install and run the tests"
-	@echo "make slow    run the long tests; a part of them with: make slow SHARD=2/$(SHARDS)"
+	@echo "make slow    run the long tests; one of three parts of them with: make slow PART=2/3"
 	@echo "make thorough  run them with all of their random examples, and others each time; takes hours"
 	@echo "make check   format, lint, types, import contract and tests"
 	@echo "make lint    the same without the tests"
@@ -92,38 +92,9 @@ browser:
 test: $(VENV)/.test
 	$(BIN)/python -m pytest
 
-# Long tests in shards of some ten minutes on two cores. What a shard leaves out is in the next but one: the
-# fourth takes all tests that no other shard takes.
-SHARDS := 5
-FILM := tests/film
-PROCESSES := tests/attack tests/commands
-NUMBERS := (convergence or published or measured or reference)
-IN_PROCESS := $(addprefix --ignore=,$(PROCESSES))
-SLOW := $(BIN)/python -m pytest --junitxml=build/slow-$$(date +%s).xml
-
+# All long tests, or one of three parts; tests/schedule.py says which tests a part has.
 slow: $(VENV)/.test
-	@case "$(SHARD)" in \
-	  "") $(MAKE) --no-print-directory --keep-going $(foreach number,1 2 3 4 5,slow-$(number)) ;; \
-	  [1-$(SHARDS)]/$(SHARDS)) $(MAKE) --no-print-directory slow-$(firstword $(subst /, ,$(SHARD))) ;; \
-	  *) echo "SHARD is 1/$(SHARDS) to $(SHARDS)/$(SHARDS), not $(SHARD)"; exit 2 ;; \
-	esac
-
-slow-1:
-	$(SLOW) -m "slow and $(NUMBERS)" $(FILM)
-
-# With what is no test: the gallery of the documentation, and both packages.
-slow-2: docs packages
-	$(SLOW) -m "slow and $(NUMBERS) and not browser" --ignore=$(FILM) $(IN_PROCESS)
-
-slow-3:
-	$(SLOW) -m slow $(PROCESSES)
-
-slow-4:
-	$(SLOW) -m "slow and not $(NUMBERS) and not browser" $(IN_PROCESS)
-
-# The browser's tests one at a time.
-slow-5: $(VENV)/.test
-	$(SLOW) -m "slow and browser" -n 0 tests/app
+	$(BIN)/python -m tests.schedule $(if $(PART),part,slow) --minutes 600
 
 thorough: $(VENV)/.test
 	EHLECTRIC_THOROUGH=1 $(BIN)/python -m pytest -m "not browser"

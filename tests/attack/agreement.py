@@ -307,7 +307,8 @@ _OF_RESULTS = ("status", "warnings", "warning_codes", "title")
 def _codes(table: Mapping[str, Any]) -> set[str]:
     codes = table["warning_codes"]
     names = codes.split("; ") if isinstance(codes, str) else codes
-    texts = table["warnings"] if isinstance(table["warnings"], list) else [""] * len(names)
+    # Points of many have the codes alone, or all texts in one.
+    texts = given if isinstance(given := table.get("warnings"), list) else [""] * len(names)
     # The rating life of a duty cycle has the code of a rating life.
     of_points = [name for name, text in zip(names, texts, strict=True) if "duty cycle" not in text]
     return {name for name in of_points if name and not name.startswith(("duty", "columns", "probability"))}
