@@ -36,7 +36,7 @@ from tests.axle.axles import ALONE, two_stages
 from tests.figures.motion.test_save import BALL as MOVING_BALL
 from tests.figures.motion.test_save import by_hand
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
-from tests.helpers.contrasts import faint_texts
+from tests.helpers.contrasts import flaws
 from tests.helpers.drives import drive_with_remedy
 from tests.helpers.each import each
 from tests.helpers.overlaps import overlaps
@@ -50,13 +50,6 @@ def bearing(file, **changes):
     """Bearing of an example, with contacts by formula."""
     case = BearingCase.from_toml(EXAMPLES / file)
     return solve_bearing(case.replace({"contacts": "formula"} | changes))
-
-
-def flaws(figure):
-    """Texts that are hard to read, and things that lie over each other. Texts lose their outlines as they are
-    measured.
-    """
-    return [*faint_texts(figure), *overlaps(figure)]
 
 
 def drawn(names, draw, styles=STYLES):

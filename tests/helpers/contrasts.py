@@ -6,9 +6,8 @@ import numpy as np
 from matplotlib.backends.backend_agg import RendererAgg
 from matplotlib.colors import to_hex, to_rgba
 from matplotlib.figure import Figure
-from matplotlib.text import Text
 
-from tests.helpers.overlaps import text_boxes
+from tests.helpers.overlaps import Box, overlaps, text_boxes
 
 # Least contrast of a text (WCAG 2), part of its box that must have it, as lines may cross a text, and dots
 # per inch at which what lies behind is drawn.
@@ -30,14 +29,16 @@ def contrast(colours: np.ndarray, other: np.ndarray) -> np.ndarray:
     return (np.maximum(one, two) + 0.05) / (np.minimum(one, two) + 0.05)
 
 
-def faint_texts(figure: Figure) -> list[str]:
-    """Texts whose contrast with their outline or with what is drawn behind them is below 4.5, by name."""
-    figure.draw_without_rendering()
-    outlines = {
-        id(text): [np.array(to_rgba(edge.colour)[:3]) for edge in text.get_path_effects() or ()]
-        for text in figure.findobj(Text)
-    }
+def flaws(figure: Figure) -> list[str]:
+    """Texts that are hard to read, and things that lie over each other. Texts lose their outlines as they are
+    measured.
+    """
     boxes = text_boxes(figure)
+    return [*overlaps(figure, boxes), *_faint_texts(figure, boxes)]
+
+
+def _faint_texts(figure: Figure, boxes: list[Box]) -> list[str]:
+    """Texts whose contrast with their outline or with what is drawn behind them is below 4.5, by name."""
     figure.set_dpi(_DPI)
     without_texts = RendererAgg(*figure.bbox.size, _DPI)
     without_texts.draw_text = lambda *_, **__: None
@@ -47,7 +48,8 @@ def faint_texts(figure: Figure) -> list[str]:
     for box in boxes:
         ink = np.array(to_rgba(box.of.get_color())[:3])
         x, y = (slice(max(int(low), 0), max(int(np.ceil(high)), 1)) for low, high in box.ends)
-        against = outlines.get(id(box.of)) or behind[y, x].reshape(-1, 3)
+        outline = [to_rgba(edge.colour)[:3] for edge in box.outline]
+        against = outline or behind[y, x].reshape(-1, 3)
         seen = contrast(np.asarray(against), ink)
         if seen.size and np.mean(seen >= LEAST) < _MOST_OF_IT:
             found.append(f"{box.name} in {to_hex(ink)} has a contrast of {np.median(seen):.1f}")

@@ -33,7 +33,7 @@ _SLIVER, _SMALL = 0.14, 0.07
 
 
 @dataclass(frozen=True)
-class _Box:
+class Box:
     """Rectangle in points with what lies in it."""
 
     name: str
@@ -42,31 +42,33 @@ class _Box:
     y0: float
     x1: float
     y1: float
+    outline: tuple[Any, ...] = ()  # path effects of a text
 
     @property
     def ends(self) -> tuple[tuple[float, float], tuple[float, float]]:
         """Ends along x and along y [pt]."""
         return (self.x0, self.x1), (self.y0, self.y1)
 
-    def near(self, other: _Box, x: float, y: float) -> bool:
+    def near(self, other: Box, x: float, y: float) -> bool:
         """Whether the boxes are less than ``x`` and ``y`` apart; negative ones allow an overlap [pt]."""
         beside = self.x1 + x <= other.x0 or other.x1 + x <= self.x0
         return not beside and not (self.y1 + y <= other.y0 or other.y1 + y <= self.y0)
 
-    def leaves(self, other: _Box) -> bool:
+    def leaves(self, other: Box) -> bool:
         """Whether a part of the box lies outside of another one."""
         low, high = min(self.x0 - other.x0, self.y0 - other.y0), max(self.x1 - other.x1, self.y1 - other.y1)
         return low < -_SLIGHT or high > _SLIGHT
 
 
-def overlaps(figure: Figure) -> list[str]:
+def overlaps(figure: Figure, texts: list[Box] | None = None) -> list[str]:
     """Pairs of things that lie over each other in a figure, by name, things out of it, and texts that only
     Matplotlib reads, such as "_nolegend_".
 
     Measured are titles, labels of axes, their numbers, notes, legends, and the frames of panels; texts must
-    be as far apart as a reader needs, and panels must not be slivers.
+    be as far apart as a reader needs, and panels must not be slivers. ``texts`` that are measured already.
     """
-    texts, drawn = text_boxes(figure), list(_shown(figure))
+    texts = text_boxes(figure) if texts is None else texts
+    drawn = list(_shown(figure))
     legends = [_box("legend", of, of.get_window_extent()) for of in drawn if isinstance(of, Legend)]
     frames = [_box("frame", of, of.get_window_extent()) for of in drawn if _framed(of)]
     page = _box("page", figure, figure.bbox)
@@ -87,7 +89,7 @@ def overlaps(figure: Figure) -> list[str]:
     return list(dict.fromkeys(found))
 
 
-def _touching(texts: Sequence[_Box]) -> Iterator[str]:
+def _touching(texts: Sequence[Box]) -> Iterator[str]:
     """Pairs of texts that touch."""
     axis_of = {
         id(label): axis
@@ -102,7 +104,7 @@ def _touching(texts: Sequence[_Box]) -> Iterator[str]:
             yield f"{box.name} touches {other.name}"
 
 
-def _over_legends(texts: Sequence[_Box], legends: Sequence[_Box]) -> Iterator[str]:
+def _over_legends(texts: Sequence[Box], legends: Sequence[Box]) -> Iterator[str]:
     """Texts that lie over a legend that they are not in."""
     for legend in legends:
         own = {*map(id, legend.of.get_texts()), id(legend.of.get_title())}
@@ -111,7 +113,7 @@ def _over_legends(texts: Sequence[_Box], legends: Sequence[_Box]) -> Iterator[st
                 yield f"{box.name} lies over the legend of {legend.of.get_texts()[0].get_text()!r}"
 
 
-def _thin(frame: _Box, page: _Box) -> bool:
+def _thin(frame: Box, page: Box) -> bool:
     """Whether a panel is too narrow or too flat to read anything; colour bars are narrow."""
     if hasattr(frame.of, "_colorbar"):
         return False
@@ -162,11 +164,14 @@ class _Recorder(RendererAgg):
             self.boxes.append((s, (min(at_x), min(at_y), max(at_x), max(at_y)), self._number))
 
 
-def text_boxes(figure: Figure) -> list[_Box]:
+def text_boxes(figure: Figure) -> list[Box]:
     """Boxes of the lines of all texts of a figure, as they are drawn."""
     figure.set_dpi(_DPI)
     figure.draw_without_rendering()
+    # Everything has its place now, also for drawings with other dots.
+    figure.set_layout_engine("none")
     artists = figure.findobj(Text)
+    outlines = [tuple(text.get_path_effects() or ()) for text in artists]
     for number, text in enumerate(artists):
         # Letters with an edge are drawn as lines, not as text.
         text.set_path_effects([])
@@ -174,10 +179,15 @@ def text_boxes(figure: Figure) -> list[_Box]:
     recorder = _Recorder(figure)
     figure.draw(recorder)
     return [
-        _Box(repr(line.replace("\xa0", " ")), artists[number], *(_POINT * end for end in ends))
+        Box(
+            repr(line.replace("\xa0", " ")),
+            artists[number],
+            *(_POINT * end for end in ends),
+            outlines[number],
+        )
         for line, ends, number in recorder.boxes
     ]
 
 
-def _box(name: str, of: Any, extent: Any) -> _Box:
-    return _Box(name, of, *(_POINT * float(end) for end in extent.extents))
+def _box(name: str, of: Any, extent: Any) -> Box:
+    return Box(name, of, *(_POINT * float(end) for end in extent.extents))
