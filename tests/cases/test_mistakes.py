@@ -5,7 +5,7 @@ import tomllib
 
 import pytest
 
-from ehlectric import Case, DriveCase, InputError, Sweep
+from ehlectric import AxleCase, Case, DriveCase, GearCase, InputError, Sweep
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.table import nearest_key, similar_keys
 from ehlectric.quantities.inputs import aliases
@@ -20,7 +20,8 @@ CONTACT |= {"entrainment_speed": "4 m/s", "lubricant": "paper"}
 def test_every_alias_leads_to_keys_that_exist():
     """A key whose name changes would otherwise stay in messages; an alias that became a key is none."""
     for name, keys in aliases().items():
-        hints = [nearest_key(name, model) for model in (Case, BearingCase, DriveCase, Sweep)]
+        kinds = (Case, BearingCase, DriveCase, GearCase, AxleCase, Sweep)
+        hints = [nearest_key(name, model) for model in kinds]
         hints += similar_keys(name, [f"vary.{key}" for key in ("from", "to", "count", "spacing")])
         for key in keys:
             assert any(key in hint for hint in hints), (name, key)

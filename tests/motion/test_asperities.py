@@ -170,7 +170,7 @@ def test_the_summary_tables_figures_and_warnings_say_it(written):
     assert f"of {found['steps']} evaluated time steps" in rows["asperities.time_share"].text
     assert rows["film.minimum_thickness"].text.endswith("in the boundary film")
     moving_run = MotionRun.of(dataset)
-    assert "surfaces touch" in of_history(moving_run)
+    assert "Asperities are in contact" in of_history(moving_run)
     labels = [ax.get_ylabel() for ax in figure(moving_run, "motion_history.png").axes]
     assert "share [%]" in labels
     assert "load share of asperities" in [

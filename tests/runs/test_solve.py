@@ -226,7 +226,7 @@ def test_saved_results_are_equal(table, tmp_path):
 @pytest.mark.slow
 def test_what_is_not_saved(motion, tmp_path):
     with pytest.raises(
-        InputError, match="result: got 'MotionResult'; expected a result of a contact, a bearing or a drive"
+        InputError, match="result: got 'MotionResult'; expected a result of a contact, a bear"
     ):
         save(motion, tmp_path)
 

@@ -140,7 +140,7 @@ def test_formulas_are_not_compared_with_a_boundary_film(geometry):
     result = solved(geometry)
     named = texts(result_rows(result))
     assert not any("vs. solved film" in text for text in named.values())
-    assert "surfaces touch" in named["usual difference from a solved film"]
+    assert "asperities are in contact" in named["usual difference from a solved film"]
     assert "boundary film" in named["lambda ratio"]
     name = "pan_hamrock" if geometry == "line" else "chittenden"
     least = {"line": "minimum film (Pan-Hamrock)", "point": "minimum film (Chittenden et al.)"}[geometry]

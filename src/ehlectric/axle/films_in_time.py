@@ -22,7 +22,6 @@ from ehlectric.drive import (
     Record,
     Segments,
     films_of,
-    simulate,
     states_in_time,
 )
 
@@ -97,6 +96,9 @@ class AxleInTime:
     ) -> Record:
         """March through a source, and record what happens; arguments as in ``simulate``."""
         streams = [each.name if each.stream == "" else each.stream for each in self.active]
+        # It loads the compiler.
+        from ehlectric.drive import simulate
+
         return simulate(
             self.states(), self.films_in_time(), chunks, measuring, seed, progress, compiling, streams
         )

@@ -32,7 +32,7 @@ VISCOSITIES = ColumnBook.of(
 _COLUMNS = ("pressure", "temperature", "viscosity")
 
 
-class ViscosityTable(Table, book="lubricant.viscosity_table"):
+class ViscosityTable(Table, book="lubricant.viscosity_table", named_by="file"):
     """Measured viscosity over pressure and temperature, to which a viscosity law is fitted."""
 
     file: str | None = None

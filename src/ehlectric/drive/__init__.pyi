@@ -26,6 +26,7 @@ from .drive_record import FILM as FILM
 from .drive_record import OFF as OFF
 from .drive_record import ON as ON
 from .drive_record import PEAK as PEAK
+from .drive_record import SIMULATING as SIMULATING
 from .drive_record import VALUES as VALUES
 from .drive_record import VOLTAGE as VOLTAGE
 from .drive_record import Record as Record
@@ -66,7 +67,6 @@ from .run import save as save
 from .run import solve_to_folder as solve_to_folder
 from .shaft_record import RECORDED as RECORDED
 from .shaft_record import measured_shaft as measured_shaft
-from .solver import SIMULATING as SIMULATING
 from .source_in_time import SourceInTime as SourceInTime
 from .stored import SCHEMA as SCHEMA
 from .stored import EventColumns as EventColumns

@@ -25,6 +25,9 @@ COLUMNS = 8
 # Columns of the values of an event that tables and summaries have, by their names there.
 VALUES = {"voltage": VOLTAGE, "charge": CHARGE, "energy": ENERGY, "peak_current": PEAK}
 
+# Text of the progress while time is simulated.
+SIMULATING = "simulating"
+
 # Events that are kept one by one; of all others only counts and sums are.
 KEPT = 200_000
 

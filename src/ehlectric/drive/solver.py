@@ -9,15 +9,12 @@ import numpy as np
 from ehlectric.bearing import life_summary
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.drive.discharges.simulation import simulate
-from ehlectric.drive.drive_record import DriveSolution
+from ehlectric.drive.drive_record import SIMULATING, DriveSolution
 from ehlectric.drive.preparation import prepare
 from ehlectric.drive.warnings import bearing_warnings
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.progress import Progress, silent
-
-# Text of the progress while time is simulated.
-SIMULATING = "simulating"
 
 
 def solve(case: DriveCase, progress: Progress = silent, *, workers: int | None = None) -> DriveSolution:

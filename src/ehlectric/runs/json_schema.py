@@ -161,6 +161,9 @@ def _as_written(schema: dict[str, Any], kind: str) -> None:
                     {"$ref": "#/definitions/BearingCase"},
                 ],
             }
+    if viscosities := schema["definitions"].get("ViscosityTable"):
+        # A file contains them.
+        viscosities["required"] = []
     if kind == "axle":
         mesh = schema["definitions"]["AxleMesh"]
         mesh["required"] = [key for key in mesh["required"] if key != "pair"]
