@@ -234,7 +234,13 @@ def test_tables_of_pandas(results):
     assert bearing["load"].tolist() == [row["load"] for row in contacts]
     assert bearing.attrs["units"]["contact_angle"] == "rad"
     assert bearing["max_pressure"].dtype == float
-    assert set(bearing.attrs["units"]) == set(bearing) - {"element", "ring", "regime", "lubrication_state", "solved"}
+    assert set(bearing.attrs["units"]) == set(bearing) - {
+        "element",
+        "ring",
+        "regime",
+        "lubrication_state",
+        "solved",
+    }
     np.testing.assert_array_equal(motion["minimum_thickness"], results["motion"].values("minimum_thickness"))
     assert motion.attrs["units"]["minimum_thickness"] == "m"
 

@@ -58,7 +58,7 @@ def draw_section(
         zip((0.04, 0.96), ("bottom", "top"), potentials, strict=True), 1
     ):
         text, edge = f"surface {surface}, {volts:g} V".replace("-", "−"), outlined(2.0, BODY)
-        note(ax, 0.82, height, text, ha="right", va=where, fontsize=8.0, path_effects=edge)
+        note(ax, 0.88, height, text, ha="right", va=where, fontsize=8.0, path_effects=edge)
     ax.add_artist(_Enlargement(ax, units, np.column_stack([x, heights[:, 0]])))
     return filled
 

@@ -384,7 +384,8 @@ def field_map(result: PointResult, ax: Axes | None = None, *, section: str = "mi
         mark(result, ax, _largest(result), f"maximum{where}"),
     ]
     say(result, ax, _largest(result), f"{readable(factor * field.max_strength)} {unit}")
-    legend_above(ax, handles, 3)
+    # Above the uppermost number of the colour bar.
+    legend_above(ax, handles, 3, lift=4.0)
     entrainment(result, ax, ink=ON_MAP)
     return ax
 

@@ -119,9 +119,7 @@ def margin_panel(band: MarginBand, at_case: tuple[float, float] | None = None) -
         Area("90 of 100 cases", rpm, high > 1.0, BLUE, 0.2, (even, high)),
         Area("of these, breakdown", rpm, low < 1.0, ORANGE, 0.25, (low, even)),
     )
-    touching = Area(
-        "frequent asperity contact in 5 of 100 cases or more", rpm, band.low == 0.0, MIDDLE_GREY, 0.2
-    )
+    touching = Area("frequent asperity contact: ≥ 5 of 100 cases", rpm, band.low == 0.0, MIDDLE_GREY, 0.2)
     if np.any(touching.within):
         areas = (*areas, touching)
     top = 1.1 * float(np.max(high, initial=1.0))
