@@ -9,16 +9,19 @@ from tests.helpers.bearings import BALLS, bearing_case
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("speed", "higher"), [("3000 rpm", False), ("60 rpm", True)])
-def test_titles_and_legends_stay_in_the_figure(speed, higher):
-    """At 60 rpm the surfaces touch: the title has a line more, and the legend of the films a row more."""
-    case = bearing_case(BALLS, contacts="atlas", title="Ball bearing in a drive", bearing__inner_speed=speed)
-    drawn = figure(solve_bearing(case), "bearing_loads.png")
-    canvas = FigureCanvasAgg(drawn)
-    canvas.draw()
-    renderer, lowest = canvas.get_renderer(), drawn.bbox.y1
-    for ax in drawn.axes:
-        assert ax.get_legend().get_window_extent(renderer).y0 >= 0.0
-        lowest = min(lowest, drawn._suptitle.get_window_extent(renderer).y0)
-        assert ax.title.get_window_extent(renderer).y1 <= lowest
-    assert (drawn.get_figheight() > 4.6) == higher
+def test_titles_and_legends_stay_in_the_figure():
+    """At 60 rpm asperities are in contact: title and legend of the films need more room."""
+    heights = []
+    for speed in ("3000 rpm", "60 rpm"):
+        title = "Ball bearing in a drive"
+        case = bearing_case(BALLS, contacts="atlas", title=title, bearing__inner_speed=speed)
+        drawn = figure(solve_bearing(case), "bearing_loads.png")
+        canvas = FigureCanvasAgg(drawn)
+        canvas.draw()
+        renderer, lowest = canvas.get_renderer(), drawn.bbox.y1
+        for ax in drawn.axes:
+            assert ax.get_legend().get_window_extent(renderer).y0 >= 0.0
+            lowest = min(lowest, drawn._suptitle.get_window_extent(renderer).y0)
+            assert ax.title.get_window_extent(renderer).y1 <= lowest
+        heights.append(drawn.get_figheight())
+    assert heights[1] > heights[0]
