@@ -44,8 +44,8 @@ def test_second_order(slope, skew, nodes):
 @pytest.mark.slow
 @pytest.mark.parametrize(("wedge_order", "order", "off"), [(1, 1.0, 0.13), (2, 2.0, 0.07), (3, 2.0, 0.07)])
 def test_orders(slope, wedge_order, order, off):
-    """On finer grids; the first-order wedge still feels the second order of everything else."""
-    nodes = np.array([129, 257, 513])
+    """The first-order wedge still feels the second order of everything else."""
+    nodes = np.array([65, 129, 257])
     found = np.array([errors(ManufacturedFilm(), n, wedge_order=wedge_order) for n in nodes])
     for quantity, column in zip(("P", "H", "H00"), found.T, strict=True):
         assert slope(SPAN / (nodes - 1), column) == pytest.approx(order, abs=off), quantity

@@ -19,6 +19,7 @@ from tests.helpers.mixed_films import (
     rough_point,
     sinusoid,
 )
+from tests.helpers.share import share
 
 pytestmark = pytest.mark.convergence
 
@@ -132,7 +133,7 @@ def test_point_at_rest_is_the_dry_rough_contact():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("nodes", [65, 129])
+@pytest.mark.parametrize("nodes", share([65, 129], 2))
 def test_fine_point_at_rest_is_the_dry_rough_contact(nodes):
     film = mixed_film(rough_point(gaussian("100 nm", "30 um"), nodes=nodes, speed=1e-5))
     assert film.converged
