@@ -66,6 +66,9 @@ def test_a_chosen_part_and_a_wrong_one(monkeypatch):
             schedule.part_of_commit()
 
 
+@pytest.mark.slow
+@pytest.mark.gate
+@pytest.mark.skipif(not (ROOT / ".git").exists(), reason="the source is no clone")
 def test_the_clone_without_history_takes_the_date(tmp_path, monkeypatch):
     monkeypatch.delenv(schedule.PART, raising=False)
     subprocess.run(
@@ -77,6 +80,8 @@ def test_the_clone_without_history_takes_the_date(tmp_path, monkeypatch):
     assert {"film", "field", "app", "commands"} <= schedule.changed_rooms()
 
 
+@pytest.mark.slow
+@pytest.mark.gate
 def test_rooms_above_a_changed_one_are_changed():
     """The contract of imports: contacts and all above them use films, and nothing below does."""
     rooms = schedule.with_importers({"film"})
