@@ -14,7 +14,7 @@ import ehlectric
 from ehlectric import BearingCase, DriveCase, GearCase, InputError
 from ehlectric.calibration import given_points
 from ehlectric.calibration.models import model_of
-from ehlectric.calibration.range_update import given_values
+from ehlectric.calibration.range_update import _Compared, given_values
 from ehlectric.cases.measured_inputs import Measured, measured_points
 from ehlectric.cases.measurements import BEARING_POINTS, CALIBRATED
 
@@ -466,3 +466,22 @@ def test_a_calibration_is_shown_as_table_and_figure(bearing, text):
     figure = calibration.plot(style="journal")
     assert 25.4 * figure.get_figwidth() == pytest.approx(84.0)
     assert len(figure.axes) == 2
+
+
+def test_the_share_that_a_further_value_removes_is_the_part_that_a_line_explains():
+    """R^2 of least squares of ln(margin) by values with noise: each value once above and once below by its
+    uncertainty, which is normal noise in its variance and its correlation.
+    """
+    logs, deviation = np.array([0.1, 0.5, 0.2, 0.9]), np.array([0.0, 0.7, 0.3, 0.6])
+    columns = {
+        "capacitance": 1e-10 * (1.0 + 0.1 * deviation),
+        "inner_ring_temperature": 330.0 - 2.0 * deviation,
+    }
+    errors = {"capacitance": 0.05 * np.mean(columns["capacitance"]), "inner_ring_temperature": 1.0}
+    expected = {}
+    for name, column in columns.items():
+        noisy = np.concatenate([column + errors[name], column - errors[name]])
+        line = np.polyval(np.polyfit(noisy - np.mean(noisy), np.tile(logs, 2), 1), noisy - np.mean(noisy))
+        expected[name] = np.var(line) / np.var(logs)
+    found = dict(_Compared._following(None, {k: v[:, None] for k, v in columns.items()}, np.exp(logs)))
+    assert found == pytest.approx(expected, rel=1e-9)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 
-from ehlectric.calibration.posterior import chi_squares, infer, weights_of
+from ehlectric.calibration.posterior import Nearest, chi_squares, infer, weights_of
 
 ENDS = (0.05, 0.5, 0.95)
 
@@ -125,3 +127,13 @@ def test_polynomials_of_many_inputs_get_the_whole_design():
     assert len(posterior.prior_at) == 512
     assert calls[0] == 256
     assert 256 in calls[1:]
+
+
+@pytest.mark.parametrize("chi2", [0.2, 3.0, 11.0])
+def test_probability_of_a_larger_chi2(chi2):
+    """Closed forms: erfc(sqrt(x/2)) with one degree of freedom, and exp(-x/2) sum (x/2)^k/k! with 2, 4, 6."""
+    half, at = 0.5 * chi2, np.zeros(1)
+    series = np.cumsum([1.0, half, half**2 / 2.0]) * np.exp(-half)
+    expected = [math.erfc(math.sqrt(half)), *series]
+    found = [Nearest(at, at, chi2, freedom).p_value for freedom in (1, 2, 4, 6)]
+    assert found == pytest.approx(expected, rel=1e-12)

@@ -12,12 +12,14 @@ from hypothesis import strategies as st
 from ehlectric import Case, InputError, load, save, solve
 from ehlectric.contact import contact_memory
 from ehlectric.contact.conditions import resolve_point
+from ehlectric.contact.preparation import prepare
 from ehlectric.contact.problems import point_film_problem
 from ehlectric.film.isothermal_film import solve_point_film
 from ehlectric.formulas import film_point
 from tests.cases.test_point_case import point
 from tests.conftest import PAPER_CONTACT
 from tests.contact.test_files import assert_equal, powers_of_ten
+from tests.helpers.each import each
 from tests.helpers.strategies import discharges
 
 SLOW = partial(pytest.param, marks=pytest.mark.slow)
@@ -378,3 +380,13 @@ def test_refinement_that_does_not_get_there_is_said(kind, monkeypatch):
     (said,) = (text for text in map(str, result.warnings) if text.startswith("grid.refine"))
     assert f"0.01 % was not reached with {second} nodes" in said
     assert "expected a grid that fits into" in said
+
+
+@each("load, radius_y, inlet", [(0.05, "10 mm", -4.5), (0.02, "30 mm", -4.5), (0.05, "10 mm", -6.0)])
+def test_ambient_pressure_carries_its_product_with_the_area_of_the_domain(load, radius_y, inlet):
+    case = point({"load": load, "radius_y": radius_y}, grid={"nodes": 65, "inlet": inlet})
+    conditions = resolve_point(case)
+    (text,) = (one.text for one in prepare(case).warnings() if one.code == "ambient-pressure")
+    length, width = case.grid.length * conditions.semi_axis_x, 2.0 * conditions.side * conditions.semi_axis_y
+    percent = float(re.search(r"carries ([\d.]+) % of the load", text)[1])
+    assert percent == pytest.approx(100.0 * 101325.0 * length * width / load, rel=0.05)

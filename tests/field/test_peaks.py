@@ -129,3 +129,15 @@ def test_a_point_contact_finds_hidden_waves():
     assert flat.max_strength_position > 4e-6
     assert 0.03 < true <= 1.05 * flat.strength_error
     assert solid.strength_error == pytest.approx(flat.strength_error, rel=0.05)
+
+
+def test_mirrored_walls_have_mirrored_fields_to_first_order():
+    """Few columns, so that the integrals have the columns at both ends."""
+    x = np.array([0.0, 1.0, 2.5, 3.0, 4.2])
+    lower, upper = 0.1 * np.array([1.0, 0.0, 3.0, 1.0, 2.0]), 2.0 + 0.1 * np.array([2.0, 1.0, 0.0, 5.0, 1.0])
+    both = [
+        FieldProblem(places, *(wall[turn] for wall in (lower, upper, 1.0 + 0.0 * x)), 0.0, 1.0)
+        for places, turn in ((x, slice(None)), (-x[::-1], slice(None, None, -1)))
+    ]
+    found, mirrored = (first_order_strength(problem, 0.0 * x) for problem in both)
+    np.testing.assert_allclose(mirrored[::-1], found, rtol=1e-12)

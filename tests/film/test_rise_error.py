@@ -1,6 +1,7 @@
 """Stated error of the temperature rise against grids four times finer along and across the film."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -8,6 +9,8 @@ import pytest
 from ehlectric import Case, solve
 from ehlectric.contact import contact_heat as oil_of_case
 from ehlectric.film import heated_film
+from ehlectric.film.heated_film import change_between, close_enough
+from tests.helpers.each import each
 from tests.helpers.hot_cases import HOT_LINE
 from tests.helpers.share import share
 
@@ -84,3 +87,14 @@ def test_stated_error_of_random_contacts(monkeypatch, first):
     assert len(ratios) >= len(seeds) - 1
     assert all(ratio <= 2.0 for ratio in ratios)
     assert sum(ratio > 1.0 for ratio in ratios) <= 1
+
+
+@each("part", [0.5, 1.0, 3.0])
+@each("rise", [0.0, 40.0])
+def test_a_change_is_stated_in_changes_that_are_small_enough(rise, part):
+    """The heaviest node counts; one with a quarter of its weight may change by four times as much."""
+    thermal = SimpleNamespace(inlet_temperature=300.0)
+    new = np.array([300.0 + rise, 300.0])
+    before = new - part * close_enough(rise) * np.array([1.0, -3.0])
+    heats = (SimpleNamespace(temperature=temperature) for temperature in (before, new))
+    assert change_between(np.array([1.0, 0.25]), *heats, thermal) == pytest.approx(part, rel=1e-6)

@@ -7,10 +7,12 @@ import pytest
 
 from ehlectric import Case
 from ehlectric.film.face_flow import flow
-from ehlectric.film.mesh import Mesh
+from ehlectric.film.film_solver import starved_solution
+from ehlectric.film.mesh import Mesh, at_centre
 from ehlectric.film.nested import levels_of, nested_iteration
 from ehlectric.film.newton import Asperities, State
 from ehlectric.film.oil_content import Carried, Runs, Scheme, Supply, carried_rows, filled_anew
+from ehlectric.film.problem import OilSupply
 from ehlectric.film.reynolds import poiseuille_weight
 from ehlectric.film.starved_solver import first_layer
 from ehlectric.film.touching_film import TouchingJacobian, assess_touching
@@ -166,3 +168,18 @@ def test_derivative_of_the_wedge_where_gaps_close_steeply(order, first_order):
     derivative = supply.at_gap(np.where(filled, full, 1.0)).wedge(mesh, filled, full)(change)
     numerical = (wedge(full + 1e-6 * change) - wedge(full - 1e-6 * change)) / 2e-6
     np.testing.assert_allclose(derivative, numerical, rtol=1e-5, atol=1e-5 * np.abs(derivative).max())
+
+
+@pytest.mark.parametrize("ratio", [0.6])
+def test_a_layer_gives_the_film_of_its_ratio(ratio):
+    """Both central films, by the ratio asked for; the oil of the layer flows through the middle of the line:
+    rho H = rho_0 layer, but for the small flow by pressure there.
+    """
+    with quiet_solution():
+        found = starved_solution(replace(posed(LINE), supply=OilSupply(film_ratio=ratio)), None)
+    mesh, last = found.last.level.mesh, found.last
+    assert at_centre(mesh, last.state.thickness) == pytest.approx(
+        ratio * at_centre(mesh, found.flooded.state.thickness), rel=2e-4
+    )
+    mass = at_centre(mesh, last.final.coefficients.density * last.state.thickness)
+    assert mass == pytest.approx(float(found.layer[0]), rel=0.01)

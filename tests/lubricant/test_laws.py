@@ -187,3 +187,10 @@ def test_constant_permittivity():
     np.testing.assert_array_equal(
         electrical_laws.constant_permittivity(np.array([1.0, 1.3]), relative_permittivity=80.0), 80.0
     )
+
+
+@each("law, parameters", PRESSURE_LAWS)
+def test_slope_is_the_quotient_of_differences(law, parameters):
+    pressure = np.array([1e7, 3e8, 1e9])
+    (low, high), step = (law(pressure + sign * 1e4, **parameters)[0] for sign in (-1.0, 1.0)), 2e4
+    assert law(pressure, **parameters)[1] == pytest.approx((high - low) / step, rel=1e-5, abs=1e-16)

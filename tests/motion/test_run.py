@@ -9,6 +9,7 @@ from ehlectric.errors import ConvergenceError
 from ehlectric.film.unsteady import UnsteadyFilm
 from ehlectric.motion.moving_contact import TransientContact
 from ehlectric.motion.run import run_motion, solve_to_folder
+from ehlectric.motion.solver import TransientSolver
 from ehlectric.motion.stored_run import read_motion
 from ehlectric.runtime.result_names import MOTION
 from ehlectric.surfaces import rough_surfaces
@@ -119,3 +120,11 @@ def test_a_table_film_without_heat_and_shear_changes_nothing(table, tmp_path):
     without, plain = (read_motion(tmp_path / name) for name in ("without", "plain"))
     for name in ("minimum_thickness", "thickness", "pressure", "max_strength"):
         np.testing.assert_array_equal(plain[name].values, without[name].values)
+
+
+def test_the_gap_is_the_parabola_with_the_deflection():
+    """h = h0 + x^2/(2R) + d of smooth surfaces, before the roughness enters, at all nodes."""
+    solver = TransientSolver(TransientContact.of(moving()))
+    film = solver.film(solver.start().now)
+    rigid = film.thickness - film.x**2 / (2.0 * solver.contact.conditions.reduced_radius) - film.deflection
+    assert np.ptp(rigid) < 1e-9 * np.ptp(film.deflection)

@@ -367,7 +367,7 @@ def film_of_ratio(
 
     Secant method for ln(film) over ln(layer), whose slope is between 0 and 1.
     """
-    lines, mesh = np.ones_like(starved.level.mesh.y), starved.level.mesh
+    mesh = starved.level.mesh
     ambient = starved.posed.fluid.ambient_density
     if starved.flooded.status != "converged":
         return None, None
@@ -381,7 +381,7 @@ def film_of_ratio(
     tried: list[tuple[float, float]] = []
     best: tuple[float, Array, GridSolution] | None = None
     for _ in range(_MOST_FILMS):
-        here = layer * lines
+        here = np.full_like(mesh.y, layer)
         film = starved.solved(here, near)
         if film.status != "converged":
             break

@@ -6,7 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.linalg import expm
 
+from ehlectric.drive.circuit_states import MOVED, drive_states
 from ehlectric.drive.motor_circuit import INVERSE, RATE_ROW, SHAPES, Element, modes_of, state_space
+from tests.helpers.drives import arc, element, motor
 
 
 def test_capacitive_divider():
@@ -85,3 +87,16 @@ def test_modes_of_shafts_that_nothing_discharges(burning):
     exact = expm(system.rates * 1e-8)
     mine = (modes.squares[SHAPES] * np.exp(modes.rows[RATE_ROW, :-2] * 1e-8)) @ modes.squares[INVERSE]
     np.testing.assert_allclose(mine.real, exact, atol=1e-9)
+
+
+def test_a_film_that_moves_has_its_next_capacitance():
+    """The state after each move is the first state of a film whose capacitances begin further along."""
+    capacitances = np.array([1e-10, 2e-10, 5e-10])
+    states, state = drive_states(motor(), [element(capacitances), element()], arc()), 0
+    for moves in (1, 2, 3):
+        states.make(state, 0, MOVED)
+        state = int(states.links[state, 0, MOVED])
+        turned = element(np.roll(capacitances, -moves))
+        expected = drive_states(motor(), [turned, element()], arc())
+        np.testing.assert_array_equal(states.rows[state], expected.rows[0])
+    assert state == 0
