@@ -11,7 +11,7 @@ export PIP_CONSTRAINT := $(CURDIR)/requirements.lock
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help install run app browser test slow thorough lint check coverage format docs pages figures screenshots bench bench-release bench-compare bench-public lock packages wheel changes paper clean
+.PHONY: help install run app browser test slow thorough lint check coverage mutants format docs pages figures screenshots bench bench-release bench-compare bench-public lock packages wheel changes paper clean
 
 help:
 	@echo "make run     install and solve a contact and a bearing, with figures"
@@ -23,6 +23,7 @@ help:
 	@echo "make check   format, lint, types, import contract and tests"
 	@echo "make lint    the same without the tests"
 	@echo "make coverage  run the tests and print the lines that none of them runs"
+	@echo "make mutants  change operators and numbers of the source one at a time, and list the changes that no test notices; takes hours"
 	@echo "make format  format the code"
 	@echo "make docs    build the documentation, run its gallery; warnings are errors"
 	@echo "make pages   build the documentation without its gallery and the figures of solved cases"
@@ -111,6 +112,10 @@ check: lint test
 
 coverage: $(VENV)/.test
 	$(BIN)/python -m pytest --cov --cov-report=term
+
+# Where a stopped run left off; options with: make mutants OPTIONS='--rooms gear --number 100'
+mutants: $(VENV)/.test
+	nice $(BIN)/python -m tools.mutants $(OPTIONS)
 
 format: $(VENV)/.dev
 	$(BIN)/ruff format .

@@ -4,7 +4,7 @@ import pytest
 
 from ehlectric.version import __version__
 from tests.helpers.places import ROOT
-from tools import check_tag, lint_house
+from tools import check_tag, lint_house, mutants
 
 
 @pytest.mark.parametrize(
@@ -189,3 +189,20 @@ def test_a_tag_is_the_version_of_package_citation_recipe_and_changelog(tmp_path)
     assert all("99.0.0" in line and __version__ in line for line in others)
     (tmp_path / "changes/+a.added.md").write_text("An entry.\n", encoding="utf-8")
     assert ["1 entries" in line for line in check_tag.disagreements(tag, tmp_path)] == [True]
+
+
+def test_a_mutant_changes_one_operator_or_number_that_is_no_text():
+    """By hand: all mutants of five lines, and the source of the last one, whose column counts bytes."""
+    source = """
+def area(side: Literal[2], µ=0.0):
+    if side < 0:
+        raise ValueError(f"{side + 1}")
+    side *= 3  # < 4
+    return "a" + name, µ - (side) / µ
+""".encode()
+    found = list(mutants.mutants_of("a.py", source))
+    changes = sorted(f"{one.line}: {one.old} -> {one.new}" for one in found)
+    first = ["2: 0.0 -> 1.0", "3: 0 -> 1", "3: < -> <="]
+    assert changes == [*first, "5: * -> /", "5: 3 -> 4", "6: - -> +", "6: / -> *"]
+    (last,) = (one for one in found if one.old == "/")
+    assert last.applied(source).decode().splitlines()[5] == '    return "a" + name, µ - (side) * µ'
