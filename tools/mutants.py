@@ -168,9 +168,11 @@ def main() -> None:
     TABLE.touch()
     known = {Mutant(*row["mutant"]): row["outcome"] for row in map(json.loads, TABLE.open(encoding="utf-8"))}
     with tempfile.TemporaryDirectory() as folder, TABLE.open("a", encoding="utf-8") as table:
-        sys.path.insert(0, folder)
-        os.environ |= {"PYTHONPATH": folder, "NUMBA_CACHE_DIR": f"{folder}/numba"}
-        copy = shutil.copytree(SOURCE, Path(folder, "ehlectric"))
+        for entry in {*ROOT.iterdir()} - {ROOT / "src"}:
+            Path(folder, entry.name).symlink_to(entry)
+        copy = shutil.copytree(SOURCE, Path(folder, "src/ehlectric"))
+        sys.path.insert(0, str(copy.parent))
+        os.environ |= {"PYTHONPATH": str(copy.parent), "NUMBA_CACHE_DIR": f"{folder}/numba"}
         for library in LIBRARIES:
             importlib.import_module(library)
         for mutant in drawn:

@@ -30,6 +30,8 @@ from ehlectric.film.far_field import with_far_field
 from ehlectric.film.isothermal_film import solve_film, solve_point_film
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.patch import Patch
+from ehlectric.formulas.film_line import moes
+from ehlectric.formulas.film_point import nijenbanning_venner_moes
 from ehlectric.formulas.tensor_spline import TensorSpline
 from ehlectric.lubricant.density import incompressible
 from ehlectric.lubricant.viscosity import barus, roelands
@@ -52,6 +54,8 @@ def test_groups_are_those_of_conditions():
     alpha = PAPER.alpha_star
     assert groups.velocity_parameter == pytest.approx(line.velocity_parameter)
     assert groups.hertz_number == pytest.approx(alpha * line.max_pressure)
+    unit = 0.01 * math.sqrt(2.0 * line.contact._u)
+    assert groups.formula * unit == pytest.approx(moes(line.contact).central_thickness)
     point = point_conditions(
         PAPER, radii=(0.008, 0.05), reduced_modulus=226e9, load=100.0, entrainment_speed=3.0
     )
@@ -61,8 +65,20 @@ def test_groups_are_those_of_conditions():
     assert groups.radius_ratio == pytest.approx(0.05 / 0.008)
     unit = point.radius_x * math.sqrt(2.0 * point.contact._u)
     assert groups.thickness_unit * unit == pytest.approx(point.thickness_scale)
+    assert groups.formula * unit == pytest.approx(nijenbanning_venner_moes(point.contact).central_thickness)
     again = groups_of(groups.load_group, groups.moes_l, groups.ratio)
     assert again.moes_m == pytest.approx(groups.moes_m)
+
+
+@pytest.mark.parametrize("ratio", [None, 3.0])
+def test_the_inlet_of_thick_films_grows_as_the_root_of_the_film(ratio):
+    """sqrt(R h)/b = sqrt(H): the gap at the inlet edge is the same multiple of the film for all loads."""
+    groups = Groups(np.array([2.0, 5.0, 15.0]), 5.0, ratio)
+    inlet, _ = groups.domain
+    assert inlet == pytest.approx(
+        inlet[0] * np.sqrt(film := groups.formula / groups.thickness_unit) / film[0] ** 0.5
+    )
+    assert np.all(inlet[0] > 5.0)
 
 
 def test_problem_of_a_point_is_that_of_its_conditions():
