@@ -3,8 +3,11 @@
 import numpy as np
 import pytest
 
-from ehlectric.drive.measurable import _Nodes
+from ehlectric.drive.measurable import DriveModel, _Nodes
+from tests.helpers.drives import small_drive
 from tests.helpers.each import each
+
+PATHS = "winding_rotor", "rotor_frame"
 
 
 @each("quantities", ["at", "errors"])
@@ -22,3 +25,23 @@ def test_a_voltage_is_its_part_of_the_shaft_voltage(quantities):
     assert np.all(low["shaft_voltage_rms"] > 0.0)
     assert high["shaft_voltage_rms"] == pytest.approx(5.0 * low["shaft_voltage_rms"], rel=1e-12)
     assert high["discharge_rate"] == pytest.approx(low["discharge_rate"], rel=1e-12)
+
+
+def test_voltages_of_the_divider_vanish_where_a_bearing_touches():
+    """C_wr/(C_wr + C_rf + C_1 + C_2) of the peak; the margin is the smaller breakdown voltage over it."""
+    model = DriveModel.of(small_drive())
+    winding, frame = (model.case.circuit.capacitances[f"{name}_capacitance"] for name in PATHS)
+    capacitances, limits = (3e-10, 2e-10), ([20.0, 0.0, 9.0], [5.0, 8.0, 0.0])
+    ends = [
+        {"shaft_capacitance": np.full((3, 1), capacitance), "breakdown_voltage": np.array([limit]).T}
+        for capacitance, limit in zip(capacitances, limits, strict=True)
+    ]
+    found = model._circuit(np.full((3, len(model.inputs)), 0.5), ends, np.array([280.0]))
+    ratio = winding / (winding + frame + sum(capacitances))
+    expected = {
+        "bearing_voltage_ratio": ratio,
+        "shaft_voltage": 280.0 * ratio,
+        "margin": 5.0 / (280.0 * ratio),
+    }
+    for name, value in expected.items():
+        assert found[name][:, 0] == pytest.approx([value, 0.0, 0.0], rel=1e-12)

@@ -14,7 +14,14 @@ from ehlectric.figures.result_figures import save_figures
 from ehlectric.motion import moving_contact
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import MotionRun, read_motion, time_above
-from ehlectric.motion.summary import SCHEMA, coincident_instant, counted, local_maxima, summary_of
+from ehlectric.motion.summary import (
+    SCHEMA,
+    coincident_instant,
+    counted,
+    estimated,
+    local_maxima,
+    summary_of,
+)
 from tests.helpers.each import each
 from tests.helpers.moving_cases import LINE, POINT, moving
 
@@ -465,3 +472,13 @@ def test_a_summary_parses_and_resolves_its_case_once(monkeypatch):
     monkeypatch.setitem(moving_contact.KINDS, "line", replace(moving_contact.LINE, contact=stationary))
     assert summary_of(dataset)["beside_stationary"] is not None
     assert calls == ["parsed", "resolved"]
+
+
+def test_estimated_errors_do_not_depend_on_the_unit_of_the_films():
+    fine, coarse = np.array([3.0, 2.0, 2.2]), np.array([2.9, 2.1, 2.15])
+    one, other = (
+        estimated((unit * fine, unit * coarse), (unit * fine[::-1], unit * coarse), unit * 2.05)
+        for unit in (1.0, 1e-7)
+    )
+    assert one.minimum > 0.01
+    assert (other.minimum, other.central) == pytest.approx((one.minimum, one.central), rel=1e-9)
