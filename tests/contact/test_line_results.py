@@ -4,12 +4,14 @@ import dataclasses
 import json
 import re
 from concurrent.futures import ThreadPoolExecutor
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from threadpoolctl import ThreadpoolController
 
 from ehlectric import Case, ConvergenceError, InputError, load, save, solve
+from ehlectric.contact.contact_solution import line_roughness
 from ehlectric.contact.solver import solve as solve_case
 from ehlectric.runtime.files import whole
 from tests.conftest import PAPER_CONTACT
@@ -323,3 +325,18 @@ def test_film_that_gapes_is_no_reason_to_stop():
     result = solve(Case.from_dict({"contact": contact, "lubricant": lubricant, "grid": {"nodes": 85}}))
     assert not result.converged
     assert np.all(np.isfinite(result.field.strength))
+
+
+@each("sign", [1.0, -1.0])
+def test_the_combined_roughness_of_equal_surfaces_is_twice_theirs_or_none(sign):
+    """Heights add up: Rq of u + u is 2 Rq, and of u - u zero, within the half-width only."""
+    x, lone = np.linspace(-2.0, 2.0, 81), 9.0 * (np.abs(np.linspace(-2.0, 2.0, 81)) > 1.0)
+    wave = 1e-7 * (np.cos(7.0 * x) + lone)
+    film, conditions = SimpleNamespace(x=x, minimum_thickness=3e-7), SimpleNamespace(half_width=1.0)
+    rough = SimpleNamespace(
+        film=film, conditions=conditions, roughness=np.stack([wave, sign * wave]), smooth=None
+    )
+    found, rq = line_roughness(rough), np.std(1e-7 * np.cos(7.0 * x[np.abs(x) <= 1.0]))
+    assert (found.rq_1, found.rq_2) == pytest.approx((rq, rq), rel=1e-12)
+    assert found.rq_combined == pytest.approx((1.0 + sign) * rq, rel=1e-9, abs=1e-20)
+    assert found.lambda_ratio == (pytest.approx(3e-7 / (2.0 * rq), rel=1e-9) if sign > 0.0 else None)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from ehlectric.bearing import MOTOR
 from ehlectric.drive.measurable import DriveModel, _Nodes
 from tests.helpers.drives import small_drive
 from tests.helpers.each import each
@@ -45,3 +46,14 @@ def test_voltages_of_the_divider_vanish_where_a_bearing_touches():
     }
     for name, value in expected.items():
         assert found[name][:, 0] == pytest.approx([value, 0.0, 0.0], rel=1e-12)
+
+
+def test_ranges_of_capacitances_lie_around_the_values_of_the_case():
+    """Both ends are as far from the value, and half of the range is the part of it that judgement gives."""
+    model = DriveModel.of(small_drive())
+    capacitances = model.case.circuit.capacitances
+    ends = {entry.name.key: entry.ends for entry in model.inputs if entry.name.key.startswith("circuit.")}
+    assert set(ends) == {f"circuit.{name}_capacitance" for name in PATHS}
+    for key, (low, high) in ends.items():
+        value = capacitances[key.removeprefix("circuit.")]
+        assert (0.5 * (low + high), 0.5 * (high - low)) == pytest.approx((value, MOTOR * value), rel=1e-12)

@@ -1,6 +1,7 @@
 """Schedule of moving roughness: time steps, speeds, and when the contact is covered, by hand."""
 
 import math
+import re
 
 import pytest
 
@@ -142,3 +143,16 @@ def test_times_that_are_not_reached_are_none_in_a_summary_and_missing_among_the_
     assert reached.moments() == pytest.approx(expected, rel=1e-12)
     assert short.moments() == {}
     assert {name: short.described()[name] for name in expected} == dict.fromkeys(expected)
+
+
+@each("passes", [0.5, 2.0])
+def test_the_stated_number_of_steps_is_the_smallest_that_is_accepted(passes):
+    def steps(number):
+        return schedule(moving(motion={"passes": passes, "steps": number})).steps
+
+    with pytest.raises(InputError, match=r"^motion\.steps: ") as error:
+        steps(1)
+    least = int(re.search(r"at least (\d+)", str(error.value))[1])
+    assert steps(least) == least
+    with pytest.raises(InputError, match=r"^motion\.steps: "):
+        steps(least - 1)

@@ -1,9 +1,10 @@
 """Capacitive divider of a motor with its bearings, against the quotient of capacitances."""
 
+import numpy as np
 import pytest
 
 from ehlectric.bearing.circuit import Path
-from ehlectric.drive.motor_circuit import capacitive_divider
+from ehlectric.drive.motor_circuit import capacitive_divider, motor_elements, state_space
 from tests.helpers.drives import element, motor
 from tests.helpers.each import each
 
@@ -30,3 +31,14 @@ def test_a_coating_takes_its_part(keys):
     bearings = [element(300e-12, path=Path(coating=600e-12)), element(200e-12)]
     share = 50.0 / (50.0 + 500.0 + 200.0 + 200.0)
     assert capacitive_divider(circuit, bearings) == pytest.approx((share * 2.0 / 3.0, share), rel=1e-12)
+
+
+def test_inductances_without_a_capacitance_between_them_are_in_series():
+    """Poles of L p^2 + R p + 1/C with L = 3 + 2 uH and C = C_wf + C_wr C_rf/(C_wr + C_rf)."""
+    keys = {"ground_inductance": "2 uH", "ground_resistance": "1 ohm"}
+    circuit = motor(common_mode_inductance="3 uH", common_mode_resistance="4 ohm", **keys)
+    capacitance = 5e-9 + 50e-12 * 500e-12 / 550e-12
+    poles = np.roots([5e-6, 5.0, 1.0 / capacitance])
+    rates = np.linalg.eigvals(state_space(list(motor_elements(circuit)), ("source", "frame")).rates)
+    assert sorted(rates[np.abs(rates) > 1.0].imag) == pytest.approx(sorted(poles.imag), rel=1e-9)
+    assert np.max(rates.real[np.abs(rates) > 1.0]) == pytest.approx(poles[0].real, rel=1e-9)
