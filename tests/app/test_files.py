@@ -10,11 +10,13 @@ from pathlib import Path
 import pytest
 
 from ehlectric.app.compute.answer_parts import drive_of
+from ehlectric.app.compute.gear_answers import quick_answer
 from ehlectric.app.compute.page_files import drawn, packed, uploaded, write
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.session import MOST_TOGETHER
 from ehlectric.app.view_models import MOST_CASE, MOST_FILES, file_title
 from ehlectric.errors import InputError
+from ehlectric.readable import ratio_text
 from tests.helpers.each import each
 from tests.helpers.places import DEKTAK, EXAMPLES
 
@@ -204,6 +206,15 @@ def test_the_downloaded_case_run_by_the_command_gives_the_downloaded_files(tmp_p
     assert numbers(ours) == numbers(theirs)
     for name in ("contacts.csv", "impedance.csv"):
         assert (tmp_path / "unpacked" / name).read_text() == (folder / name).read_text()
+
+
+@pytest.mark.slow
+def test_files_of_a_gear_pair_have_the_films_of_its_page(tmp_path):
+    """The page takes films of the atlas until it solves them, whatever the file says."""
+    table = tomllib.loads(example("gear_pair").decode()) | {"contacts": "solved"}
+    written = write(table, "atlas", tmp_path, silent)
+    margin = json.loads((Path(written.folder) / "summary.json").read_text("utf-8"))["mesh"]["margin"]
+    assert ratio_text(margin) == quick_answer(table).number("mesh.margin").text
 
 
 def test_single_files_and_archives(tmp_path):

@@ -239,14 +239,15 @@ def _names_like(name: str) -> Iterator[str]:
 def write(table: Mapping[str, Any], contacts: str, folder: Path, progress: Progress) -> Written:
     """Solve a case as the command does, and write its files but the figures, which ``drawn`` adds.
 
-    ``contacts``, "atlas", "formula" or "solved" for a bearing; empty where the case decides. Returns files in
-    a folder of the session, which earlier files leave. Raises InputError, ConvergenceError, LostError as the
-    command raises them.
+    ``contacts``, "atlas", "formula" or "solved" for a bearing or a gear pair; empty where the case decides.
+    Returns files in a folder of the session, which earlier files leave. Raises InputError, ConvergenceError,
+    LostError as the command raises them.
     """
-    kind, case, options = kind_of(table), run_case_of(table, folder), dict[str, Any]()
+    kind, case = kind_of(table), run_case_of(table, folder)
+    options: dict[str, Any] = {"contacts": contacts} if contacts else {}
     if kind == "bearing":
         # As many jobs run at once as there are pairs of cores.
-        options = {"contacts": contacts, "workers": min(2, cores())}
+        options["workers"] = min(2, cores())
     out = folder / OUT
     shutil.rmtree(out, ignore_errors=True)
     outcome = RUNS[kind].run(case, out, progress, **options)

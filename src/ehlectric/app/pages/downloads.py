@@ -38,6 +38,9 @@ _COMMANDS = {
     "sweep": "sweep",
 }
 
+# Kinds whose contacts a page takes from the atlas or a formula, whatever the file says, until it solves them.
+_QUICK = ("bearing", "gear")
+
 
 class Downloads:
     """Card with the downloads of a page, at the place where it is made.
@@ -46,8 +49,8 @@ class Downloads:
     has none, and then the files are made first. With ``only_made`` the card has only what is made from a
     result: reports, and files for other programs.
 
-    The contacts of a bearing's files are not solved, as its page shows them, unless there is a folder
-    with solved contacts.
+    The contacts in the files of a bearing or a gear pair are not solved, as its page shows them, unless there
+    is a folder with solved contacts.
     """
 
     def __init__(
@@ -97,8 +100,8 @@ class Downloads:
 
     @property
     def _quick(self) -> str:
-        """Way to the contacts of a bearing of the present inputs without solving them."""
-        return quick_way(self.session.inputs.value("contacts"))
+        """Way to the contacts of the present inputs without solving them; empty where the case decides."""
+        return quick_way(self.session.inputs.value("contacts")) if self._kind in _QUICK else ""
 
     def toml(self) -> None:
         """Download the inputs."""
@@ -108,9 +111,8 @@ class Downloads:
         """Say how the command solves the downloaded case with the numbers that the page shows now."""
         if self._command is None:
             return
-        options = ""
-        if self._kind == "bearing":
-            options = f" --contacts {self._quick if self._folder() is None else 'solved'}"
+        quick = self._quick
+        options = f" --contacts {quick if self._folder() is None else 'solved'}" if quick else ""
         self._command.clear()
         with self._command:
             ui.label(f"ehlectric {_COMMANDS[self._kind]} {self.title}.toml{options}")
@@ -136,8 +138,7 @@ class Downloads:
         # The folder of earlier files is written anew.
         self._made = None
         self._then, self._requested = then, self.session.inputs
-        contacts = self._quick if self._kind == "bearing" else ""
-        self._start(FILES_WRITTEN, dict(self.session.inputs.table), contacts, self.session.folder)
+        self._start(FILES_WRITTEN, dict(self.session.inputs.table), self._quick, self.session.folder)
 
     def _start(self, *call: Any) -> None:
         self._job = self._box.start(*call) or self._job
