@@ -166,9 +166,9 @@ def test_a_point_opens_its_case_with_the_same_numbers(open_page, app_server, tmp
     wait_for_number(opened, "bearing.margin", float(row["bearing.margin [-]"]))
     case = downloaded(opened, "download-toml", tmp_path)
     numbers = json.loads(command("bearing", case, "--json", "--no-plots", "-o", "out", folder=tmp_path)[0])
-    # Points are solved together, and the command solves one: they differ by rounding.
+    # Points that are solved together share tables of their gaps, and the command solves one alone.
     for key, column in (("capacitance", "bearing.capacitance [F]"), ("margin", "bearing.margin [-]")):
-        assert numbers["bearing"][key] == pytest.approx(float(row[column]), rel=1e-12)
+        assert numbers["bearing"][key] == pytest.approx(float(row[column]), rel=1e-8)
 
 
 @pytest.mark.slow

@@ -16,3 +16,11 @@ def number_in(text):
 def grouped(value, digits=3):
     """Text of a number from 10 000 to below a million, with groups of three digits."""
     return f"{float(f'{value:.{digits}g}'):,.0f}".replace(",", "\xa0")
+
+
+def verdict_line(printed):
+    """First line of the verdict in the output of a command: further lines of it are indented, and no lines
+    but those on files follow.
+    """
+    lines = [line for line in printed.splitlines() if line and not line.startswith((" ", "written"))]
+    return lines[-1]
