@@ -54,7 +54,9 @@ JOURNEYS = {
     "sweep": {
         "examples sweep": "sweep.toml discharge.toml",
         "sweep sweep.toml --workers 1": "sweep/sweep.csv sweep/sweep.nc sweep/sweep.sqlite",
-        "map sweep --x contact.entrainment_speed --y contact.load_per_length": "sweep/map_discharge.breakdown_voltage.png",
+        "map sweep --x contact.entrainment_speed --y contact.load_per_length": (
+            "sweep/map_discharge.breakdown_voltage.png"
+        ),
     },
     "sensitivity": {
         "examples uncertainty": "uncertainty.toml discharge.toml",
