@@ -101,3 +101,15 @@ def test_instants_of_a_motion_that_fit_into_no_memory_are_refused(monkeypatch):
         check_memory(ball)
     monkeypatch.setattr("ehlectric.contact.contact_memory.available_memory", lambda: 1e9)
     check_memory(ball)
+
+
+def test_a_field_on_half_of_the_domain_takes_half_of_the_memory():
+    """Columns at the distances of the nodes: their number is a share of the nodes along each axis."""
+    sizes = {"nodes": 513, "side": 4.0, "inlet": -4.0, "outlet": 4.0}
+
+    def field(**part):
+        return point_memory(point(PIT, **sizes, **part).grid, rough=True)[1]
+
+    whole = field(field_range=[-4.0, 4.0], field_side=4.0)
+    assert field(field_range=[-4.0, 4.0], field_side=2.0) == pytest.approx(0.5 * whole, rel=0.01)
+    assert field(field_range=[-2.0, 2.0], field_side=4.0) == pytest.approx(0.5 * whole, rel=0.01)

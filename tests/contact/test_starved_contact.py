@@ -174,6 +174,8 @@ def test_a_film_that_is_flooded_on_the_centre_line_alone_is_starved():
     assert not {"oil-layer-thick", "film-ratio-missed"} & codes(result)
     # The table ends within the Hertzian zone, whose semi-axis is 0.11 mm.
     assert "layer-table-short" in codes(result)
+    (text,) = [warning.text for warning in result.warnings if warning.code == "layer-table-short"]
+    assert all(number in text for number in ("-60", "60", "-110", "110"))
     (text,) = [warning.text for warning in result.warnings if warning.code == "meniscus-at-edge"]
     assert "on y = 0 already" in text
     assert any(row.value == "at the inlet edge on y = 0" for row in result_rows(result))

@@ -8,7 +8,7 @@ import pytest
 from ehlectric import DriveCase, InputError, solve_drive
 from ehlectric.cases.measured_inputs import ShaftFile
 from ehlectric.drive.drive_record import ON, VOLTAGE
-from ehlectric.drive.shaft_record import measured_shaft, shaft_record
+from ehlectric.drive.shaft_record import _half_sample_mode, measured_shaft, shaft_record
 from tests.helpers.places import EXAMPLES
 
 STEP = 1e-7
@@ -138,3 +138,9 @@ def test_wrong_columns_and_files_are_named(tmp_path):
         measured_shaft(ShaftFile(file=str(tmp_path / "none.csv")))
     with pytest.raises(InputError, match="common_mode"):
         shaft_record(SINE, STEP, SINE[1:])
+
+
+def test_the_mode_is_the_middle_of_the_densest_half_of_the_densest_half():
+    """By hand: of seven values the four from 5 to 8.1, of these the two 5 and 6, whose mean is 5.5."""
+    assert _half_sample_mode(np.array([0.0, 0.5, 5.0, 6.0, 7.0, 8.1, 9.3])) == 5.5
+    assert _half_sample_mode(np.array([0.0, 1.0, 4.0, 4.5, 9.0])) == 4.25

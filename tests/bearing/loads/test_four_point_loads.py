@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ from scipy.optimize import brentq, least_squares, minimize, root
 from ehlectric import InputError
 from ehlectric.bearing.loads.ball_contacts import contact_stiffness
 from ehlectric.bearing.loads.ball_loads import BallEquilibrium, ball_equilibrium
-from ehlectric.bearing.loads.four_point_loads import four_point_equilibrium
+from ehlectric.bearing.loads.four_point_loads import _tangent, four_point_equilibrium
 from ehlectric.bearing.loads.geometry import BallBearing, FourPointBearing
 from ehlectric.bearing.loads.ring import Operation
 from ehlectric.formulas.hertz import dry_contact
@@ -380,3 +381,12 @@ def test_balls_with_play_at_rest_have_the_largest_gaps(bearing, axial):
         limits, options = {"type": "ineq", "fun": room}, {"ftol": 1e-13, "maxiter": 200}
         best = minimize(lambda x: -x[2], begin, method="SLSQP", constraints=limits, options=options).x[2]
         assert gaps[ball] * 1e6 == pytest.approx(best, rel=1e-6)
+
+
+def test_the_determinant_of_both_diagonals_is_that_of_the_sum_of_their_stiffnesses():
+    a, b, c = each_diagonal = np.array([[5.0, 2.0], [1.0, -1.5], [3.0, 4.0]])
+    alone = SimpleNamespace(tangent=each_diagonal, along=a * c - b**2, across=np.ones(2))
+    (axial, mixed, radial), determinant = _tangent(alone)
+    matrix = np.array([[axial, mixed], [mixed, radial]])
+    assert matrix == pytest.approx(np.array([[7.0, -0.5], [-0.5, 7.0]]))
+    assert determinant == pytest.approx(np.linalg.det(matrix), rel=1e-12)
