@@ -1,0 +1,158 @@
+"""Answers of the program to files of every kind, the cheapest first, and whether two answers differ."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+from zlib import crc32
+
+import numpy as np
+
+from ehlectric import AxleCase, Case, DriveCase, GearCase, calibrate, solve, solve_motion
+from ehlectric.axle import solve_axle
+from ehlectric.axle.summary import axle_summary
+from ehlectric.bearing.summary import summary_of
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.table import Table
+from ehlectric.cases.table_edits import flattened
+from ehlectric.errors import ConvergenceError, InputError
+from ehlectric.gear.result import solve_gear
+from ehlectric.runs.preview import preview_of
+from ehlectric.runtime.display import is_number
+from tests.helpers.share import THOROUGH
+
+MODELS: Mapping[str, type[Table]] = {
+    "line": Case,
+    "point": Case,
+    "motion": Case,
+    "bearing": BearingCase,
+    "gear": GearCase,
+    "drive": DriveCase,
+    "axle": AxleCase,
+}
+
+# Parts of a summary that repeat the file or differ between runs, and texts that contain numbers of the file.
+_NOT_COMPARED = ("inputs", "seconds", "version", "title", "warnings", "verdict", "verdict_reasons")
+
+# Relative difference of numbers that is an effect, far above rounding.
+_EFFECT = 1e-9
+
+# Samples of a calibration.
+_SAMPLES = 64
+
+
+class Answer:
+    """Answers to the tables of a file: stages, of which later ones take longer and contain more."""
+
+    def __init__(self, kind: str, tables: Mapping[str, Any], folder: Path) -> None:
+        self.kind = kind
+        self.case: Any = MODELS[kind].from_dict(_with_files(tables, folder))
+        self._stages: dict[int, dict[str, Any]] = {}
+
+    @cached_property
+    def result(self) -> Any:
+        """Result of the case, without the probabilities of a gear pair and an axle."""
+        if self.kind == "motion":
+            return solve_motion(self.case)
+        if self.kind in ("gear", "axle"):
+            return (solve_gear if self.kind == "gear" else solve_axle)(self.case, probable=False)
+        return solve(self.case, workers=1)
+
+    @property
+    def _ways(self) -> Sequence[Callable[[], Any]]:
+        """Answers, the cheapest first."""
+        quick: list[Callable[[], Any]] = []
+        if self.kind in ("point", "motion") and not THOROUGH:
+            quick = [lambda: preview_of(self.case).summary]
+        if self.kind == "bearing":
+            quick = [lambda: summary_of(self.result.solution)]
+        if self.kind == "axle":
+            quick = [lambda: axle_summary(self.result.solution)]
+        whole: list[Callable[[], Any]] = [lambda: self.result.summary()]
+        if self.kind in ("line", "point", "motion"):
+            whole.append(lambda: _arrays(self.result.to_xarray()))
+        if self.kind in ("bearing", "gear", "axle"):
+            whole.append(lambda: solve(self.case).summary())
+        if getattr(self.case, "measured", None) is not None:
+            whole.insert(0, lambda: calibrate(self.case, samples=_SAMPLES).summary())
+        return [*quick, *whole]
+
+    @property
+    def count(self) -> int:
+        """Number of the stages."""
+        return len(self._ways)
+
+    def stage(self, number: int) -> dict[str, Any]:
+        """Values of a stage by dotted key, or the reason why there are none."""
+        if number not in self._stages:
+            try:
+                values = self._ways[number]()
+            except (InputError, ConvergenceError) as error:
+                values = {"error": str(error)}
+            self._stages[number] = dict(_leaves({k: v for k, v in values.items() if k not in _NOT_COMPARED}))
+        return self._stages[number]
+
+    def named(self, key: str) -> bool:
+        """Whether a warning names a key as one that has no effect."""
+        leaf = key.rpartition(".")[2]
+        texts = [str(warning) for warning in getattr(self.result, "warnings", ())]
+        return any(leaf in text and ("not used" in text or "no effect" in text) for text in texts)
+
+
+def first_difference(first: Answer, second: Answer, given: Sequence[tuple[Any, Any]]) -> str:
+    """Key of a value that differs in two answers, and is not one of the ``given`` pairs; empty without one."""
+    for number in range(first.count):
+        before, after = first.stage(number), second.stage(number)
+        if "error" in after and "error" not in before:
+            return f"error: {after['error']}"
+        for key in before.keys() | after.keys():
+            pair = before.get(key), after.get(key)
+            if not _same(*pair) and not any(_same(pair[0], old) and _same(pair[1], new) for old, new in given):
+                return key
+    return ""
+
+
+def _same(first: Any, second: Any) -> bool:
+    if isinstance(first, np.ndarray) and isinstance(second, np.ndarray):
+        return first.shape == second.shape and np.allclose(first, second, rtol=_EFFECT, atol=0.0, equal_nan=True)
+    if is_number(first) and is_number(second):
+        return abs(first - second) <= _EFFECT * abs(first) or (first != first and second != second)
+    return type(first) is type(second) and bool(first == second)
+
+
+def _leaves(values: Any, key: str = "") -> Iterator[tuple[str, Any]]:
+    """Values within nested tables and lists, by dotted key."""
+    if isinstance(values, Mapping):
+        for name, value in values.items():
+            yield from _leaves(value, f"{key}.{name}")
+    elif isinstance(values, list | tuple):
+        for place, value in enumerate(values):
+            yield from _leaves(value, f"{key}.{place}")
+    else:
+        yield key, values
+
+
+def _arrays(dataset: Any) -> dict[str, Any]:
+    """Numeric arrays of a dataset."""
+    arrays = {name: dataset[name].values for name in dataset.variables}
+    return {name: array for name, array in arrays.items() if array.dtype.kind == "f"}
+
+
+def si_values(case: Any) -> dict[str, Any]:
+    """Values of a case in SI units, by path as a text."""
+    return dict(_leaves(case.to_dict()))
+
+
+def _with_files(table: Any, folder: Path) -> Any:
+    """Nested tables in which a text of several lines is the path of a file with this text."""
+    if isinstance(table, Mapping):
+        return {key: _with_files(value, folder) for key, value in table.items()}
+    if isinstance(table, list):
+        return [_with_files(value, folder) for value in table]
+    if isinstance(table, str) and "\n" in table:
+        path = folder / f"{crc32(table.encode())}.csv"
+        path.write_text(table)
+        return str(path)
+    return table
