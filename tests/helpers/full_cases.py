@@ -55,9 +55,9 @@ _LENGTH = {"discharge": {"length": "10 mm"}}
 
 # Other ways to state the dielectric strength.
 STRENGTHS: tuple[Tables, ...] = (
-    {"strength_table": {"pressure": ["0 GPa", "3 GPa"], "strength": ["10 V/um", "40 V/um"]}},
+    {"strength_table": {"pressure": ["1 kPa", "3 GPa"], "strength": ["10 V/um", "40 V/um"]}},
     {
-        "strength_table": {"temperature": ["0 degC", "150 degC"], "strength": ["20 V/um", "10 V/um"]},
+        "strength_table": {"temperature": ["10 degC", "150 degC"], "strength": ["20 V/um", "10 V/um"]},
         "temperature": "60 degC",
     },
     {"weibull": {"scale": "20 V/um", "shape": 5.0, "reference_area": "1 mm^2"}},
@@ -212,8 +212,7 @@ HOT_OILS: tuple[Tables, ...] = (
         "base": "iso-vg-46",
         "heat_capacity_law": "constant",
         "heat_capacity": "2000 J/kg/K",
-        "thermal_conductivity_law": "constant",
-        "thermal_conductivity": "0.14 W/m/K",
+        "temperature": {"thermal_conductivity": "0.14 W/m/K"},
     },
     {
         "base": "fva-3",
@@ -304,8 +303,8 @@ def _of_contacts(base: Tables) -> Iterator[Tables]:
                 }
             },
         )
-    yield merged(base, {"grid": {"nodes": None, "nodes_y": None, "error": 0.2, "most_nodes": 401}})
-    yield merged(base, {"grid": {"refine": 0.2, "most_nodes": 401}})
+    yield merged(base, {"grid": {"nodes": None, "nodes_y": None, "error": 0.001, "most_nodes": 401}})
+    yield merged(base, {"grid": {"refine": 0.001, "most_nodes": 401}})
     yield merged(base, {"solver": {"tolerance": 1e-7, "max_iterations": 100}})
     length = {} if point else _LENGTH
     yield merged(base, merged({"discharge": _DISCHARGE}, length))
@@ -316,7 +315,7 @@ def _of_contacts(base: Tables) -> Iterator[Tables]:
     yield merged(base, {"inlet": {"film_ratio": 0.5}})
     yield from _rough(base, point=point)
     for oil in OILS:
-        yield {**base, "lubricant": {key: value for key, value in oil.items() if value is not None}}
+        yield merged({**base, "lubricant": oil}, {"discharge": {"conductivity": None}})
     yield from _hot(base)
 
 
@@ -409,19 +408,16 @@ def _rough(base: Tables, *, point: bool) -> Iterator[Tables]:
     if point:
         of_map = {"spacing": "5 um", "spacing_y": "6 um", "z_unit": "nm"}
     yield merged(base, {"roughness": [{"surface": 2, "file": "\n".join(matrix), **of_map}]})
-    touching = {
-        "boundary_film": "2 nm",
-        "boundary_friction": 0.12,
-        "hardness": "7 GPa",
-        "entrainment_speed": "10 mm/s",
-    }
-    conducts = {
-        "resistivity": "2.2e-7 ohm m",
-        "mean_free_path": "40 nm",
-        "tribofilm_resistance": "1e-12 ohm m^2",
-    }
-    sinusoid = {"surface": 1, "generator": "sinusoid", "amplitude": "300 nm", "wavelength": "100 um"}
-    yield merged(base, {"contact": touching, "electric": conducts, "roughness": [sinusoid]})
+    sinusoid = {"surface": 1, "generator": "sinusoid", "amplitude": "200 nm", "wavelength": "120 um"}
+    slow = {"entrainment_speed": "3 mm/s", "slide_to_roll_ratio": 0.3}
+    coarse = merged(base, {"contact": slow, "roughness": [sinusoid], "grid": {"nodes": 65}})
+    conducts = {"resistivity": "2.2e-7 ohm m", "mean_free_path": "40 nm", "tribofilm_resistance": "1e-12 ohm m^2"}
+    touching = {"boundary_film": "2 nm", "boundary_friction": 0.12}
+    yield merged(merged(coarse, {} if point else _LENGTH), {"contact": touching, "electric": conducts})
+    yield merged(coarse, {"contact": {"hardness": "1 GPa"}})
+    if not point:
+        across = {"spacing": "5 um", "direction": "y", "assume_transverse": True}
+        yield merged(base, {"roughness": [{"surface": 2, "heights": heights, **across}]})
 
 
 def _hot(base: Tables) -> Iterator[Tables]:
@@ -480,7 +476,6 @@ _BALLS = {
     "element_material": "steel",
     "radial_load": "2 kN",
     "axial_load": "300 N",
-    "designation": None,
 }
 _ROLLERS = {
     "kind": "needle roller",
@@ -547,9 +542,9 @@ _MEASURED = {
     "breakdown_voltage": "6 V +- 30 %",
     "shaft_voltage": "5 V +- 20 %",
     "shaft_voltage_rms": "3 V +- 20 %",
-    "bearing_voltage_ratio": "1.5 % +- 0.3 %",
+    "bearing_voltage_ratio": "0.015 +- 0.003",
     "discharge_rate": "100 1/s +- 90 %",
-    "conducting_share": "1 % +- 1 %",
+    "conducting_share": "0.02 +- 0.01",
     "inner_ring_temperature": "71 degC +- 2 K",
     "outer_ring_temperature": "68 degC +- 2 K",
     "film": "200 nm +- 20 %",
@@ -602,6 +597,7 @@ def _of_bearings(base: Tables) -> Iterator[Tables]:
                 "unmounted_clearance": "25 um",
                 "shaft_interference": "10 um",
                 "shaft_material": "steel",
+                "housing_material": "cast-iron",
                 "housing_interference": "5 um",
                 "reference_temperature": "25 degC",
                 "shaft_temperature": "80 degC",
@@ -730,7 +726,7 @@ def _of_gear_files() -> Iterator[Tables]:
             "measured": {
                 "capacitance": "300 pF +- 20 %",
                 "breakdown_voltage": "6 V +- 30 %",
-                "conducting_share": "1 % +- 1 %",
+                "conducting_share": "0.02 +- 0.01",
             }
         },
     )

@@ -10,10 +10,12 @@ from zlib import crc32
 
 import numpy as np
 
-from ehlectric import AxleCase, Case, DriveCase, GearCase, calibrate, solve, solve_motion
+from ehlectric import AxleCase, Case, DriveCase, GearCase, solve, solve_motion
 from ehlectric.axle import solve_axle
 from ehlectric.axle.summary import axle_summary
 from ehlectric.bearing.summary import summary_of
+from ehlectric.calibration.models import model_of
+from ehlectric.calibration.range_update import given_points
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.table import Table
 from ehlectric.cases.table_edits import flattened
@@ -39,9 +41,6 @@ _NOT_COMPARED = ("inputs", "seconds", "version", "title", "warnings", "verdict",
 # Relative difference of numbers that is an effect, far above rounding.
 _EFFECT = 1e-9
 
-# Samples of a calibration.
-_SAMPLES = 64
-
 
 class Answer:
     """Answers to the tables of a file: stages, of which later ones take longer and contain more."""
@@ -64,6 +63,8 @@ class Answer:
     def _ways(self) -> Sequence[Callable[[], Any]]:
         """Answers, the cheapest first."""
         quick: list[Callable[[], Any]] = []
+        if getattr(self.case, "measured", None) is not None:
+            return [lambda: _compared(self.case)]
         if self.kind in ("point", "motion") and not THOROUGH:
             quick = [lambda: preview_of(self.case).summary]
         if self.kind == "bearing":
@@ -73,10 +74,8 @@ class Answer:
         whole: list[Callable[[], Any]] = [lambda: self.result.summary()]
         if self.kind in ("line", "point", "motion"):
             whole.append(lambda: _arrays(self.result.to_xarray()))
-        if self.kind in ("bearing", "gear", "axle"):
+        if self.kind in ("gear", "axle"):
             whole.append(lambda: solve(self.case).summary())
-        if getattr(self.case, "measured", None) is not None:
-            whole.insert(0, lambda: calibrate(self.case, samples=_SAMPLES).summary())
         return [*quick, *whole]
 
     @property
@@ -97,7 +96,10 @@ class Answer:
     def named(self, key: str) -> bool:
         """Whether a warning names a key as one that has no effect."""
         leaf = key.rpartition(".")[2]
-        texts = [str(warning) for warning in getattr(self.result, "warnings", ())]
+        try:
+            texts = [str(warning) for warning in getattr(self.result, "warnings", ())]
+        except (InputError, ConvergenceError):
+            return False
         return any(leaf in text and ("not used" in text or "no effect" in text) for text in texts)
 
 
@@ -112,6 +114,17 @@ def first_difference(first: Answer, second: Answer, given: Sequence[tuple[Any, A
             if not _same(*pair) and not any(_same(pair[0], old) and _same(pair[1], new) for old, new in given):
                 return key
     return ""
+
+
+def _compared(case: Any) -> dict[str, Any]:
+    """Measured values that a calibration compares. Raises InputError for a value that it does not compute."""
+    model = model_of(case)
+    given = given_points(case, quantities=model.quantities)
+    for value in given.values:
+        if value.quantity not in model.quantities:
+            raise InputError(f"measured.{value.quantity}", got="a value", takes=", ".join(model.quantities))
+    values = [(value.quantity, value.value, value.uncertainty) for value in given.values]
+    return {"points": given.points, "values": values}
 
 
 def _same(first: Any, second: Any) -> bool:

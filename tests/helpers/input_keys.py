@@ -27,8 +27,6 @@ _STEPS = (1, -1, 2, -2)
 def keys_of(model: type[Table], prefix: str = "") -> dict[str, Any]:
     """Annotations of the keys of a file and of the tables in it, by dotted key without places in lists."""
     fields = {name: field.annotation for name, field in model.known_keys().items()}
-    if model is MountedBearing:
-        fields |= {name: field.annotation for name, field in Bearing.known_keys().items()}
     if "bearings" in fields:
         fields["bearings"] = Bearing
     keys: dict[str, Any] = {}
@@ -56,6 +54,9 @@ def key_at(path: Path) -> str:
             names.append("*" if names[-2:] in (["measured", "elements"], ["measured", "shafts"]) else name)
         if name in _DOTTED:
             break
+    of_axle = path[0] == "bearing" and len(path) > 1 and isinstance(path[1], int)
+    if of_axle and names[1] not in MountedBearing.model_fields:
+        names[0] = "bearings"
     return ".".join(names)
 
 

@@ -701,22 +701,38 @@ def spot_resistance(radius: ArrayLike, resistivity: float, mean_free_path: float
     >>> round(float(spot_resistance(0.5e-6, 2.2e-7)), 2), round(float(spot_resistance(5e-9, 2.2e-7, 2e-9)), 1)
     (0.22, 26.6)
     """
-    ratio = mean_free_path / np.asarray(radius, dtype=float)
-    factor = (1.0 + 0.83 * ratio) / (1.0 + 1.33 * ratio)
+    factor = wexler_factor(mean_free_path / np.asarray(radius, dtype=float))
     return sharvin_resistance(radius, resistivity, mean_free_path) + factor * holm_resistance(
         radius, resistivity
     )
 
 
-def greenwood_cluster(positions: ArrayLike, radii: ArrayLike, resistivity: float) -> float:
+def wexler_factor(ratio: ArrayLike) -> Array:
+    """Factor gamma of Holm's resistance in ``spot_resistance``; ``ratio``, mean free path divided by the
+    radius of the spot, >= 0, shape (...).
+
+    Examples
+    --------
+    >>> wexler_factor([0.0, 1.0]).round(3).tolist()
+    [1.0, 0.785]
+    """
+    ratio = np.asarray(ratio, dtype=float)
+    return np.asarray((1.0 + 0.83 * ratio) / (1.0 + 1.33 * ratio))
+
+
+def greenwood_cluster(
+    positions: ArrayLike, radii: ArrayLike, resistivity: float, mean_free_path: float = 0.0
+) -> float:
     """Resistance of spots at given places, with currents in proportion to their radii, after Greenwood.
 
-    R = rho/(2 sum a_i) + (rho/pi) sum_{i != j} (a_i a_j/s_ij)/(sum a_i)^2, with the distances s_ij of the
-    spots. For equal spots the second term is rho/(pi n^2) sum_{i != j} 1/s_ij.
+    R = sum a_i^2 R_i/(sum a_i)^2 + (rho/pi) sum_{i != j} (a_i a_j/s_ij)/(sum a_i)^2, with the resistances R_i
+    of ``spot_resistance`` and the distances s_ij of the spots. Without a mean free path, the first term is
+    rho/(2 sum a_i). For equal spots the second term is rho/(pi n^2) sum_{i != j} 1/s_ij.
 
     ``positions``, positions of the spots [m], all different, shape (n, 2); ``radii``, radii a_i of the spots
-    [m], > 0; at least one, shape (n,); ``resistivity``, resistivity rho of the bodies [ohm m]. Returns
-    resistance [ohm]; it is an upper bound of ``cluster_resistance``.
+    [m], > 0; at least one, shape (n,); ``resistivity``, resistivity rho of the bodies [ohm m];
+    ``mean_free_path``, mean free path of the electrons [m], >= 0. Returns resistance [ohm]; it is an upper
+    bound of ``cluster_resistance``.
 
     J. A. Greenwood, Constriction resistance and the real area of contact, Br. J. Appl. Phys. 17 (1966)
     1621-1632 (from memory; the formula is derived from the potential of point sources on both half-spaces).
@@ -734,8 +750,8 @@ def greenwood_cluster(positions: ArrayLike, radii: ArrayLike, resistivity: float
     for first in range(0, a.size, _ROWS):
         rows = slice(first, first + _ROWS)
         mutual += float(a[rows] @ (_inverse_distances(at[rows], at, first) @ a))
-    total = float(np.sum(a))
-    return resistivity / (2.0 * total) + resistivity / np.pi * mutual / total**2
+    own = float(np.sum(a**2 * spot_resistance(a, resistivity, mean_free_path)))
+    return (own + resistivity / np.pi * mutual) / float(np.sum(a)) ** 2
 
 
 def cluster_resistance(

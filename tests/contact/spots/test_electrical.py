@@ -18,6 +18,7 @@ from ehlectric.contact.touching import (
     strip_resistance,
     time_share,
 )
+from ehlectric.formulas.asperities import greenwood_cluster, spot_resistance
 from tests.contact.spots.cases import POINT, solved
 from tests.helpers.each import each
 
@@ -54,6 +55,17 @@ def test_a_long_strip_has_the_logarithm_of_its_slenderness():
     assert strip_resistance(width=1e-2, length=1e-6, resistivity=RHO) == strip_resistance(
         width=1e-6, length=1e-2, resistivity=RHO
     )
+
+
+@each("path", [0.0, 20e-9, 1e-6])
+def test_electrons_with_a_mean_free_path(path):
+    """A strip of equal axes, and a cluster of one spot, are a circle; a slit has Sharvin's 4 rho l/(3 A)."""
+    circle = pytest.approx(float(spot_resistance(0.1e-6, RHO, path)), rel=1e-12)
+    assert strip_resistance(width=2e-7, length=2e-7, resistivity=RHO, mean_free_path=path) == circle
+    assert greenwood_cluster([[0.0, 0.0]], [0.1e-6], RHO, path) == circle
+    slit = strip_resistance(width=2e-12, length=2e-6, resistivity=RHO, mean_free_path=path)
+    ballistic = 4.0 * RHO * path / (3.0 * np.pi * 1e-12 * 1e-6)
+    assert slit == pytest.approx(ballistic, rel=1e-3) or path == 0.0
 
 
 def test_a_line_contact_needs_a_length_for_its_resistance():
