@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
@@ -12,7 +13,9 @@ import numpy as np
 
 from ehlectric import AxleCase, Case, DriveCase, GearCase, solve, solve_motion
 from ehlectric.axle import solve_axle
+from ehlectric.axle.axle_discharges import simulate_axle
 from ehlectric.axle.summary import axle_summary
+from ehlectric.bearing.impedance import impedance_of
 from ehlectric.bearing.summary import summary_of
 from ehlectric.calibration.models import model_of
 from ehlectric.calibration.range_update import given_points
@@ -38,6 +41,9 @@ MODELS: Mapping[str, type[Table]] = {
 # Parts of a summary that repeat the file or differ between runs, and texts that contain numbers of the file.
 _NOT_COMPARED = ("inputs", "seconds", "version", "title", "warnings", "verdict", "verdict_reasons")
 
+# Ends of the ranges of uncertain inputs, which repeat the input.
+_OF_RANGES = re.compile(r"indices\.\d+\.(low|high)$")
+
 # Relative difference of numbers that is an effect, far above rounding.
 _EFFECT = 1e-9
 
@@ -61,22 +67,25 @@ class Answer:
 
     @property
     def _ways(self) -> Sequence[Callable[[], Any]]:
-        """Answers, the cheapest first."""
-        quick: list[Callable[[], Any]] = []
-        if getattr(self.case, "measured", None) is not None:
-            return [lambda: _compared(self.case)]
-        if self.kind in ("point", "motion") and not THOROUGH:
-            quick = [lambda: preview_of(self.case).summary]
-        if self.kind == "bearing":
-            quick = [lambda: summary_of(self.result.solution)]
-        if self.kind == "axle":
-            quick = [lambda: axle_summary(self.result.solution)]
-        whole: list[Callable[[], Any]] = [lambda: self.result.summary()]
-        if self.kind in ("line", "point", "motion"):
-            whole.append(lambda: _arrays(self.result.to_xarray()))
-        if self.kind in ("gear", "axle"):
-            whole.append(lambda: solve(self.case).summary())
-        return [*quick, *whole]
+        """Answers, the cheapest first; probabilities only of a case with ranges, as they take seconds."""
+        case, kind = self.case, self.kind
+        if getattr(case, "measured", None) is not None:
+            return [lambda: _compared(case)]
+        whole = [lambda: self.result.summary()]
+        if kind == "bearing":
+            parts = [lambda: summary_of(self.result.solution), lambda: self.result.summary(probable=False)]
+            return [*parts, lambda: _impedance(self.result.solution), *whole]
+        if kind == "axle":
+            parts = [lambda: axle_summary(self.result.solution), *whole]
+            if case.drive.duration is not None:
+                parts.append(lambda: {"events": simulate_axle(self.result.solution).events()})
+            whole = parts
+        if kind in ("gear", "axle"):
+            return [*whole, lambda: solve(case).summary()] if case.ranges else whole
+        if kind == "drive":
+            return whole
+        quick = [lambda: preview_of(case).summary] if kind != "line" and not THOROUGH else []
+        return [*quick, *whole, lambda: _arrays(self.result.to_xarray())]
 
     @property
     def count(self) -> int:
@@ -93,27 +102,41 @@ class Answer:
             self._stages[number] = dict(_leaves({k: v for k, v in values.items() if k not in _NOT_COMPARED}))
         return self._stages[number]
 
-    def named(self, key: str) -> bool:
-        """Whether a warning names a key as one that has no effect."""
-        leaf = key.rpartition(".")[2]
-        try:
-            texts = [str(warning) for warning in getattr(self.result, "warnings", ())]
-        except (InputError, ConvergenceError):
-            return False
-        return any(leaf in text and ("not used" in text or "no effect" in text) for text in texts)
+    def naming(self, key: str) -> str:
+        """Warning that names a key as one without an effect; empty without one."""
+        texts = map(str, self.result.warnings)
+        return next((text for text in texts if key.rpartition(".")[2] in text and "not used" in text), "")
+
+    @cached_property
+    def given(self) -> dict[str, Any]:
+        """Values of the case in SI units, by dotted key."""
+        return dict(_leaves(self.case.to_dict()))
 
 
-def first_difference(first: Answer, second: Answer, given: Sequence[tuple[Any, Any]]) -> str:
-    """Key of a value that differs in two answers, and is not one of the ``given`` pairs; empty without one."""
+def first_difference(first: Answer, second: Answer) -> str:
+    """Key of a value that differs in two answers, and does not only repeat an input; empty without one."""
+    repeated = [
+        (first.given.get(key), second.given.get(key)) for key in first.given.keys() | second.given.keys()
+    ]
+    repeated = [pair for pair in repeated if pair[0] != pair[1]]
     for number in range(first.count):
         before, after = first.stage(number), second.stage(number)
-        if "error" in after and "error" not in before:
-            return f"error: {after['error']}"
-        for key in before.keys() | after.keys():
+        for key in sorted(before.keys() | after.keys()):
             pair = before.get(key), after.get(key)
-            if not _same(*pair) and not any(_same(pair[0], old) and _same(pair[1], new) for old, new in given):
-                return key
+            if not _OF_RANGES.search(key) and not _same(*pair) and not any(_same_pair(pair, each) for each in repeated):
+                return f"{key} of {pair[0]!r} is {pair[1]!r}"
     return ""
+
+
+def _same_pair(first: tuple[Any, Any], second: tuple[Any, Any]) -> bool:
+    return _same(first[0], second[0]) and _same(first[1], second[1])
+
+
+def _impedance(solution: Any) -> dict[str, Any]:
+    """Impedance of a bearing with and without closed contacts."""
+    impedance = impedance_of(solution)
+    pair = () if impedance is None else (impedance, impedance.mean)
+    return {str(n): abs(each.values) for n, each in enumerate(pair) if each is not None}
 
 
 def _compared(case: Any) -> dict[str, Any]:
@@ -139,10 +162,10 @@ def _leaves(values: Any, key: str = "") -> Iterator[tuple[str, Any]]:
     """Values within nested tables and lists, by dotted key."""
     if isinstance(values, Mapping):
         for name, value in values.items():
-            yield from _leaves(value, f"{key}.{name}")
+            yield from _leaves(value, f"{key}.{name}" if key else str(name))
     elif isinstance(values, list | tuple):
         for place, value in enumerate(values):
-            yield from _leaves(value, f"{key}.{place}")
+            yield from _leaves(value, f"{key}.{place}" if key else str(place))
     else:
         yield key, values
 
@@ -151,11 +174,6 @@ def _arrays(dataset: Any) -> dict[str, Any]:
     """Numeric arrays of a dataset."""
     arrays = {name: dataset[name].values for name in dataset.variables}
     return {name: array for name, array in arrays.items() if array.dtype.kind == "f"}
-
-
-def si_values(case: Any) -> dict[str, Any]:
-    """Values of a case in SI units, by path as a text."""
-    return dict(_leaves(case.to_dict()))
 
 
 def _with_files(table: Any, folder: Path) -> Any:

@@ -89,17 +89,21 @@ def with_value(table: Any, path: Path, value: Any) -> Any:
     return copy
 
 
+def without_value(table: Mapping[str, Any], key: str) -> dict[str, Any]:
+    """Copy of nested tables without a dotted key, and without a table that has no other key."""
+    name, _, rest = key.partition(".")
+    inner = without_value(table.get(name, {}), rest) if rest else {}
+    return {**table, name: inner} if inner else {each: table[each] for each in table if each != name}
+
+
 def merged(table: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
-    """Nested tables with changes in them; None removes a key."""
+    """Nested tables with changes in them."""
     copy = dict(table)
     for key, value in changes.items():
         inner = copy.get(key)
-        copy[key] = (
-            merged(inner if isinstance(inner, Mapping) else {}, value)
-            if isinstance(value, Mapping)
-            else value
-        )
-    return {key: value for key, value in copy.items() if value is not None}
+        both = isinstance(value, Mapping) and isinstance(inner, Mapping)
+        copy[key] = merged(inner, value) if both else value
+    return copy
 
 
 def others(path: Path, value: Any, choices: tuple[Any, ...]) -> Iterator[Any]:
@@ -111,18 +115,24 @@ def others(path: Path, value: Any, choices: tuple[Any, ...]) -> Iterator[Any]:
     elif isinstance(value, float):
         yield from (value * factor for factor in _FACTORS)
     elif isinstance(value, list):
-        yield from ([_scaled(each, factor) for each in value] for factor in _FACTORS)
+        yield from (scaled(value, factor) for factor in _FACTORS)
     elif "\n" in value and "[" in value:
         yield from (_with_column(value, int(path[-1]), factor) for factor in _FACTORS)
     elif "\n" in value:
-        yield "\n".join(",".join(_scaled(cell, 1.1) for cell in row.split(",")) for row in value.splitlines())
+        yield "\n".join(",".join(scaled(cell, 1.1) for cell in row.split(",")) for row in value.splitlines())
     elif _NUMBER.match(value):
-        yield from (_scaled(value, factor) for factor in _FACTORS)
+        yield from (scaled(value, factor) for factor in _FACTORS)
     yield from (choice for choice in choices if choice != value)
 
 
-def _scaled(value: Any, factor: float) -> Any:
-    """Number, or text of a number with its unit, times a factor; another text itself."""
+def scaled(value: Any, factor: float) -> Any:
+    """Number, list of numbers, or text of a number with its unit, times a factor; another value itself."""
+    if isinstance(value, list):
+        return [scaled(each, factor) for each in value]
+    if isinstance(value, bool):
+        return value
+    if isinstance(value, int):
+        return round(value * factor)
     if isinstance(value, str):
         return _NUMBER.sub(lambda number: f"{float(number[0]) * factor:.12g}", value, count=1)
     return value * factor
@@ -132,10 +142,10 @@ def _with_column(text: str, place: int, factor: float) -> str:
     """Text of a table whose numbers in a column are multiplied by a factor."""
     head, *rows = text.splitlines()
     cells = [row.split(",") for row in rows]
-    scaled = [
-        ",".join(_scaled(cell, factor) if k == place else cell for k, cell in enumerate(row)) for row in cells
+    changed = [
+        ",".join(scaled(cell, factor) if k == place else cell for k, cell in enumerate(row)) for row in cells
     ]
-    return "\n".join([head, *scaled, ""])
+    return "\n".join([head, *changed, ""])
 
 
 def choices_of(annotation: Any) -> tuple[Any, ...]:
