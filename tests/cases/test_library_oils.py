@@ -1,15 +1,13 @@
 """Oils of the library: a source for every value, and their numbers against those that others print."""
 
 import math
-import tomllib
 
 import numpy as np
 import pytest
-from docs import pages
 
 from ehlectric import InputError
 from ehlectric.cases.case_oil import Lubricant
-from ehlectric.cases.library.library_oils import library_oil, library_oils, sources_of
+from ehlectric.cases.library.library_oils import library_oil, library_oils
 from ehlectric.lubricant.data_sheet import GRADE_WIDTH, grade_middle
 from tests.helpers.each import each
 
@@ -178,30 +176,6 @@ def test_an_estimate_is_one_that_warns(name):
     estimated = "temperature.base_oil" in library_oil(name).values()
     codes = {warning.code for warning in _at(name, 60.0).warnings(1e9)}
     assert ("estimated-alpha" in codes) == estimated
-
-
-PAGE = pages.page("oils.md")
-
-
-@each("block", pages.blocks(PAGE, "toml"))
-def test_every_table_of_the_guide_is_valid(block):
-    table = tomllib.loads(block)
-    if "source" in table:
-        (source,) = sources_of(table)
-        assert source.kind == "measured"
-        return
-    if "vary" in table:
-        # The sweep of the page, which tests of the commands solve.
-        assert {*table["vary"]["lubricant.base"]} <= {*NAMES}
-        return
-    oil = Lubricant.from_dict(table["lubricant"]).at(333.15)
-    assert 1e-8 < oil.alpha_star < 3e-8
-
-
-def test_the_law_of_the_guide_is_solved_and_named(capsys):
-    (block,) = pages.blocks(pages.page("own_laws.md"), "python")
-    exec(block, {})
-    assert capsys.readouterr().out.strip() == block.strip().rpartition("# ")[2]
 
 
 @each("key, base", [("vogel_b", "fva-3"), ("yasutomi_a1", "shell-t9")])

@@ -1,15 +1,10 @@
 """The command that writes a bearing as a netlist, and what ngspice makes of its files."""
 
-import re
-import shlex
-
 import pytest
-from docs import pages
 
 from ehlectric import BearingCase, solve_bearing
 from tests.commands.test_mistakes_commands import BEARING
 from tests.helpers.ngspice import run_netlist
-from tests.helpers.places import EXAMPLES
 
 DRIVE = 'switching_frequency = "10 kHz"\nrise_time = "0.2 us"\n'
 ARC = ("--arc-resistance", "1 ohm", "--extinction-voltage", "1 V")
@@ -60,29 +55,6 @@ def test_nothing_is_said_when_quiet_and_files_are_replaced(ehlectric, tmp_path):
         done = ehlectric("spice", "bearing.toml", "-q")
         assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
     assert sorted(path.name for path in tmp_path.iterdir()) == ["bearing.lib", "bearing.toml"]
-
-
-@pytest.mark.slow
-def test_the_guide_has_the_lines_of_its_command(ehlectric, tmp_path):
-    """The parameters that docs/howto/spice.md prints."""
-    page = pages.page("spice.md")
-    command, *_ = re.findall(r"^ehlectric (spice .*)$", page, re.MULTILINE)
-    words = shlex.split(command.replace("examples/", f"{EXAMPLES}/"))
-    assert ehlectric(*words).returncode == 0
-    shown = page.partition(".subckt ")[2].partition("```")[0].splitlines()
-    written = (tmp_path / "bearing.lib").read_text().partition(".subckt ")[2].splitlines()
-    assert len(shown) == 6
-    assert shown == written[:6]
-
-
-@pytest.mark.slow
-def test_the_python_of_the_guide_runs(tmp_path, monkeypatch):
-    page = pages.page("spice.md")
-    (block,) = re.findall(r"^```python\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "examples").symlink_to(EXAMPLES)
-    exec(compile(block, "spice.md", "exec"), {})
-    assert "+ speed=3000 ; rpm" in (tmp_path / "bearing.lib").read_text()
 
 
 @pytest.mark.slow

@@ -69,6 +69,10 @@ def test_examples_are_listed_and_copied_with_what_they_need(ehlectric, tmp_path)
     assert ehlectric("examples", "rough_contact.toml").returncode == 0
     assert (tmp_path / "surfaces" / "dektak-1.csv").is_file()
     assert ehlectric("check", "rough_contact.toml").returncode == 0
+    # Both examples name one file, which a user need not remove.
+    for name in ("duty_wltc", "duty_gear"):
+        assert ehlectric("examples", name).returncode == 0
+    (tmp_path / "rough_contact.toml").write_text("changed")
     again = ehlectric("examples", "rough_contact")
     assert again.stderr.startswith("error: rough_contact.toml: ")
     assert "--force" in again.stderr

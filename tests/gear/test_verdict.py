@@ -58,7 +58,7 @@ def test_states_of_the_mesh(changes, level, code, state):
 
 
 def test_a_mesh_that_is_set_to_conduct_does_not_state_a_share_of_time():
-    text = str(verdict_of({CONDUCTION: "always"})[1])
+    text = verdict_of({CONDUCTION: "always"})[1].text
     assert 'gear.contact.conduction is "always"' in text
     assert "%" not in text.partition("the mesh connects both shafts")[0]
     _, verdict = verdict_of({CONDUCTION: "never"})

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from difflib import get_close_matches
+from filecmp import cmp
 from pathlib import Path
 from types import MappingProxyType
 
@@ -113,7 +114,12 @@ def examples(
 
         for file in files:
             refuse_special(target / file)
-            if (target / file).exists() and not force:
+            # Examples share files, such as a driving cycle.
+            if (
+                not force
+                and (target / file).exists()
+                and not cmp(examples_folder() / file, target / file, False)
+            ):
                 raise InputError(target / file, "already exists; use --force to overwrite")
         with alone_in(target, files):
             for file in files:

@@ -243,9 +243,6 @@ def print_table(table: Table | Text | Padding) -> None:
     typer.echo(captured.get(), nl=False)
 
 
-# Width of the labels of the lines of a verdict [characters].
-_LABEL = 13
-
 # Styles of the levels of a verdict, as rich names them.
 _STYLES = {"green": "bold green", "yellow": "bold yellow", "red": "bold red", "grey": "bold"}
 
@@ -261,19 +258,16 @@ def print_verdict(verdict: Verdict | None) -> None:
     from rich.table import Table
     from rich.text import Text
 
-    (_, heading), *stated = verdict.lines()
-    # Lines with the label of the line before have none.
-    before = ("", *(label for label, _ in stated))
-    lines = [
-        ("" if label == last else label, text) for last, (label, text) in zip(before, stated, strict=False)
-    ]
+    from ehlectric.quantities.verdict import WIDTH_OF_LABEL
+
     if not Console().is_terminal:
-        for line in (heading, *(f"  {label:{_LABEL}}{text}" for label, text in lines)):
+        for line in str(verdict).splitlines():
             say(line)
         return
+    (_, heading), *lines = verdict.printed_lines()
     print_table(Text(printable(heading), style=_STYLES[verdict.level]))
     grid = Table.grid(padding=(0, 0, 0, 0))
-    grid.add_column(width=_LABEL, style="dim")
+    grid.add_column(width=WIDTH_OF_LABEL, style="dim")
     grid.add_column()
     for label, text in lines:
         grid.add_row(label, Text(printable(text)))

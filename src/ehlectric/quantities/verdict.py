@@ -21,9 +21,13 @@ from ehlectric.quantities.verdict_texts import (
 from ehlectric.readable import capital
 
 
+# Width of the labels of the lines [characters].
+WIDTH_OF_LABEL = 13
+
+
 @dataclass(frozen=True)
 class Verdict:
-    """Answer to the question whether films break down.
+    """Answer to the question whether films break down. ``print`` shows its lines, as commands do.
 
     Attributes
     ----------
@@ -147,5 +151,13 @@ class Verdict:
         reasons = [statement.as_data() for statement in stated if statement is not None]
         return {"verdict": self.text, "verdict_level": self.level, "verdict_reasons": reasons}
 
+    def printed_lines(self) -> Iterator[tuple[str, str]]:
+        """Return the lines without a label that repeats the label of the line before."""
+        last = ""
+        for label, text in self.lines():
+            yield "" if label == last else label, text
+            last = label
+
     def __str__(self) -> str:
-        return self.text
+        (_, heading), *labelled = self.printed_lines()
+        return "\n".join([heading, *(f"  {label:{WIDTH_OF_LABEL}}{text}" for label, text in labelled)])

@@ -180,3 +180,11 @@ def test_variants_of_a_driving_cycle_are_read_or_refused(tmp_path_factory, conte
 
 def test_most_variants_are_read():
     assert COUNTS[0] >= 2 * COUNTS[1]
+
+
+def test_the_example_of_a_vehicle_is_the_low_part_of_the_cycle():
+    """The low part of the WLTC has at most 56.5 km/h; wheels of 317 mm, ratio 9."""
+    duty = {"file": str(EXAMPLES / "measurements" / "wltc_low_km_h.csv"), "vehicle": CAR}
+    case = BearingCase.from_toml(EXAMPLES / "duty_wltc.toml").replace({"duty": duty})
+    check_duty(case)
+    assert read_cycle(case.duty).values["speed"].max() == pytest.approx(56.5 / 3.6 / 0.317 * 9.0)

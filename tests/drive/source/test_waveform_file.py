@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from ehlectric.drive.waveform.waveform_file import read_waveform
 from ehlectric.errors import InputError
 from tests.helpers.each import each
-from tests.helpers.places import ROOT
+from tests.helpers.places import EXAMPLES, ROOT
 
 DATA = ROOT / "tests" / "data" / "waveforms"
 SHARED = [4.0 * math.sin(2.0 * math.pi * k / 16.0) + k / 100.0 for k in range(48)]
@@ -75,6 +75,12 @@ def test_formats_of_the_makers(name, keywords, told):
     # Without times, the first sample is at zero.
     assert read.start == pytest.approx(0.0 if "step" in keywords else -80e-9, rel=1e-9)
     assert read.duration == pytest.approx(47 * 4e-9)
+
+
+def test_the_record_of_the_examples_contains_the_levels_of_a_dc_link_of_560_volts():
+    """Half of the DC link, and a sixth."""
+    waveform, _ = read_waveform(EXAMPLES / "measurements" / "common_mode.csv")
+    assert sorted(set(waveform.values.round(1).tolist())) == [-280.0, -93.3, 93.3, 280.0]
 
 
 def test_files_of_the_makers_are_those_that_their_program_writes():

@@ -618,7 +618,7 @@ def test_curves_begin_where_the_surfaces_part():
 def test_title_and_verdict_name_one_range_of_speeds():
     """At 200 rpm, lambda 1.04, the margin is below 1 from the speed where surfaces part to 800 rpm."""
     result = example_at(200)
-    low, high = re.search(r"below 1 at all speeds computed, (\d+) to (\d+) rpm", str(result.verdict)).groups()
+    low, high = re.search(r"below 1 at all speeds computed, (\d+) to (\d+) rpm", result.verdict.text).groups()
     text = f"Margin below 1 at all speeds from {low} rpm to {high} rpm; frequent asperity contact"
     assert said(figure(result, SPEED_FIGURE_FILES[1])).startswith(text)
 
