@@ -14,8 +14,8 @@ above a block state what the block itself does not:
   ``NAME, without KEY`` removes a key, and ``NAME: first 99 lines`` shortens a table of measurements.
 - ``<!-- not run: REASON -->``: nothing runs.
 
-In a sentence, ``<!--COMMAND: LABEL-->7430 rpm<!--/-->`` is what a run of the command prints after LABEL: the last
-run above it that prints LABEL, or the first run below it.
+In a sentence, ``<!--COMMAND: LABEL-->7430 rpm<!--/-->`` is what a run of the command prints after LABEL: the
+last run above it that prints LABEL, or the first run below it.
 """
 
 from __future__ import annotations

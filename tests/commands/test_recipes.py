@@ -112,7 +112,10 @@ def test_rows_verdicts_lines_and_numbers_are_those_of_the_output():
     assert renewed_block(block, PRINTED) == BLOCK.format(**new, shaft="shaft 4.1 V, ")
     assert renewed_block("note: 39 rows\n", PRINTED) == "note: 40 rows\n"
     text = "It is <!--check: critical speed-->1 rpm<!--/-->, margin <!--check: V, margin-->1<!--/-->."
-    assert re.sub("<.*?>", "", renewed_numbers(text, lambda *_: ["another", PRINTED])) == "It is 7470 rpm, margin 0.57."
+    assert (
+        re.sub("<.*?>", "", renewed_numbers(text, lambda *_: ["another", PRINTED]))
+        == "It is 7470 rpm, margin 0.57."
+    )
     for wrong in ("   unknown voltage    5 V\n", "note: 40 columns\n"):
         with pytest.raises(LookupError):
             renewed_block(wrong, PRINTED)

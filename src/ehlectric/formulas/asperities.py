@@ -750,8 +750,8 @@ def greenwood_cluster(
     for first in range(0, a.size, _ROWS):
         rows = slice(first, first + _ROWS)
         mutual += float(a[rows] @ (_inverse_distances(at[rows], at, first) @ a))
-    own = float(np.sum(a**2 * spot_resistance(a, resistivity, mean_free_path)))
-    return (own + resistivity / np.pi * mutual) / float(np.sum(a)) ** 2
+    single = float(np.sum(a**2 * spot_resistance(a, resistivity, mean_free_path)))
+    return (single + resistivity / np.pi * mutual) / float(np.sum(a)) ** 2
 
 
 def cluster_resistance(

@@ -20,7 +20,6 @@ from ehlectric.quantities.verdict_texts import (
 )
 from ehlectric.readable import capital
 
-
 # Width of the labels of the lines [characters].
 WIDTH_OF_LABEL = 13
 
