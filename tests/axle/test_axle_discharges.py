@@ -142,6 +142,7 @@ def test_all_missing_resistances_are_named_at_once():
         **{
             "bearing.output.composite_rq": "0.12 um",
             "mesh.1.gear.flank_ra": "0.2 um",
+            "mesh.1.contact_resistance": None,
             "drive.duration": "1 ms",
             "breakdown": {"arc_resistance": 10.0, "extinction_current": 0.01, "recovery_time": 1e-7},
             "remedies": [],
@@ -155,7 +156,7 @@ def test_all_missing_resistances_are_named_at_once():
 
 
 def test_the_resistance_of_a_mesh_replaces_the_value_of_its_gear_file():
-    case = two_stages(**{"mesh.1.contact_resistance": "2 ohm"})
+    case = two_stages(**{"mesh.1.contact_resistance": "2 ohm", "mesh.2.contact_resistance": None})
     contacts = [case.gear_case(number, case.turning()).gear.contact for number in range(2)]
     assert [contact.contact_resistance for contact in contacts] == [2.0, None]
     again = AxleCase.from_dict(case.to_dict()).replace({"mesh.gear.contact.contact_resistance": "3 ohm"})
