@@ -13,6 +13,7 @@ PLACEHOLDERS = (
     "The verdict follows with the last of them.",
     "The inputs have changed",
     "Computing …",
+    "Checking …",
     "Computing the breakdown over the speed …",
     "being computed",
     "This figure is not computed.",
@@ -29,8 +30,12 @@ PLACEHOLDERS = (
     "Films of the atlas, and voltages right after an edge.",
     "The effects stand here when both cases have an answer.",
     "are those of earlier inputs",
+    "is that of earlier inputs",
     "is of earlier inputs",
     "are of earlier inputs",
+    "The values below belong to the present inputs.",
+    "is not computed; its field says why.",
+    "the critical speeds took too long and are left out",
     "No movie yet.",
 )
 
@@ -130,6 +135,7 @@ def see_figures(page, *names, widths=(1280, 400)):
     size = page.viewport_size
     for width in widths:
         page.set_viewport_size(size | {"width": width})
+        page.wait_for_function("width => document.documentElement.clientWidth === width", arg=width)
         settle(page)
         seen = {}
 

@@ -135,14 +135,6 @@ def test_a_gear_file_opens_on_its_page(page):
 
 
 @pytest.mark.slow
-def test_films_are_solved_on_request(gears):
-    page = gears
-    page.get_by_test_id("solve").click()
-    page.locator("[data-testid=answer][data-solved=true][aria-busy=false]").wait_for()
-    page.get_by_test_id("how").filter(has_text="Films solved").wait_for()
-
-
-@pytest.mark.slow
 def test_a_sweep_begins_with_the_gears_of_the_page(gears):
     page = gears
     page.get_by_test_id("vary").click()

@@ -7,11 +7,13 @@ import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
+from urllib.parse import urlsplit
 
 import pytest
 
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.frame import AXLE
+from ehlectric.app.pages.page_parts import page_texts
 from tests.app.driving import type_into, wait_for_address
 from tests.app.looks import PLACEHOLDERS, deciding, heading, see_figures, settle
 from tests.app.outputs import address_of, command, downloaded
@@ -167,12 +169,17 @@ def test_a_sweep_shows_its_points_again_after_they_have_changed(open_page, app_s
 
 
 def test_two_files_are_compared_and_swapped(open_page, app_server, tmp_path):
-    files = {"a": EXAMPLES / "bearing_6208.toml", "b": EXAMPLES / "bearing_6314.toml"}
-    tables = {name: tomllib.loads(file.read_text("utf-8")) for name, file in files.items()}
-    page = open_page(app_server, address_of("/compare", tables))
+    files = {"a": EXAMPLES / "bearing_6314.toml", "b": EXAMPLES / "bearing_four_point.toml"}
+    titles = {name: tomllib.loads(file.read_text("utf-8"))["title"] for name, file in files.items()}
+    page = open_page(app_server, "/compare")
+    page.get_by_test_id("upload-b").locator("input").set_input_files(EXAMPLES / "gear_pair.toml")
+    page.get_by_test_id("error-b").filter(has_text="belongs to the page /gear").wait_for()
+    for name, file in files.items():
+        page.get_by_test_id(f"upload-{name}").locator("input").set_input_files(file)
+        page.get_by_test_id(f"title-{name}").filter(has_text=titles[name]).wait_for()
+    assert not page.get_by_test_id("error-b").inner_text()
     for places in ("ab", "ba"):
-        title = tables[places[0]]["title"]
-        page.get_by_test_id("title-a").filter(has_text=title).wait_for()
+        page.get_by_test_id("title-a").filter(has_text=titles[places[0]]).wait_for()
         see_figures(page, "figure-over-speed", "figure-films")
         for place, name in zip("ab", places, strict=True):
             folder = tmp_path / f"{places}-{place}"
@@ -211,6 +218,13 @@ def test_a_file_its_link_and_its_report_have_one_answer(open_page, app_server, t
 def numbers(page):
     """First words, the number that decides, and the table of all numbers."""
     return heading(page), deciding(page), page.get_by_test_id("numbers").inner_text()
+
+
+def test_every_page_has_a_journey():
+    """Two journeys are tests of their own."""
+    assert {urlsplit(journey.path).path for journey in JOURNEYS.values()} | {"/sweep", "/compare"} == {
+        *page_texts("links")
+    }
 
 
 def test_every_placeholder_is_a_text_of_the_package():

@@ -15,20 +15,6 @@ from tests.helpers.processes import alive, wait_until
 
 pytestmark = pytest.mark.browser
 
-PATHS = ("/", "/gear", "/contact", "/contact?contact.geometry=point", "/sweep", "/compare")
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("path", PATHS)
-def test_a_page_asks_no_other_host_and_has_no_error(open_page, app_server, path):
-    page = open_page(app_server, path)
-    page.get_by_test_id("theme").wait_for()
-    answer = page.locator(".js-plotly-plot, [data-testid=panel] .value, [data-testid=plan]")
-    assert wait_until(lambda: answer.filter(visible=True).count() > 0)
-    page.wait_for_load_state("networkidle")
-    hosts = {url.split("/")[2] for url in page.watch.requests if "://" in url}
-    assert hosts == {page.watch.host}
-
 
 @pytest.mark.slow
 @pytest.mark.parametrize(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Awaitable, Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from html import escape
@@ -23,8 +23,10 @@ from ehlectric.app.pages.frame import (
     BEARING,
     PAGE_PATIENCE,
     PATHS,
+    OpenFile,
     Toolbar,
     address_of,
+    compared_part,
     framed,
     session_of,
     show_address,
@@ -39,6 +41,7 @@ from ehlectric.app.view_models import (
     Note,
     Result,
     Side,
+    Uploaded,
     counts,
     effects,
     file_title,
@@ -168,6 +171,9 @@ _FIRST = 0.4
 
 _LATE = "contacts not solved; the critical speeds took too long and are left out"
 _EARLIER = "A case has no answer: the effects below, if any, are those of earlier inputs."
+
+# Kinds of files that have an answer here.
+_COMPARED = ("bearing", "axle", "contact", "motion")
 _NOTHING = "<p>The effects stand here when both cases have an answer.</p>"
 
 
@@ -193,14 +199,31 @@ def add(work: Work) -> None:
 
 
 class SideBox:
-    """Title, panel and link of one of two cases."""
+    """Title, panel and link of one of two cases, and the button that opens the file of another one."""
 
-    def __init__(self, name: Name) -> None:
+    def __init__(
+        self, name: Name, session: Session, opened: Callable[[Name, Uploaded], Awaitable[None]]
+    ) -> None:
+        self._name, self._opened = name, opened
         with ui.element("section").classes(f"{_LOOKS[name]} answer").props(f'data-testid="side-{name}"'):
-            page_parts.heading(f"Case {name.upper()}", 2)
+            with ui.element("div").classes("toolbar"):
+                page_parts.heading(f"Case {name.upper()}", 2)
+                self._file = OpenFile(session, name, self._open, self._tell)
+                self._error = ui.label().classes("wrong").props(f'role="alert" data-testid="error-{name}"')
             self._title = ui.label("").props(f'data-testid="title-{name}"')
             self._panel = Panel((), "")
             self._link = ui.link("Open this case alone", "/")
+
+    async def _open(self, uploaded: Uploaded) -> None:
+        """Take up a file that has an answer here."""
+        if uploaded.kind not in _COMPARED:
+            self._tell(error=f"{uploaded.name} belongs to the page {PATHS[uploaded.kind]}: open it there")
+            return
+        self._tell()
+        await self._opened(self._name, uploaded)
+
+    def _tell(self, text: str = "", *, error: str = "") -> None:
+        self._error.text = error or text
 
     def show(self, answer: Side | Exception, case: Inputs) -> None:
         """Show the answer about a case, or why there is none."""
@@ -248,7 +271,7 @@ class ComparePage:
             page_parts.tool("Take B as A", "b-as-a", partial(self._take, "b", "b"))
             page_parts.tool("Take A as B", "a-as-b", partial(self._take, "a", "a"))
         with ui.element("div").classes("sides"):
-            self._sides = {name: SideBox(name) for name in _NAMES}
+            self._sides = {name: SideBox(name, self.session, self._open) for name in _NAMES}
         self._notice = ui.label(_EARLIER).classes("wrong notice").props('role="status" data-testid="notice"')
         self._notice.set_visibility(False)
         with ui.element("div").classes("answer").props('data-testid="compared"'):
@@ -307,6 +330,11 @@ class ComparePage:
                     self._set_forms()
 
         return change
+
+    async def _open(self, name: Name, uploaded: Uploaded) -> None:
+        """Take the case of a file as one of both."""
+        self._push({**self.session.inputs.table, name: compared_part(uploaded.table)})
+        self._set_forms()
 
     def _take(self, first: Name, second: Name) -> None:
         """Take other cases as A and B."""

@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from functools import cache
 from importlib import resources
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 from nicegui import Client, events, ui
 
@@ -169,6 +169,14 @@ def show_address(inputs: Inputs, path: str) -> None:
 # Called after the inputs changed in another way than by the form.
 Show = Callable[[], Awaitable[None] | None]
 
+
+class Tell(Protocol):
+    """Shows a text of the program, or an error."""
+
+    def __call__(self, text: str = "", *, error: str = "") -> None:
+        """Show both."""
+
+
 # Pages of the kinds of files.
 PATHS = {
     "bearing": "/",
@@ -189,14 +197,80 @@ def address_of(path: str, inputs: Inputs) -> str:
     return f"{path}?{inputs.address()}"
 
 
+class OpenFile:
+    """Button that opens a case with the files that it names, and the element that takes them up.
+
+    Parameters
+    ----------
+    test
+        Name of the element for tests, after "upload-".
+    opened
+        Takes the case up.
+    tell
+        Shows a text, or an error.
+    """
+
+    def __init__(
+        self, session: Session, test: str, opened: Callable[[Uploaded], Awaitable[None]], tell: Tell
+    ) -> None:
+        self._session, self._opened, self._tell = session, opened, tell
+        # Opened files, and those that the case among them names and that are not there yet.
+        self._pending: dict[str, bytes] = {}
+        self._missing: tuple[str, ...] = ()
+        self._upload = ui.upload(
+            multiple=True,
+            auto_upload=True,
+            max_file_size=MOST_SURFACE,
+            max_files=MOST_FILES,
+            on_multi_upload=weakly(self._uploaded),
+            on_rejected=weakly(self._rejected),
+            label="Case and surfaces",
+        )
+        self._upload.classes("out-of-sight").props(
+            f'data-testid="upload-{test}" aria-hidden="true" tabindex="-1"'
+        )
+        open_file = ui.button("Open file").props(f'outline no-caps dense data-testid="open-{test}"')
+        open_file.tooltip(
+            "A case, bearing, drive, axle, gear or sweep file (TOML), with the files that it names"
+        )
+        open_file.on("click", js_handler=f"() => getElement({self._upload.id}).$refs.qRef.pickFiles()")
+
+    def _rejected(self, _: events.UiEventArguments) -> None:
+        """Say why the browser sends no file."""
+        self._tell(
+            error=f"a file is too large; expected a case of at most {MOST_CASE // 1000} kB, "
+            f"surfaces of at most {MOST_SURFACE // 1_000_000} MB"
+        )
+
+    async def _uploaded(self, event: events.MultiUploadEventArguments) -> None:
+        """Take up files: a case, or those that the case opened before names."""
+        self._upload.reset()
+        contents = {file.name: await file.read() for file in event.files}
+        self._pending = {**self._pending, **contents} if set(contents) & set(self._missing) else contents
+        await self._read()
+
+    async def _read(self) -> None:
+        """Read the opened files, and ask for those that are missing."""
+        work = self._session.work
+        try:
+            uploaded = await work.quick(FILES_UPLOADED, self._pending, self._session.folder)
+        except (InputError, LostError) as error:
+            self._pending, self._missing = {}, ()
+            self._tell(error=str(error))
+            return
+        self._missing = uploaded.missing
+        if uploaded.missing:
+            self._tell(f"{uploaded.name} names {', '.join(uploaded.missing)}: open it, too.")
+            return
+        self._pending = {}
+        await self._opened(uploaded)
+
+
 class Toolbar:
     """Toolbar of a page, at the place where it is made."""
 
     def __init__(self, session: Session, path: str, show: Show, *, opens: bool = True) -> None:
         self.session, self._path, self._show = session, path, show
-        # Opened files, and those that the case among them names and that are not there yet.
-        self._pending: dict[str, bytes] = {}
-        self._missing: tuple[str, ...] = ()
         ui.add_body_html(f"<script>{script('undo_keys')}</script>")
         with ui.element("div").classes("toolbar").props('role="toolbar" aria-label="Case"'):
             self._undo = _button("Undo", "undo", self.undo, "Control+Z")
@@ -209,7 +283,7 @@ class Toolbar:
                     _button("Vary", "vary", self.vary)
                 if path == PATHS["bearing"]:
                     _button("In its drive", "in-drive", self.in_drive)
-                self._files()
+                self._file = OpenFile(session, "case", self._opened, self._tell)
             self._link = ui.input("Link to this page").props('readonly dense outlined data-testid="link"')
             self._link.classes("link").set_visibility(False)
             self._status = ui.label().classes("told-status").props('role="status"')
@@ -251,8 +325,7 @@ class Toolbar:
         if "drive_end" in case:
             self._tell(error="drives are compared on the page Drive, with mitigation measures")
             return
-        # An axle is compared without its mitigation measures.
-        case = {key: value for key, value in case.items() if key != "remedies"}
+        case = compared_part(case)
         self._go("/compare", Inputs({"a": case, "b": case}))
 
     def vary(self) -> None:
@@ -281,55 +354,6 @@ class Toolbar:
             self._tell(error="the case is too long for an address; open its file on the other page")
         else:
             ui.navigate.to(address_of(path, inputs))
-
-    def _files(self) -> None:
-        """Button that opens files, and the element that takes them up."""
-        self._upload = ui.upload(
-            multiple=True,
-            auto_upload=True,
-            max_file_size=MOST_SURFACE,
-            max_files=MOST_FILES,
-            on_multi_upload=weakly(self._uploaded),
-            on_rejected=weakly(self._rejected),
-            label="Case and surfaces",
-        )
-        self._upload.classes("out-of-sight").props(
-            'data-testid="upload-case" aria-hidden="true" tabindex="-1"'
-        )
-        open_file = ui.button("Open file").props('outline no-caps dense data-testid="open-file"')
-        open_file.tooltip(
-            "A case, bearing, drive, axle, gear or sweep file (TOML), with the files that it names"
-        )
-        open_file.on("click", js_handler=f"() => getElement({self._upload.id}).$refs.qRef.pickFiles()")
-
-    def _rejected(self, _: events.UiEventArguments) -> None:
-        """Say why the browser sends no file."""
-        self._tell(
-            error=f"a file is too large; expected a case of at most {MOST_CASE // 1000} kB, "
-            f"surfaces of at most {MOST_SURFACE // 1_000_000} MB"
-        )
-
-    async def _uploaded(self, event: events.MultiUploadEventArguments) -> None:
-        """Take up files: a case, or those that the case opened before names."""
-        self._upload.reset()
-        contents = {file.name: await file.read() for file in event.files}
-        self._pending = {**self._pending, **contents} if set(contents) & set(self._missing) else contents
-        await self._read()
-
-    async def _read(self) -> None:
-        """Read the opened files, and ask for those that are missing."""
-        try:
-            uploaded = await self.session.work.quick(FILES_UPLOADED, self._pending, self.session.folder)
-        except (InputError, LostError) as error:
-            self._pending, self._missing = {}, ()
-            self._tell(error=str(error))
-            return
-        self._missing = uploaded.missing
-        if uploaded.missing:
-            self._tell(f"{uploaded.name} names {', '.join(uploaded.missing)}: open it, too.")
-            return
-        self._pending = {}
-        await self._opened(uploaded)
 
     async def _opened(self, uploaded: Uploaded) -> None:
         """Show an opened case on its page."""
@@ -363,6 +387,11 @@ class Toolbar:
         history = self.session.history
         self._undo.set_enabled(bool(history.before))
         self._redo.set_enabled(bool(history.after))
+
+
+def compared_part(case: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the tables of a case that are compared: one operating point, without mitigation measures."""
+    return {key: value for key, value in case.items() if key not in ("duty", "measured", "remedies")}
 
 
 def _has_files(table: Mapping[str, Any]) -> bool:
