@@ -26,7 +26,8 @@ def renewed_numbers(page: str, printed: Callable[[str, int], list[str]]) -> str:
 def renewed_block(block: str, printed: str) -> str:
     """Return a block with the rows that it has, and its verdict, as the output contains them.
 
-    Raises LookupError if the output lacks a label or a line of the block. Numbers of a line may differ.
+    Raises LookupError if the output lacks a label or a line of the block, or has another order. Numbers of a
+    line may differ.
     """
     known, at = _rows(printed), 0
     rows, verdict = _split(block.splitlines())
@@ -34,8 +35,8 @@ def renewed_block(block: str, printed: str) -> str:
     for line in rows:
         row = _ROW.fullmatch(line)
         label = row[2] if row else line.strip()
-        # Of several rows with one label, the row below the last heading or row is meant.
-        places = [k for k in (*range(at, len(known)), *range(at)) if bool(known[k][1]) == bool(row)]
+        # Rows have the order of the output, and several rows may have one label.
+        places = [k for k in range(at, len(known)) if bool(known[k][1]) == bool(row)]
         place = next((k for k in places if known[k][0] == label), None)
         if place is None and not row:
             place = next(

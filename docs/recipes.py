@@ -4,10 +4,10 @@ Commands and Python run as they are. A block of text is compared with the output
 above a block state what the block itself does not:
 
 - ``<!-- file: NAME -->``: the block is this file.
-- ``<!-- in: NAME -->``: the keys of the block are added to this file, or replace those of the file. With
-  ``NAME, from OTHER`` the file is a copy of another, such as ``examples/drive.toml``. With
-  ``NAME, without KEY`` a key or a table is removed before. If no later command of the page reads the file,
-  ``check`` does.
+- ``<!-- in: NAME -->``: the keys of the block are added to this file, or replace those of the file; lists
+  are replaced as a whole. With ``NAME, from OTHER`` the file is a copy of another, such as
+  ``examples/drive.toml``. With ``NAME, without KEY`` a key or a table is removed before. If no later command
+  of the page reads the file, ``check`` does.
 - ``<!-- part of: NAME -->``: the file contains the tables or the lines of the block.
 - ``<!--COMMAND-->``: the text is from the last run of this command of ehlectric, such as ``check``.
 - ``<!-- quick: NAME: KEY = VALUE -->``: while the block runs, the file computes less, due to these changes.
@@ -39,7 +39,7 @@ from docs.printed import renewed_block, renewed_numbers
 
 ROOT = Path(__file__).parents[1]
 _MARK = re.compile(r"<!-- ?(.*?) ?-->")
-_FENCE = re.compile(r"(`{3,})(\w*)")
+_FENCE = re.compile(r" *(`{3,}|~{3,})(.*)")
 SHELLS = ("sh", "bash")
 KEYWORDS = ("file", "in", "part of", "quick", "not run")
 
@@ -80,13 +80,13 @@ def recipes(text: str) -> list[Block]:
     for number, line in enumerate(lines, 1):
         mark, opened = _MARK.fullmatch(line), _FENCE.match(line)
         if fence:
-            if line.rstrip() == fence:
+            if line.strip() == fence:
                 body = "".join(f"{each}\n" for each in lines[start : number - 1])
-                if language:
+                if not language.startswith("{"):
                     blocks.append(Block(start, language, body, marks))
                 fence, marks = "", {}
         elif opened:
-            fence, start, language = opened[1], number, opened[2]
+            fence, start, language = opened[1], number, opened[2].strip()
         elif mark:
             keyword, colon, value = mark[1].partition(": ")
             marks.setdefault(keyword if colon else "from", []).append(value or keyword)
@@ -183,7 +183,10 @@ def _commands(text: str) -> Iterator[tuple[dict[str, str], list[str]]]:
 
 @dataclass
 class Walk:
-    """A walk through a page; ``faults`` names the lines of the blocks that fail.
+    """A walk through a page.
+
+    ``faults`` names the lines of the blocks that fail, and ``differences`` the outputs that are not those of
+    the page.
 
     Parameters
     ----------
@@ -196,6 +199,7 @@ class Walk:
     file: Path
     command: Command
     faults: list[str] = field(default_factory=list)
+    differences: list[str] = field(default_factory=list)
     printed: list[Printed] = field(default_factory=list)
     missing: set[str] = field(default_factory=set)
     names: dict[str, Any] = field(default_factory=lambda: {"__name__": "__main__"})
@@ -217,7 +221,7 @@ class Walk:
                     self.faults.append(f"{block.line}: {type(error).__name__}: {error}")
                     continue
                 if new != block.text:
-                    self.faults.append(f"{block.line}: {_difference(block.text, new)}")
+                    self.differences.append(f"{block.line}: {_difference(block.text, new)}")
                 end = block.line + block.text.count("\n")
                 lines[block.line : end] = [new, *[""] * (end - block.line - 1)]
         return self._numbers("".join(lines))
@@ -236,7 +240,7 @@ class Walk:
             self.faults.append(f"no output contains {error}")
             return text
         if new != text:
-            self.faults.append(_difference(text, new))
+            self.differences.append(_difference(text, new))
         return new
 
     def _block(self, block: Block, later: str) -> str:
@@ -267,7 +271,7 @@ class Walk:
         elif block.language == "text":
             return self._output(block.text, block.mark("from"))
         else:
-            raise RecipeError(f"a block of {block.language} needs a mark")
+            raise RecipeError(f"a block of {block.language or 'no language'} needs a mark")
         return block.text
 
     def _check(self, name: str, later: str) -> None:

@@ -26,8 +26,10 @@ def main(files: list[Path]) -> None:
     for file in files or pages():
         text = file.read_text("utf-8")
         if any(block.language == "text" for block in recipes(text)):
+            walk = Walk(file.resolve(), by_command)
             with TemporaryDirectory() as folder:
-                file.write_text(Walk(file.resolve(), by_command).walk(Path(folder)), "utf-8")
+                file.write_text(walk.walk(Path(folder)), "utf-8")
+            sys.stderr.writelines(f"{file}:{fault}\n" for fault in walk.faults)
 
 
 if __name__ == "__main__":
