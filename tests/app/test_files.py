@@ -16,7 +16,7 @@ from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.session import MOST_TOGETHER
 from ehlectric.app.view_models import MOST_CASE, MOST_FILES, file_title
 from ehlectric.errors import InputError
-from ehlectric.readable import ratio_text
+from ehlectric.readable import readable
 from tests.helpers.each import each
 from tests.helpers.places import DEKTAK, EXAMPLES
 
@@ -214,7 +214,7 @@ def test_files_of_a_gear_pair_have_the_films_of_its_page(tmp_path):
     table = tomllib.loads(example("gear_pair").decode()) | {"contacts": "solved"}
     written = write(table, "atlas", tmp_path, silent)
     margin = json.loads((Path(written.folder) / "summary.json").read_text("utf-8"))["mesh"]["margin"]
-    assert ratio_text(margin) == quick_answer(table).number("mesh.margin").text
+    assert readable(margin) == quick_answer(table).number("mesh.margin").text
 
 
 def test_single_files_and_archives(tmp_path):

@@ -202,7 +202,8 @@ def test_a_sweep_that_is_stopped_says_what_is_saved(tmp_path, swept, number):
     out, errors = process.communicate()
     assert (process.returncode, out) == (128 + number, "")
     count = len(saved(tmp_path / "out"))
-    assert errors == "interrupted; " + told(count)
+    # A slow machine prints its progress before.
+    assert errors.endswith("interrupted; " + told(count))
     assert gone(workers)
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["sweep.sqlite"]
 
