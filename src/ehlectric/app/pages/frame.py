@@ -170,7 +170,7 @@ def show_address(inputs: Inputs, path: str) -> None:
 Show = Callable[[], Awaitable[None] | None]
 
 
-class Tell(Protocol):
+class Report(Protocol):
     """Shows a text of the program, or an error."""
 
     def __call__(self, text: str = "", *, error: str = "") -> None:
@@ -206,14 +206,14 @@ class OpenFile:
         Name of the element for tests, after "upload-".
     opened
         Takes the case up.
-    tell
+    report
         Shows a text, or an error.
     """
 
     def __init__(
-        self, session: Session, test: str, opened: Callable[[Uploaded], Awaitable[None]], tell: Tell
+        self, session: Session, test: str, opened: Callable[[Uploaded], Awaitable[None]], report: Report
     ) -> None:
-        self._session, self._opened, self._tell = session, opened, tell
+        self._session, self._opened, self._report = session, opened, report
         # Opened files, and those that the case among them names and that are not there yet.
         self._pending: dict[str, bytes] = {}
         self._missing: tuple[str, ...] = ()
@@ -237,7 +237,7 @@ class OpenFile:
 
     def _rejected(self, _: events.UiEventArguments) -> None:
         """Say why the browser sends no file."""
-        self._tell(
+        self._report(
             error=f"a file is too large; expected a case of at most {MOST_CASE // 1000} kB, "
             f"surfaces of at most {MOST_SURFACE // 1_000_000} MB"
         )
@@ -256,11 +256,11 @@ class OpenFile:
             uploaded = await work.quick(FILES_UPLOADED, self._pending, self._session.folder)
         except (InputError, LostError) as error:
             self._pending, self._missing = {}, ()
-            self._tell(error=str(error))
+            self._report(error=str(error))
             return
         self._missing = uploaded.missing
         if uploaded.missing:
-            self._tell(f"{uploaded.name} names {', '.join(uploaded.missing)}: open it, too.")
+            self._report(f"{uploaded.name} names {', '.join(uploaded.missing)}: open it, too.")
             return
         self._pending = {}
         await self._opened(uploaded)
