@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -15,8 +15,10 @@ from ehlectric.axle.stored import layout_of
 from ehlectric.axle.summary import ELEMENT_COLUMNS, axle_summary, tables_of_point
 from ehlectric.axle.uncertainty import AxleUncertainty, has_chance, uncertainty_of
 from ehlectric.cases.axle_case import AxleCase
+from ehlectric.cases.discharge_inputs import Discharge
+from ehlectric.cases.library.estimated_bearings import is_estimated
 from ehlectric.errors import InputError
-from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
+from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes, unused_note
 from ehlectric.quantities.verdict import Verdict
 from ehlectric.runtime.display import ResultKind, Shown, headline, read_only_property
 from ehlectric.runtime.netcdf import Layout
@@ -73,8 +75,10 @@ class AxleResult(Shown):
 
     @property
     def warnings(self) -> tuple[ResultWarning, ...]:
-        """Warnings about where the result is unreliable, each with the name of its bearing or mesh."""
-        return self.solution.warnings
+        """Warnings about where the result is unreliable, each with the name of its bearing or mesh, and notes
+        about given keys that it does not use.
+        """
+        return (*self.solution.warnings, *unused_keys(self.case))
 
     @property
     def all_warnings(self) -> tuple[ResultWarning, ...]:
@@ -144,7 +148,7 @@ class AxleResult(Shown):
         """Return the results nested as in summary.json, SI units."""
         return {
             "schema": SCHEMA,
-            **self._heads(),
+            **self._heads(self.all_warnings),
             **axle_summary(self.solution),
             **({} if self.uncertainty is None else {"uncertainty": self.uncertainty.summary()}),
             **({} if self.duty is None else {"duty": self.duty.summary()}),
@@ -160,20 +164,23 @@ class AxleResult(Shown):
             simulation = {} if discharges is None else {"simulation": discharges.summary()}
             yield {"title": self.case.remedies[number].title, **axle_summary(solution), **simulation}
 
-    def _heads(self) -> dict[str, Any]:
+    def _heads(self, warnings: Sequence[ResultWarning]) -> dict[str, Any]:
         """Title, warnings, verdict and inputs of a summary."""
         return {
             "version": self.version,
             "title": self.case.title,
-            **texts_and_codes(self.all_warnings),
+            **texts_and_codes(warnings),
             **self.verdict.as_data(),
             "inputs": self.case.to_dict(),
         }
 
     def point_summary(self) -> dict[str, Any]:
-        """Return the results of a point of a sweep, SI units: elements and shafts by their keys."""
-        tables = tables_of_point(self.solution)
-        return {"schema": SCHEMA, **self._heads(), **tables, "seconds": self.seconds}
+        """Return the results of a point of a sweep, SI units: elements and shafts by their keys.
+
+        Notes about keys without an effect are omitted, as a varied key differs from the value of a gear file.
+        """
+        heads = self._heads(self.solution.warnings)
+        return {"schema": SCHEMA, **heads, **tables_of_point(self.solution), "seconds": self.seconds}
 
     def layout(self) -> Layout:
         """Return variables and attributes of axle.nc."""
@@ -207,6 +214,26 @@ class AxleResult(Shown):
 
     def _headline(self) -> str:
         return headline(self.case.title, *self.key_numbers(), verdict=axle_verdict(self.solution))
+
+
+def unused_keys(case: AxleCase) -> Iterator[ResultWarning]:
+    """Yield notes about given keys of bearings and of gear files that the result of an axle does not use."""
+    for name, bearing in zip(case.names_of_bearings(), case.tables_of_bearings, strict=True):
+        if bearing.life is not None:
+            # Load ratings also determine the geometry of a bearing that the library lacks.
+            used = ("dynamic_rating", "static_rating") if is_estimated(bearing.base) else ()
+            given = [key for key in type(bearing.life).model_fields if key in bearing.life.model_fields_set]
+            yield unused_note("life", [f"life.{key}" for key in given if key not in used], name)
+    for name, mesh in zip(case.names_of_meshes(), case.mesh, strict=True):
+        pair = mesh.pair
+        replaced = {
+            "lubricant": pair.lubricant != case.lubricant,
+            "discharge": pair.discharge not in (case.discharge, Discharge()),
+        }
+        neglected = {key: getattr(pair, key) is not None for key in ("ranges", "duty", "measured")}
+        for situation, keys in (("pair", replaced), ("pair_alone", neglected)):
+            if any(keys.values()):
+                yield unused_note(situation, [key for key, differs in keys.items() if differs], name)
 
 
 def solve_axle(

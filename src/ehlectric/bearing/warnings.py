@@ -44,6 +44,7 @@ from ehlectric.cases.bearing_inputs import Bearing
 from ehlectric.cases.bearing_kinds import KINDS_OF_BEARINGS, has_rollers
 from ehlectric.cases.case_oil import Lubricant, viscosity_over_temperature
 from ehlectric.cases.coating_inputs import Coating
+from ehlectric.cases.film_inputs import shear_unused
 from ehlectric.cases.library.designations import parts_of, seals_of
 from ehlectric.cases.library.estimated_bearings import WITHOUT_KNOWN
 from ehlectric.cases.library.printed_ratings import printed_ratings
@@ -154,6 +155,18 @@ def film_warning_conditions(solution: BearingSolution) -> Iterator[WarningCondit
         viscosity=known(mul, 1e3, base),
         base=case.lubricant.base,
         temperature=lambda: CELSIUS.text(case.bearing.oil_temperature),
+    )
+    constants = shear_unused(case.lubricant)
+    yield WarningCondition.of(
+        bool(constants),
+        "shear-constant-unused",
+        "machine",
+        names=" and ".join(constants),
+        are="are" if len(constants) > 1 else "is",
+    )
+    given_pressure = Lubricant.model_fields["ambient_pressure"].default
+    yield WarningCondition.of(
+        np.not_equal(case.lubricant.ambient_pressure, given_pressure), "key-unused", "ambient"
     )
     given = [f"bearing.{key}" for key in case.bearing.temperatures()]
     yield WarningCondition.of(

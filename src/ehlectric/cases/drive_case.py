@@ -27,6 +27,9 @@ from ehlectric.quantities.inputs import ENDS as ENDS
 from ehlectric.quantities.inputs import REPLACED
 from ehlectric.runtime.display import headline
 
+# Tables of a bearing file that a drive does not use.
+NOT_IN_DRIVES = ("motor", "duty", "measured")
+
 
 class Operation(Table, book="drive"):
     """Operating point of the drive, and how long it is looked at."""

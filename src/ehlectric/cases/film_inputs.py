@@ -77,6 +77,21 @@ CONSTANTS: Mapping[str, tuple[str, ...]] = {
     "limiting": ("limiting_coefficient",),
 }
 
+# Constants of laws of shear that films of bearings and gears lack: they are Newtonian or Eyring fluids.
+_NOT_OF_MACHINES = ("carreau_stress", "carreau_exponent", "limiting_coefficient")
+
+
+def shear_unused(oil: Lubricant) -> list[str]:
+    """Return the dotted keys of shear constants of an oil that films of bearings and gears do not use.
+
+    Examples
+    --------
+    >>> shear_unused(Lubricant.from_dict({"base": "paper", "limiting_coefficient": 0.05}))
+    ['lubricant.limiting_coefficient']
+    """
+    return [f"lubricant.{key}" for key in _NOT_OF_MACHINES if getattr(oil, key) is not None]
+
+
 # Thermal properties of a body and their units.
 _OF_BODIES = {"thermal_conductivity": "W/m/K", "heat_capacity": "J/kg/K", "density": "kg/m**3"}
 

@@ -17,7 +17,7 @@ from ehlectric.drive.drive_record import FILM, OFF, ON, VALUES, DriveSolution
 from ehlectric.drive.stored import dataset_of
 from ehlectric.drive.summary import drive_summary, whole_summary, with_cycle
 from ehlectric.drive.verdict_rule import drive_verdict
-from ehlectric.drive.warnings import drive_warnings
+from ehlectric.drive.warnings import drive_warnings, unused_keys
 from ehlectric.errors import within
 from ehlectric.quantities.former_keys import warning_tables
 from ehlectric.quantities.inputs import ENDS
@@ -80,7 +80,7 @@ class DriveResult(Shown):
     def warnings(self) -> tuple[ResultWarning, ...]:
         """Warnings about where the result is unreliable, each once."""
         of_cycle = () if self.duty is None else self.duty.warnings
-        return (*drive_warnings(self.solution), *of_cycle)
+        return (*drive_warnings(self.solution), *unused_keys(self.case), *of_cycle)
 
     @cached_property
     def verdict(self) -> Verdict:

@@ -9,7 +9,8 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.bearing import BearingResult, conducts, lambda_text
-from ehlectric.cases.drive_case import DriveCase
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.drive_case import NOT_IN_DRIVES, DriveCase
 from ehlectric.cases.plausibility import unusual_machine
 from ehlectric.discharge.discharge_laws import CURRENT_DENSITY_LIMITS, compared_with_limits
 from ehlectric.drive.drive_bearings import BearingElement
@@ -17,7 +18,7 @@ from ehlectric.drive.drive_record import FEW, FILM, ON, DriveSolution
 from ehlectric.drive.motor_circuit import oscillations
 from ehlectric.quantities.formats import amount, rpm_text
 from ehlectric.quantities.inputs import ENDS
-from ehlectric.quantities.result_warnings import ResultWarning, active
+from ehlectric.quantities.result_warnings import ResultWarning, active, unused_note
 
 # Share of time from which films are said to conduct on.
 MOSTLY = 0.2
@@ -44,6 +45,14 @@ def drive_warnings(solution: DriveSolution) -> Iterator[ResultWarning]:
     yield from _of_arcs(solution)
     yield from _of_both_ends(solution)
     yield from _of_currents(solution)
+
+
+def unused_keys(case: DriveCase) -> Iterator[ResultWarning]:
+    """Yield notes about tables of both bearing files that the result of a drive does not use."""
+    for end in ENDS[: 1 if case.non_drive_end is case.drive_end else 2]:
+        bearing: BearingCase = getattr(case, end)
+        if keys := [key for key in NOT_IN_DRIVES if getattr(bearing, key) is not None]:
+            yield unused_note("end", keys, end)
 
 
 def bearing_warnings(bearings: tuple[BearingResult, BearingResult]) -> Iterator[ResultWarning]:

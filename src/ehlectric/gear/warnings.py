@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from ehlectric.cases.film_inputs import shear_unused
 from ehlectric.gear.flank_films import without_heat
 from ehlectric.gear.flank_oil import by_lubricant
 from ehlectric.gear.solution import GearSolution
@@ -50,6 +51,9 @@ def _of_pair(solution: GearSolution) -> Iterator[ResultWarning]:
     if solution.case.contacts == "solved" and solution.film_loss is None:
         missing = without_heat(solution.case, solution.flanks.temperature)
         yield ResultWarning.of("flank-films-without-heat", missing=str(missing))
+    if constants := shear_unused(solution.case.lubricant):
+        are = "are" if len(constants) > 1 else "is"
+        yield ResultWarning.of("shear-constant-unused", "machine", names=" and ".join(constants), are=are)
     if ratio <= gear.summit_height:
         yield ResultWarning.of("flanks-touch", ratio=ratio, height=gear.summit_height)
     if solution.pair.normal_backlash is None:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ehlectric.cases.case import Case
 from ehlectric.contact import (
     PointResult,
     Result,
@@ -21,7 +22,7 @@ from ehlectric.contact import (
 from ehlectric.field import ATOM
 from ehlectric.motion.motion_touching import TouchHistory
 from ehlectric.motion.moving_contact import TransientContact
-from ehlectric.quantities.result_warnings import ResultWarning
+from ehlectric.quantities.result_warnings import ResultWarning, unused_note
 from ehlectric.surfaces.surface_warnings import LEAST_IN_SHAPE, shortest_wave, surface_warnings
 
 # Part of its height by which moving roughness may differ from the stationary one without a warning.
@@ -50,12 +51,25 @@ def motion_warnings(contact: TransientContact, still: Result | PointResult) -> I
     yield from case_warnings(contact.case, conditions)
     yield from surface_warnings(travelled.roughness, contact.roughness.surfaces, domain, *spacings)
     yield from step_warnings(contact)
+    if unused := _stationary_keys(contact.case):
+        yield unused_note("motion", unused)
     yield from starvation_warnings(contact.case, still.film)
     yield from _unlike(contact, still)
     if not still.converged:
         yield ResultWarning.of("stationary-not-converged", status=still.film.status)
     elif (error := still.film_error) is not None and error > 0.01:
         yield ResultWarning.of("stationary-error", percent=100.0 * error)
+
+
+def _stationary_keys(case: Case) -> list[str]:
+    """Given keys that only a stationary contact uses: discharges, and resistances of spots."""
+    electric = ("resistivity", "mean_free_path", "tribofilm_resistance")
+    keys = [] if case.discharge is None else ["discharge"]
+    keys += [f"electric.{key}" for key in electric if getattr(case.electric, key) is not None]
+    heated = case.film is not None and case.film.thermal
+    if case.contact.boundary_friction is not None and not heated:
+        keys.append("contact.boundary_friction")
+    return keys
 
 
 def step_warnings(contact: TransientContact) -> Iterator[ResultWarning]:

@@ -1,0 +1,33 @@
+"""Random files of every kind: no traceback, no word where a number stands, no film thicker than its room, and
+one reason by ``check`` and by the command. Each run takes 40 valid files of a kind, ``make thorough`` 200.
+"""
+
+import numpy as np
+import pytest
+
+from tests.attack.random_inputs import NOT_VALID, drawn, faults
+from tests.helpers.full_cases import KINDS
+from tests.helpers.share import share_of
+
+SEED = 23
+
+# Valid files of each kind, and the part of them that a run takes.
+FILES, PART = 200, 5
+
+# Least share of the valid files that are solved, so that the test is one of answers.
+SOLVED = 0.25
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", KINDS)
+def test_answers_are_numbers_or_reasons(kind, tmp_path):
+    outcomes, wrong = [], {}
+    for number in range(50 * FILES):
+        found, outcome = faults(kind, drawn(kind, np.random.default_rng([SEED, number])), tmp_path)
+        outcomes += [] if outcome == NOT_VALID else [outcome]
+        if found:
+            wrong[number] = found
+        if len(outcomes) == share_of(FILES, PART):
+            break
+    assert wrong == {}
+    assert outcomes.count("solved") >= SOLVED * share_of(FILES, PART), outcomes
