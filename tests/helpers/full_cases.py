@@ -98,6 +98,9 @@ def _gears(base: Tables) -> Iterator[Tables]:
 def _further(kind: str) -> Iterator[Tables]:
     """Cases of a kind that change more than the tables of this kind."""
     data, base = _data(kind), _data(kind)["base"]
+    if kind in ("bearing", "drive"):
+        records = _data("bearings")["records"]
+        yield from (merged(base, {"measured": {"shaft_record": record}}) for record in records)
     if kind in ("line", "point", "motion"):
         yield from _contacts(base)
         if kind == "motion":

@@ -46,6 +46,9 @@ _NOT_COMPARED = ("inputs", "seconds", "version", "title", "warnings", "verdict",
 # Ends of the ranges of uncertain inputs, which repeat the input.
 _OF_RANGES = re.compile(r"indices\.\d+\.(low|high)$")
 
+# Warning about keys without an effect, after the name of a part such as a bearing.
+_UNUSED = re.compile(r"(.*: )?(?P<names>[^:]+?)( of the \w+ file)? (is|are) not used")
+
 # Relative difference of numbers that is an effect, far above rounding.
 _EFFECT = 1e-9
 
@@ -117,19 +120,17 @@ class Answer:
 
     def naming(self, key: str) -> str:
         """Warning that names a key as one without an effect; empty without one."""
-        texts = [str(one) for one in getattr(self.result, "warnings", ()) if "not used" in str(one)]
-        words = set(key.replace("_", "").split("."))
-        return next((text for text in texts if words & _words(text)), "")
+        for text in map(str, getattr(self.result, "warnings", ())):
+            if found := _UNUSED.match(text):
+                names = re.split(", | and ", found["names"])
+                if any(f".{name}." in f".{key}." for name in names):
+                    return text
+        return ""
 
     @cached_property
     def given(self) -> dict[str, Any]:
         """Values of the case in SI units, by dotted key; none of a sweep."""
         return {} if self.kind == "sweep" else dict(_leaves(self.case.to_dict()))
-
-
-def _words(text: str) -> set[str]:
-    """Words of a text, also those between dots."""
-    return {word.strip(".,;:") for word in text.replace(".", " ").replace("_", "").split()}
 
 
 def first_difference(first: Answer, second: Answer) -> str:

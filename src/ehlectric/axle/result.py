@@ -223,7 +223,8 @@ def unused_keys(case: AxleCase) -> Iterator[ResultWarning]:
             # Load ratings also determine the geometry of a bearing that the library lacks.
             used = ("dynamic_rating", "static_rating") if is_estimated(bearing.base) else ()
             given = [key for key in type(bearing.life).model_fields if key in bearing.life.model_fields_set]
-            yield unused_note("life", [f"life.{key}" for key in given if key not in used], name)
+            if unused := [f"life.{key}" for key in given if key not in used]:
+                yield unused_note("life", unused, name)
     for name, mesh in zip(case.names_of_meshes(), case.mesh, strict=True):
         pair = mesh.pair
         replaced = {

@@ -274,7 +274,7 @@ def duty_summary(solution: BearingSolution, duty: BearingDuty) -> dict[str, Any]
     for key in ("asperity_share", "asperity_share_low", "asperity_share_high"):
         values[key] = _largest([getattr(ring, key) for ring in all_of])
     spots = [ring.expected_spots for ring in all_of if ring.expected_spots is not None]
-    return values | {"expected_spots": _largest(spots) if spots else None}
+    return values | {"expected_spots": _largest(spots) if spots else None, "real_area": duty.real_area}
 
 
 def _largest(of_contacts: list[Array]) -> Numbers:

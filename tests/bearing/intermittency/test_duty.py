@@ -123,6 +123,17 @@ def test_summits_are_named_beside_clarke_s_fit():
     assert found["contact_time_share"] > 1e3 * plain["contact_time_share"]
 
 
+def test_the_real_area_is_proportional_to_the_radius_of_the_summits():
+    """A share pi n beta sigma_s F_1 of the Hertz area, which is a factor beta, while F_0 counts the spots."""
+    once, twice = (
+        totals(solved(bearing__summits=SUMMITS["bearing__summits"] | {"radius": radius}))
+        for radius in ("50 um", "100 um")
+    )
+    assert twice["real_area"] == pytest.approx(2.0 * once["real_area"], rel=1e-12, abs=0.0)
+    assert twice["expected_spots"] == once["expected_spots"]
+    assert totals(solved())["real_area"] is None
+
+
 def test_a_bandwidth_lifts_the_summits():
     """They lie 4 Rq/sqrt(pi alpha) above the surface, and their heights scatter less."""
     keys = SUMMITS["bearing__summits"]
