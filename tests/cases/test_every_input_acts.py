@@ -42,6 +42,7 @@ VALUES: dict[str, tuple[Any, ...]] = {
     "temperature_range": ("70 degC", "20 degC"),
     "thermal_conductivity_law": ("constant",),
     "tolerance": (1e-11,),
+    "uncertainty_samples": (128,),
     "viscosity_law": ("barus", "roelands", "modulus", "constant"),
     "x_unit": ("nm", "mm"),
     "z_unit": ("um",),

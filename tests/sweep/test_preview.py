@@ -5,9 +5,11 @@ from click.testing import CliRunner
 from typer.main import get_command
 
 from ehlectric.commands.command_line import app
+from ehlectric.errors import InputError
 from ehlectric.runs.preview import preview_of
 from ehlectric.sweep.engine import lacking_point, plan
 from ehlectric.sweep.sweep_inputs import Sweep
+from tests.helpers.bearings import BALLS
 from tests.helpers.drives import small_drive
 
 SPEEDS = {"drive.speed": ["6000 rpm", "200 rpm", "3000 rpm"]}
@@ -26,6 +28,19 @@ def test_the_slowest_point_names_what_it_lacks():
     assert "contact_resistance" in found.reason
     meaning = preview_of(sweep)
     assert "contact_resistance" in meaning.summary["sweep"]["lacking"]
+
+
+def test_a_refused_first_point_is_no_refused_sweep():
+    """The sweep solves the second point and keeps the reason of the first one; the check shows the second."""
+    case = {"contacts": "formula", "bearing": BALLS["bearing"], "lubricant": {"base": "iso-vg-46"}}
+    hot, warm = "200 degC", "70 degC"
+    checked = preview_of(Sweep.from_dict({"case": case, "vary": {"bearing.temperature": [hot, warm]}}))
+    found = checked.summary["sweep"]
+    assert found["first_point"]["number"] == 1
+    assert found["points_refused"] == 1
+    assert "bearing.temperature" in found["reason"]
+    with pytest.raises(InputError, match="temperature"):
+        preview_of(Sweep.from_dict({"case": case, "vary": {"bearing.temperature": [hot, "210 degC"]}}))
 
 
 @pytest.mark.slow

@@ -295,7 +295,7 @@ def _solved_meshes(axles: Mapping[int, _Axle]) -> dict[tuple[int, int], _Solved]
             element = mesh_element(case.names_of_meshes()[number], case.mesh[number].gears, outcome)
             scales = axles[place].scales
             if scales is None:
-                solved[place, number] = element, tuple(gear_warnings(outcome))
+                solved[place, number] = element, tuple(gear_warnings(outcome, in_axle=True))
             else:
                 solved[place, number] = _scaled_mesh(element, outcome, scales), ()
     return solved

@@ -407,7 +407,7 @@ def elements_of(films: SolvedFilms) -> AxleSolution:
         elements += bearing_elements(result.solution, [(name, bearing.shaft, axial)])
     for name, mesh, gears in zip(case.names_of_meshes(), case.mesh, films.meshes, strict=True):
         elements.append(mesh_element(name, mesh.gears, gears))
-        warnings.append((name, tuple(gear_warnings(gears))))
+        warnings.append((name, tuple(gear_warnings(gears, in_axle=True))))
     return AxleSolution(case, films.turning, tuple(elements), tuple(named_warnings(warnings)))
 
 

@@ -16,9 +16,9 @@ from ehlectric.quantities.result_warnings import ResultWarning
 _OUTSIDE = 0.1
 
 
-def gear_warnings(solution: GearSolution) -> Iterator[ResultWarning]:
+def gear_warnings(solution: GearSolution, *, in_axle: bool = False) -> Iterator[ResultWarning]:
     """Warnings about a gear pair, each once."""
-    yield from _of_pair(solution)
+    yield from _of_pair(solution, in_axle=in_axle)
     oil = solution.case.lubricant.at(solution.bulk_temperature, _KEY)
     yield from oil.warnings(float(np.nanmax(solution.films.max_pressure)))
 
@@ -38,7 +38,7 @@ def warning_codes(solutions: Sequence[GearSolution]) -> list[list[str]]:
 _KEY = "gear.operation.bulk_temperature"
 
 
-def _of_pair(solution: GearSolution) -> Iterator[ResultWarning]:
+def _of_pair(solution: GearSolution, *, in_axle: bool = False) -> Iterator[ResultWarning]:
     """Warnings that do not depend on the laws of the oil."""
     gear, operation = solution.case.gear, solution.case.gear.operation
     ratio = float(solution.films.minimum[solution.thinnest]) / solution.rq
@@ -54,6 +54,8 @@ def _of_pair(solution: GearSolution) -> Iterator[ResultWarning]:
     if constants := shear_unused(solution.case.lubricant):
         are = "are" if len(constants) > 1 else "is"
         yield ResultWarning.of("shear-constant-unused", "machine", names=" and ".join(constants), are=are)
+    if gear.contact.contact_resistance is not None and not in_axle:
+        yield ResultWarning.of("key-unused", "mesh")
     if ratio <= gear.summit_height:
         yield ResultWarning.of("flanks-touch", ratio=ratio, height=gear.summit_height)
     if solution.pair.normal_backlash is None:

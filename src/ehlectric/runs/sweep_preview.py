@@ -25,19 +25,34 @@ from ehlectric.sweep import Planned, Sweep, label_of, lacking_point, plan
 # Largest number of points of a sweep that are checked one by one.
 _MOST_CHECKED = 2000
 
+# Largest number of points of which the first one with a preview is shown.
+_MOST_PREVIEWED = 50
+
 
 def preview(sweep: Sweep) -> Preview:
-    """Return the preview of a sweep: its size, and the preview of its first point."""
+    """Return the preview of a sweep: its size, and the preview of the first point that is not refused.
+
+    Raises InputError if no point is a case, or if all points are refused.
+    """
     started = time.perf_counter()
     planned = list(islice(plan(sweep), _MOST_CHECKED))
-    first = next((point for point in planned if point.key is not None), None)
-    if first is None:
+    cases = [point for point in planned if point.key is not None]
+    if not cases:
         raise InputError("vary", f"no point is a case; of the first, {planned[0].refused}")
     each = (time.perf_counter() - started) / len(planned)
-    begun = time.perf_counter()
-    preview = preview_of(sweep.case.replace(first.inputs))
+    refused = [point.refused for point in planned if point.key is None]
+    for first in cases[:_MOST_PREVIEWED]:
+        begun = time.perf_counter()
+        try:
+            preview = preview_of(sweep.case.replace(first.inputs))
+            break
+        except InputError as error:
+            refused.append(str(error))
+            reason = error
+    else:
+        raise reason
     seconds = time.perf_counter() - begun + each
-    described = _described(sweep, planned, first)
+    described = _described(sweep, len(planned), refused, first)
     lacking = lacking_point(sweep, planned)
     described["lacking"] = None if lacking is None else str(lacking)
     rows = (*_sweep_rows(sweep, described, seconds), Row("first point:"), *preview.rows)
@@ -45,14 +60,13 @@ def preview(sweep: Sweep) -> Preview:
     return replace(preview, title=sweep.title or preview.title, rows=rows, summary=summary, verdict=None)
 
 
-def _described(sweep: Sweep, planned: list[Planned], first: Planned) -> dict[str, Any]:
-    """Size and inputs of a sweep as a table, and how many of its points are refused."""
-    refused = [point.refused for point in planned if point.key is None]
+def _described(sweep: Sweep, checked: int, refused: list[str], first: Planned) -> dict[str, Any]:
+    """Size and inputs of a sweep as a table, and why points are refused."""
     return {
         "points": sweep.size,
         "design": sweep.design,
         "inputs": {key: _values(value) for key, value in sweep.vary.items()},
-        "points_checked": len(planned),
+        "points_checked": checked,
         "points_refused": len(refused),
         "reason": refused[0] if refused else None,
         "first_point": {"number": first.number, "inputs": dict(first.inputs)},
