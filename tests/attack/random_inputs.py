@@ -38,7 +38,7 @@ def drawn(kind: str, rng: np.random.Generator) -> dict[str, Any]:
     """Tables of a file of a kind: a case with some of its keys, of which a few numbers are changed."""
     if kind in KINDS_OF_CASES and rng.random() < 0.3:
         return KINDS_OF_CASES[kind][1](rng)
-    tables = cases_of(kind)[rng.integers(len(cases_of(kind)))]
+    tables = _estimated(cases_of(kind)[rng.integers(len(cases_of(kind)))])
     numbers = [
         (path, value)
         for path, value in values_in(tables)
@@ -48,6 +48,15 @@ def drawn(kind: str, rng: np.random.Generator) -> dict[str, Any]:
         path, value = numbers[place]
         tables = with_value(tables, path, scaled(value, 10.0 ** rng.uniform(-_DECADES, _DECADES)))
     return tables
+
+
+def _estimated(tables: Any) -> Any:
+    """Nested tables whose contacts are of the atlas instead of solved ones, which take seconds."""
+    if not isinstance(tables, dict):
+        return tables
+    found = {key: _estimated(value) for key, value in tables.items()}
+    solved = "bearing" in found and "contacts" not in found and "lubricant" in found
+    return found | {"contacts": "atlas"} if solved or found.get("contacts") == "solved" else found
 
 
 def faults(kind: str, tables: Mapping[str, Any], folder: Path) -> tuple[list[str], str]:

@@ -13,24 +13,30 @@ from tests.helpers.places import DATA
 
 Tables = dict[str, Any]
 
-# Numbers of a profile, and records of an oscilloscope: a square wave and a part of it.
+# Numbers of a profile, times and square wave of a source, and a sine wave of which the shaft has a part that
+# collapses to 0 V at many times.
 _WAVES = [round(30.0 * math.sin(k / 3.0), 3) for k in range(400)]
+_TIMES = [f"{0.2 * k:.1f}" for k in range(4000)]
 _LEVELS = [280.0 if (k // 250) % 2 else -280.0 for k in range(4000)]
+_SINE = [280.0 * math.sin(0.002 * math.pi * k) for k in range(4000)]
+_SHAFT = [0.03 * (_SINE[k] - _SINE[k - k % 170]) for k in range(4000)]
 
 
-def _record(head: str, columns: int = 2) -> str:
-    rows = (f"{0.2 * k:.1f},{level},{0.03 * level}".split(",")[:columns] for k, level in enumerate(_LEVELS))
-    return "\n".join([head, *map(",".join, rows), ""])
+def _record(head: str, *columns: list[Any]) -> str:
+    rows = (",".join(map(str, row)) for row in zip(*columns, strict=True))
+    return "\n".join([head, *rows, ""])
 
 
 # Contents of files by the names that stand for them.
 _FILES = {
     "profile": "\n".join(f"{2 * k},{wave}" for k, wave in enumerate(_WAVES)),
     "matrix": "\n".join("\t".join(map(str, _WAVES[row : row + 200])) for row in range(150)),
-    "record": _record("time [us],u_cm [V]"),
-    "record without units": _record("t,u"),
-    "record without times": "\n".join(["u_cm [V]", *map(str, _LEVELS), ""]),
-    "record of the shaft": _record("time [us],u_cm [V],u_shaft [V]", 3),
+    "record": _record("time [us],u_cm [V]", _TIMES, _LEVELS),
+    "record without units": _record("t,u", _TIMES, _LEVELS),
+    "record without times": _record("u_cm [V]", _LEVELS),
+    "record of the shaft": _record("time [us],u_cm [V],u_shaft [V]", _TIMES, _SINE, _SHAFT),
+    "record of the shaft without units": _record("t,u,v", _TIMES, _SINE, _SHAFT),
+    "record of the shaft without times": _record("u_shaft [V]", _SHAFT),
     "vehicle": "time [s],vehicle speed [km/h],temperature [degC]\n0,30,50\n10,60,52\n20,90,54\n",
 }
 
@@ -100,7 +106,8 @@ def _further(kind: str) -> Iterator[Tables]:
     data, base = _data(kind), _data(kind)["base"]
     if kind in ("bearing", "drive"):
         records = _data("bearings")["records"]
-        yield from (merged(base, {"measured": {"shaft_record": record}}) for record in records)
+        plain = _changed(base, data.get("plain", {}))
+        yield from (merged(plain, {"measured": {"shaft_record": record}}) for record in records)
     if kind in ("line", "point", "motion"):
         yield from _contacts(base)
         if kind == "motion":

@@ -30,6 +30,9 @@ from ehlectric.runtime.display import headline
 # Tables of a bearing file that a drive does not use.
 NOT_IN_DRIVES = ("motor", "duty", "measured")
 
+# Keys of its table of discharges that a drive does not use, as the drive computes discharges over time.
+NOT_OF_DISCHARGES = ("external_capacitance", "peak_current", "pit")
+
 
 class Operation(Table, book="drive"):
     """Operating point of the drive, and how long it is looked at."""

@@ -10,7 +10,7 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.bearing import BearingResult, conducts, lambda_text
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.drive_case import NOT_IN_DRIVES, DriveCase
+from ehlectric.cases.drive_case import NOT_IN_DRIVES, NOT_OF_DISCHARGES, DriveCase
 from ehlectric.cases.plausibility import unusual_machine
 from ehlectric.discharge.discharge_laws import CURRENT_DENSITY_LIMITS, compared_with_limits
 from ehlectric.drive.drive_bearings import BearingElement
@@ -45,13 +45,26 @@ def drive_warnings(solution: DriveSolution) -> Iterator[ResultWarning]:
     yield from _of_arcs(solution)
     yield from _of_both_ends(solution)
     yield from _of_currents(solution)
+    yield from _of_coatings(solution)
+
+
+def _of_coatings(solution: DriveSolution) -> Iterator[ResultWarning]:
+    """Warnings of a shaft voltage above the breakdown voltage of a coating, each with its end."""
+    shaft = max(solution.record.shaft_highest, -solution.record.shaft_lowest)
+    for end, bearing in zip(ENDS, solution.elements, strict=True):
+        withstands = bearing.path.coating_breakdown
+        if withstands is not None and withstands < shaft:
+            warning = ResultWarning.of("coating-breakdown", withstands=withstands, shaft=shaft)
+            yield ResultWarning(warning.code, f"{end}: {warning}")
 
 
 def unused_keys(case: DriveCase) -> Iterator[ResultWarning]:
     """Yield notes about tables of both bearing files that the result of a drive does not use."""
     for end in ENDS[: 1 if case.non_drive_end is case.drive_end else 2]:
         bearing: BearingCase = getattr(case, end)
-        if keys := [key for key in NOT_IN_DRIVES if getattr(bearing, key) is not None]:
+        keys = [key for key in NOT_IN_DRIVES if getattr(bearing, key) is not None]
+        keys += [f"discharge.{key}" for key in NOT_OF_DISCHARGES if getattr(bearing.discharge, key) is not None]
+        if keys:
             yield unused_note("end", keys, end)
 
 
