@@ -17,6 +17,7 @@ Tables = dict[str, Any]
 # collapses to 0 V at many times.
 _WAVES = [round(30.0 * math.sin(k / 3.0), 3) for k in range(400)]
 _TIMES = [f"{0.2 * k:.1f}" for k in range(4000)]
+_UNEVEN = [f"{0.2 * k + 0.05 * (k % 2):.2f}" for k in range(4000)]
 _LEVELS = [280.0 if (k // 250) % 2 else -280.0 for k in range(4000)]
 _SINE = [280.0 * math.sin(0.002 * math.pi * k) for k in range(4000)]
 _SHAFT = [0.03 * (_SINE[k] - _SINE[k - k % 170]) for k in range(4000)]
@@ -36,6 +37,7 @@ _FILES = {
     "record without times": _record("u_cm [V]", _LEVELS),
     "record of the shaft": _record("time [us],u_cm [V],u_shaft [V]", _TIMES, _SINE, _SHAFT),
     "record of the shaft without units": _record("t,u,v", _TIMES, _SINE, _SHAFT),
+    "record of the shaft at uneven times": _record("time [us],u_shaft [V]", _UNEVEN, _SHAFT),
     "record of the shaft without times": _record("u_shaft [V]", _SHAFT),
     "vehicle": "time [s],vehicle speed [km/h],temperature [degC]\n0,30,50\n10,60,52\n20,90,54\n",
 }
@@ -149,7 +151,7 @@ def cases_of(kind: str) -> tuple[Tables, ...]:
     if kind.startswith("duty"):
         name = kind.partition(" of ")[2]
         base = _changed(_data(name)["base"], {"without": ["drive.duration"] if name == "axle" else []})
-        base = _changed(base, _data(name)["geared"]) if name == "axle" else base
+        base = _changed(base, _data(name).get({"axle": "geared", "drive": "plain"}.get(name), {}))
         return tuple(_changed(base, change) for change in _data("duty")[name])
     data = _data(kind)
     base = _with_case(data["base"])

@@ -190,7 +190,8 @@ def _compared(case: Any) -> dict[str, Any]:
         if value.quantity not in model.quantities:
             raise InputError(f"measured.{value.quantity}", got="a value", takes=", ".join(model.quantities))
     values = [(value.quantity, value.value, value.uncertainty) for value in given.values]
-    inputs = [[model.values(place, np.array([0.0, 1.0])).tolist()] for place in range(len(model.names()))]
+    # A value in each range, as its ends repeat the file.
+    inputs = [model.values(place, np.array([0.3])).tolist() for place in range(len(model.names()))]
     return {"points": given.points, "values": values, "ranges": inputs}
 
 

@@ -216,8 +216,37 @@ class AxleResult(Shown):
         return headline(self.case.title, *self.key_numbers(), verdict=axle_verdict(self.solution))
 
 
+# Keys that the result of an axle does not use: of all bearings, of the drive file, and of the files of gears.
+_NOT_OF_BEARINGS = ("summits.radius", "coating.breakdown_voltage", "coating.strength")
+_NOT_OF_AXLES = (
+    *(
+        f"circuit.{key}"
+        for key in ("winding_frame_capacitance", "frame_earth_capacitance", "cable_capacitance")
+    ),
+    *(f"circuit.machine.liner_{key}" for key in ("width", "thickness", "permittivity")),
+    *(f"discharge.{key}" for key in ("external_capacitance", "peak_current", "pit")),
+)
+_NOT_OF_PAIRS = (
+    *("gear.contact.voltage", "gear.contact.weibull_shape", "gear.operation.boundary_friction"),
+    *("ranges", "duty", "measured"),
+)
+
+
+def _given(table: Any, keys: Sequence[str]) -> list[str]:
+    """Dotted keys that a table contains."""
+    found = []
+    for key in keys:
+        inner: Any = table
+        for name in key.split("."):
+            inner = getattr(inner, name) if inner is not None and name in inner.model_fields_set else None
+        found += [] if inner is None else [key]
+    return found
+
+
 def unused_keys(case: AxleCase) -> Iterator[ResultWarning]:
-    """Yield notes about given keys of bearings and of gear files that the result of an axle does not use."""
+    """Yield notes about given keys that the result of an axle does not use."""
+    if keys := _given(case, _NOT_OF_AXLES):
+        yield unused_note("axle", keys)
     for name, bearing in zip(case.names_of_bearings(), case.tables_of_bearings, strict=True):
         if bearing.life is not None:
             # Load ratings also determine the geometry of a bearing that the library lacks.
@@ -225,16 +254,22 @@ def unused_keys(case: AxleCase) -> Iterator[ResultWarning]:
             given = [key for key in type(bearing.life).model_fields if key in bearing.life.model_fields_set]
             if unused := [f"life.{key}" for key in given if key not in used]:
                 yield unused_note("life", unused, name)
+        if unused := _given(bearing, _NOT_OF_BEARINGS):
+            yield unused_note("axle", unused, name)
     for name, mesh in zip(case.names_of_meshes(), case.mesh, strict=True):
-        pair = mesh.pair
+        pair, contacts = mesh.pair, case.drive.contacts
         replaced = {
             "lubricant": pair.lubricant != case.lubricant,
-            "discharge": pair.discharge not in (case.discharge, Discharge()),
+            "discharge": _given(pair.discharge, [*Discharge.model_fields])
+            and dict(pair.discharge) != dict(case.discharge),
+            "contacts": contacts is not None
+            and "contacts" in pair.model_fields_set
+            and pair.contacts != contacts,
         }
-        neglected = {key: getattr(pair, key) is not None for key in ("ranges", "duty", "measured")}
-        for situation, keys in (("pair", replaced), ("pair_alone", neglected)):
-            if any(keys.values()):
-                yield unused_note(situation, [key for key, differs in keys.items() if differs], name)
+        if any(replaced.values()):
+            yield unused_note("pair", [key for key, differs in replaced.items() if differs], name)
+        if unused := _given(pair, _NOT_OF_PAIRS):
+            yield unused_note("pair_alone", unused, name)
 
 
 def solve_axle(

@@ -32,7 +32,7 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.bearing_inputs import Bearing, base_of, typed_base
 from ehlectric.cases.bearing_kinds import KINDS_OF_BEARINGS
 from ehlectric.cases.case_oil import Lubricant
-from ehlectric.cases.discharge_inputs import Discharge
+from ehlectric.cases.discharge_inputs import AxleDischarge
 from ehlectric.cases.drive_case import Remedy
 from ehlectric.cases.drive_inputs import Breakdown, Circuit, Source
 from ehlectric.cases.duty_inputs import Duty
@@ -148,7 +148,7 @@ class AxleCase(CaseFile, book="axle_file"):
     circuit: Circuit
     breakdown: Breakdown | None = None
     lubricant: Lubricant
-    discharge: Discharge = Discharge()
+    discharge: AxleDischarge = AxleDischarge()
     remedies: tuple[Remedy, ...] = ()
     ranges: tuple[InputRange, ...] | None = None
     duty: Duty | None = None
@@ -741,7 +741,7 @@ def _quantity_of(key: str) -> Amount | None:
 _QUICK: Mapping[str, type[Table]] = {
     "drive": AxleOperation,
     "circuit": Circuit,
-    "discharge": Discharge,
+    "discharge": AxleDischarge,
 }
 
 

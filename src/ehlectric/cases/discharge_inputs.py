@@ -133,6 +133,19 @@ class Discharge(Table, book="discharge"):
 _OF_WHOLE_BEARING = {"external_capacitance", "peak_current", "pit"}
 
 
+class AxleDischarge(Discharge):
+    """Discharge of bearings and meshes, which have different temperatures."""
+
+    def _check_temperature(self) -> None:
+        if self.strength_table is not None and self.strength_table.over == "temperature":
+            raise InputError(
+                "strength_table",
+                got="a table over temperature for an axle",
+                takes="a table over pressure, or dielectric_strength",
+            )
+        super()._check_temperature()
+
+
 class BearingDischarge(Discharge):
     """Discharge of a bearing; a strength table over temperature is read at the bearing's temperature."""
 

@@ -63,7 +63,9 @@ def unused_keys(case: DriveCase) -> Iterator[ResultWarning]:
     for end in ENDS[: 1 if case.non_drive_end is case.drive_end else 2]:
         bearing: BearingCase = getattr(case, end)
         keys = [key for key in NOT_IN_DRIVES if getattr(bearing, key) is not None]
-        keys += [f"discharge.{key}" for key in NOT_OF_DISCHARGES if getattr(bearing.discharge, key) is not None]
+        keys += [
+            f"discharge.{key}" for key in NOT_OF_DISCHARGES if getattr(bearing.discharge, key) is not None
+        ]
         if keys:
             yield unused_note("end", keys, end)
 
