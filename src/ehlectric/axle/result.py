@@ -18,7 +18,8 @@ from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.cases.library.estimated_bearings import is_estimated
 from ehlectric.errors import InputError
-from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes, unused_note
+from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
+from ehlectric.quantities.unused_keys import given_keys, unused_note
 from ehlectric.quantities.verdict import Verdict
 from ehlectric.runtime.display import ResultKind, Shown, headline, read_only_property
 from ehlectric.runtime.netcdf import Layout
@@ -232,20 +233,9 @@ _NOT_OF_PAIRS = (
 )
 
 
-def _given(table: Any, keys: Sequence[str]) -> list[str]:
-    """Dotted keys that a table contains."""
-    found = []
-    for key in keys:
-        inner: Any = table
-        for name in key.split("."):
-            inner = getattr(inner, name) if inner is not None and name in inner.model_fields_set else None
-        found += [] if inner is None else [key]
-    return found
-
-
 def unused_keys(case: AxleCase) -> Iterator[ResultWarning]:
     """Yield notes about given keys that the result of an axle does not use."""
-    if keys := _given(case, _NOT_OF_AXLES):
+    if keys := given_keys(case, _NOT_OF_AXLES):
         yield unused_note("axle", keys)
     for name, bearing in zip(case.names_of_bearings(), case.tables_of_bearings, strict=True):
         if bearing.life is not None:
@@ -254,13 +244,13 @@ def unused_keys(case: AxleCase) -> Iterator[ResultWarning]:
             given = [key for key in type(bearing.life).model_fields if key in bearing.life.model_fields_set]
             if unused := [f"life.{key}" for key in given if key not in used]:
                 yield unused_note("life", unused, name)
-        if unused := _given(bearing, _NOT_OF_BEARINGS):
+        if unused := given_keys(bearing, _NOT_OF_BEARINGS):
             yield unused_note("axle", unused, name)
     for name, mesh in zip(case.names_of_meshes(), case.mesh, strict=True):
         pair, contacts = mesh.pair, case.drive.contacts
         replaced = {
             "lubricant": pair.lubricant != case.lubricant,
-            "discharge": _given(pair.discharge, [*Discharge.model_fields])
+            "discharge": given_keys(pair.discharge, [*Discharge.model_fields])
             and dict(pair.discharge) != dict(case.discharge),
             "contacts": contacts is not None
             and "contacts" in pair.model_fields_set
@@ -268,7 +258,7 @@ def unused_keys(case: AxleCase) -> Iterator[ResultWarning]:
         }
         if any(replaced.values()):
             yield unused_note("pair", [key for key, differs in replaced.items() if differs], name)
-        if unused := _given(pair, _NOT_OF_PAIRS):
+        if unused := given_keys(pair, _NOT_OF_PAIRS):
             yield unused_note("pair_alone", unused, name)
 
 

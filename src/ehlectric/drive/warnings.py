@@ -18,7 +18,8 @@ from ehlectric.drive.drive_record import FEW, FILM, ON, DriveSolution
 from ehlectric.drive.motor_circuit import oscillations
 from ehlectric.quantities.formats import amount, rpm_text
 from ehlectric.quantities.inputs import ENDS
-from ehlectric.quantities.result_warnings import ResultWarning, active, unused_note
+from ehlectric.quantities.result_warnings import ResultWarning, active
+from ehlectric.quantities.unused_keys import unused_note
 
 # Share of time from which films are said to conduct on.
 MOSTLY = 0.2

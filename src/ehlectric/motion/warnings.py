@@ -22,7 +22,8 @@ from ehlectric.contact import (
 from ehlectric.field import ATOM
 from ehlectric.motion.motion_touching import TouchHistory
 from ehlectric.motion.moving_contact import TransientContact
-from ehlectric.quantities.result_warnings import ResultWarning, unused_note
+from ehlectric.quantities.result_warnings import ResultWarning
+from ehlectric.quantities.unused_keys import unused_note
 from ehlectric.surfaces.surface_warnings import LEAST_IN_SHAPE, shortest_wave, surface_warnings
 
 # Part of its height by which moving roughness may differ from the stationary one without a warning.

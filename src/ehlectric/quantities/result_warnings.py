@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache, lru_cache
 from types import MappingProxyType
@@ -125,25 +125,6 @@ class ResultWarning:
     def severity(self) -> Severity:
         """Severity of the code: "note", "warning", or "severe" if the numbers must not be used."""
         return CODES[self.code].severity
-
-
-def unused_note(situation: str, keys: Sequence[str], part: str = "") -> ResultWarning:
-    """Note about given keys, of a part such as a bearing, that have no effect.
-
-    Examples
-    --------
-    >>> print(unused_note("pair_alone", ["ranges", "duty"], "mesh of a and b"))
-    mesh of a and b: ranges and duty of the gear file are not used by an axle. No action is needed.
-    """
-    *others, last = keys
-    note = ResultWarning.of(
-        "key-unused",
-        situation,
-        names=f"{', '.join(others)} and {last}" if others else last,
-        are="are" if others else "is",
-        them="them" if others else "it",
-    )
-    return ResultWarning(note.code, f"{part}: {note}") if part else note
 
 
 @dataclass(frozen=True)
