@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from tests.attack.random_inputs import NOT_VALID, drawn, faults
-from tests.helpers.full_cases import KINDS
+from tests.helpers.full_cases import OF_DUTY
+from tests.helpers.input_effects import MODELS
 from tests.helpers.share import share_of
 
 SEED = 23
@@ -19,10 +20,11 @@ SOLVED = 0.25
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", KINDS)
-def test_answers_are_numbers_or_reasons(kind, tmp_path):
+@pytest.mark.parametrize("kinds", [*([kind] for kind in MODELS), OF_DUTY], ids=[*MODELS, "duty"])
+def test_answers_are_numbers_or_reasons(kinds, tmp_path):
     outcomes, wrong = [], {}
     for number in range(50 * FILES):
+        kind = kinds[number % len(kinds)]
         found, outcome = faults(kind, drawn(kind, np.random.default_rng([SEED, number])), tmp_path)
         outcomes += [] if outcome == NOT_VALID else [outcome]
         if found:

@@ -45,7 +45,7 @@ _FILES = {
 # Further tables of the gear file of an axle, by the names that stand for them.
 _PAIRS: Mapping[str, Tables] = {
     "gear": {},
-    "conducting gear": {"gear": {"contact": {"conduction": "always"}}},
+    "rough gear": {"gear": {"flank_ra": ["0.3 um", "0.3 um"]}},
     "measured gear": {
         "ranges": {"gear.operation.pinion_torque": ["25 N m", "35 N m"]},
         "measured": {"capacitance": "300 pF +- 20 %"},

@@ -48,10 +48,11 @@ from ehlectric.cases.input_ranges import (
 )
 from ehlectric.cases.key_names import refuse_deep
 from ehlectric.cases.measured_inputs import AxleMeasured
+from ehlectric.cases.oil_inputs import displace_oil
 from ehlectric.cases.roughness_inputs import find_files
 from ehlectric.cases.stated_ranges import with_stated_ranges
 from ehlectric.cases.table import CaseFile, Table, Title, number_of
-from ehlectric.cases.table_edits import displace, set_keys
+from ehlectric.cases.table_edits import displace, nested, set_keys
 from ehlectric.errors import InputError, shown, within
 from ehlectric.quantities.alternatives import ALTERNATIVES
 from ehlectric.quantities.formats import amount, operating_point, speed_text
@@ -66,7 +67,7 @@ _ROUNDING = 1e-9
 _NOT_OF_AXLES = ("common_mode_inductance", "ground_inductance", "grounding_ring_table")
 
 # Tables whose keys displace their alternatives, also keys of all bearings.
-_DISPLACED = ("source", "circuit", "discharge", "breakdown")
+_DISPLACED = ("source", "circuit", "lubricant", "discharge", "breakdown")
 _SHARED_ALTERNATIVES = {"bearings": ALTERNATIVES["bearing"]}
 
 # Key of a mesh that replaces the same key of its gear file.
@@ -622,6 +623,7 @@ class AxleCase(CaseFile, book="axle_file"):
         table = self.to_dict()
         if "lubricant.base" in flat or "lubricant" in flat:
             table["lubricant"] = {}
+        displace_oil(table["lubricant"], nested(flat, "lubricant"))
         displace(table, flat, {name: ALTERNATIVES[name] for name in _DISPLACED} | _SHARED_ALTERNATIVES)
         lists = {
             "bearing": self._change_bearings,
