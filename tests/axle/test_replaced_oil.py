@@ -20,5 +20,7 @@ def test_an_oil_with_a_grade_has_a_distribution_of_the_margin():
     """The viscosity at 40 degC of the grade is one of the uncertain inputs, and every axle has a result."""
     solution = solve_axle(AxleCase.from_dict(cases_of("axle")[0]), probable=False).solution
     margin = uncertainty_of(solution, stages=(32,))
-    assert "lubricant.temperature.kinematic_viscosity_40" in [each["key"] for each in margin.summary()["indices"]]
-    assert all(each.breaks_down > 0.0 for each in margin.elements)
+    assert "lubricant.temperature.kinematic_viscosity_40" in [
+        each["key"] for each in margin.summary()["indices"]
+    ]
+    assert all(each.breakdown > 0.0 for each in margin.elements)
