@@ -11,7 +11,7 @@ from ehlectric.film.deflection import point_geometry
 from ehlectric.film.face_flow import Fluid
 from ehlectric.film.film_errors import UNSEEN, expected_error, expected_nodes
 from ehlectric.film.mesh import Width
-from ehlectric.film.problem import FilmProblem
+from ehlectric.film.problem import FilmProblem, OilSupply
 from tests.helpers.places import ROOT
 
 # Stated errors below it are not of interest: estimates of some grids vanish by chance.
@@ -70,3 +70,14 @@ def test_nodes_of_a_thin_film_are_those_of_its_patch():
     whole = expected_nodes(problem)
     assert expected_nodes(problem, 2) == pytest.approx(4.0 * 0.4 * whole, rel=0.4)
     assert expected_nodes(replace(problem, thickness_guess=1e-4), 2) == pytest.approx(4.0 * whole)
+
+
+@pytest.mark.parametrize("times", [1, 2, 4])
+def test_nodes_of_a_whole_grid_are_the_intervals_of_its_mesh(times):
+    """An error that is not known before needs the whole domain on each grid: as many times as many intervals
+    along and across.
+    """
+    problem = replace(posed(stated()[0]), supply=OilSupply(film_ratio=0.5))
+    fine = replace(problem.width, nodes=times * (problem.width.nodes - 1) + 1)
+    cells = times * (problem.nodes - 1) * (fine.y.size - 1)
+    assert expected_nodes(problem, times) == pytest.approx(cells)

@@ -1,6 +1,7 @@
 """Solved gear pairs: stiffness, loss, temperatures, limits and symmetries."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from ehlectric.gear.contact_path import contact_path
 from ehlectric.gear.geometry import gear_pair
 from ehlectric.gear.load_sharing import slices_of
 from ehlectric.gear.losses import bulk_temperature, loss_factor
+from ehlectric.gear.result import GearResult
 from ehlectric.gear.solving import solve_gear_pair, solve_gear_pairs
 from ehlectric.gear.summary import gear_summary
 from ehlectric.gear.tooth_stiffness import mesh_stiffness, pair_stiffness
@@ -376,3 +378,17 @@ def test_the_table_over_the_phase_has_the_extremes_and_the_mean_of_the_summary(c
         assert np.min(phase[key]) == mesh[low]
         assert np.max(phase[key]) == mesh[f"{key}_high"]
     assert phase["phase_weight"] @ phase["capacitance"] == pytest.approx(mesh["capacitance"], rel=1e-12)
+
+
+def test_curves_over_the_phase_go_on_from_the_last_node_to_the_first():
+    """By hand: from phase 0.6 to phase 1.1, which is 0.1, both curves are straight lines."""
+    solution = SimpleNamespace(
+        loads=SimpleNamespace(phases=np.array([0.1, 0.6]), weights=np.array([0.5, 0.5])),
+        capacitance=np.array([2.0, 4.0]),
+        contact_time_share=lambda: np.array([0.0, 1.0]),
+        breakdown_voltage_over_phase=(np.array([0.0, 0.1, 0.35, 0.6, 0.85]), np.arange(5.0)),
+    )
+    found = GearResult.over_phase(SimpleNamespace(solution=solution))
+    assert found["capacitance"] == pytest.approx([2.4, 2.0, 3.0, 4.0, 3.0])
+    assert found["contact_time_share"] == pytest.approx([0.2, 0.0, 0.5, 1.0, 0.5])
+    assert found["phase_weight"].tolist() == [0.0, 0.5, 0.0, 0.5, 0.0]
