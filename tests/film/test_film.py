@@ -2,12 +2,13 @@
 
 from functools import cache
 from itertools import product
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from ehlectric.film.face_flow import Fluid
-from ehlectric.film.isothermal_film import solve_film
+from ehlectric.film.isothermal_film import PointFilm, solve_film
 from ehlectric.film.problem import FilmProblem
 from ehlectric.lubricant.density import incompressible
 from ehlectric.lubricant.viscosity import constant_viscosity
@@ -144,3 +145,18 @@ def test_any_number_of_nodes(paper_case, nodes):
     assert film.central_thickness == pytest.approx(0.8450e-6, rel=2e-3, abs=0.0) or (
         film.discretisation_error is None or film.discretisation_error > 5e-4
     )
+
+
+def test_a_bilinear_film_is_exact_between_its_nodes():
+    """h = 3 + 2x - y + 5xy; by symmetry the mean over the ellipse is the central film of 3."""
+    x, y = np.array([-1.5, -0.4, 0.3, 1.2]), np.array([-2.2, -0.7, 0.1, 0.9, 2.5])
+
+    def height(x, y):
+        return 3.0 + 2.0 * x - y + 5.0 * x * y
+
+    film = object.__new__(PointFilm)
+    vars(film).update(x=x, y=y, thickness=height(x[:, np.newaxis], y), scales=SimpleNamespace(length=1.0))
+    vars(film).update(semi_axis_y=2.0)
+    at = np.array([-1.0, 0.0, 0.9]), np.array([0.5, 0.0, -1.3])
+    assert film._at(*at) == pytest.approx(height(*at), rel=1e-12)
+    assert (film.central_thickness, film.mean_thickness) == pytest.approx((3.0, 3.0), rel=1e-12)
