@@ -1,9 +1,12 @@
 """Probability of breakdown over a duty cycle: touching rows count, and unknown rows leave bounds."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from ehlectric import BearingCase, evaluate, load, save, solve_bearing
+from ehlectric.bearing import duty_cycle
 from ehlectric.bearing.cycle_rows import LEFT_OUT, STANDSTILL, TOUCHING
 from ehlectric.bearing.duty_cycle import run_duty
 from ehlectric.bearing.margin import film_factors
@@ -138,3 +141,22 @@ def test_the_reason_of_a_stretch_says_that_surfaces_touch_at_the_mean(tmp_path):
     (stretch,) = duty.stretches
     assert np.isfinite(stretch.least_margin)
     assert stretch.why.startswith("speed 6000 rpm; frequent asperity contact at the mean of ")
+
+
+def test_each_driven_row_has_the_probability_of_its_margin(monkeypatch):
+    """By hand: rows with margins below and above 1, one that touches, and one without a voltage."""
+    rows = SimpleNamespace(
+        time=np.arange(5.0),
+        turns=np.ones(5, dtype=bool),
+        common_mode_voltage=np.array([200.0, 200.0, 200.0, 200.0, 0.0]),
+        state=np.array([TOUCHING + 1, TOUCHING + 1, TOUCHING + 1, TOUCHING, TOUCHING + 1]),
+        margin=np.array([0.3, 1.5, 4.0, np.nan, np.nan]),
+        lambda_ratio=np.array([1.0, 2.0, 3.0, 0.5, 2.5]),
+        capacitance=np.full(5, 1e-10),
+    )
+    chances = np.array([0.9, 0.4, 0.1, 1.0, 0.7])
+    monkeypatch.setattr(
+        duty_cycle, "_chances", lambda case, rows, places: np.stack([chances[places]] * 3, axis=1)
+    )
+    found = duty_cycle._probabilities(example(), rows)
+    assert found == pytest.approx(np.stack([[0.9, 0.4, 0.1, 1.0, 0.0]] * 3, axis=1), abs=1e-12)
