@@ -9,7 +9,7 @@ from ehlectric import Case, load, save, solve
 from ehlectric.contact.conditions import resolve_point
 from ehlectric.contact.problems import point_film_problem
 from ehlectric.film.isothermal_film import solve_point_film
-from ehlectric.film.mesh import at_centre
+from ehlectric.film.mesh import Mesh, at_centre
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.patch import Patch
 from ehlectric.runtime.threads import quiet_solution
@@ -65,6 +65,20 @@ def test_a_film_as_wide_as_the_domain_has_no_patch():
     """The pressure of a hardly loaded ball builds up over four semi-axes."""
     problem = problem_of(contact("0.5 N", "8 m/s"), 65)
     assert Patch.around(problem, solutions(problem)[-1]) is None
+
+
+def test_the_excess_at_the_edges_is_that_above_ambient_pressure():
+    """None where the pressure is ambient, and nothing inside."""
+    problem = problem_of(CONTACTS["medium"][0], 65)
+    ambient, mesh = problem.fluid.ambient_pressure, Mesh(np.linspace(-2.0, 2.0, 9), np.linspace(-1.0, 1.0, 5))
+    for above in (0.0, 0.3):
+        edged = replace(
+            problem, edge_pressure=lambda x, y, above=above: ambient + above + 0.0 * x[:, None] * y
+        )
+        expected = np.full(mesh.shape, above)
+        expected[1:-1, 1:-1] = 0.0
+        assert ambient > 0.0
+        assert edged.edge_excess(mesh) == pytest.approx(expected, abs=1e-12)
 
 
 @pytest.mark.slow

@@ -13,6 +13,7 @@ from ehlectric.errors import InputError
 from ehlectric.gear.contact_path import contact_path
 from ehlectric.gear.geometry import gear_pair, involute, pressure_angle
 from tests.gear.pairs import FIRST_STAGE, FZG_A, FZG_C, SECOND_STAGE, case_of
+from tests.helpers.each import each
 
 
 @given(st.floats(1e-6, 1.5))
@@ -235,3 +236,12 @@ def test_contact_in_the_fillet_is_a_warning(tip, warned):
     assert bool(texts) is warned
     if warned:
         assert "from 4.19 mm" in texts[0] or "from 4.20 mm" in texts[0]
+
+
+@each("larger", [20e-6, 100e-6, 0.3e-3])
+def test_the_backlash_that_follows_from_other_numbers_may_be_given(larger):
+    drawing = replace(FZG_C, centre_distance=FZG_C.centre_distance + larger)
+    backlash = gear_pair(drawing).normal_backlash
+    assert gear_pair(replace(drawing, normal_backlash=backlash)).normal_backlash == backlash
+    with pytest.raises(InputError, match="normal_backlash"):
+        gear_pair(replace(drawing, normal_backlash=0.5 * backlash))

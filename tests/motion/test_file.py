@@ -174,6 +174,8 @@ def test_maps_are_those_of_the_instants_within_single_precision(whole, stepped):
 def test_everything_has_its_name_and_unit(whole):
     units = {name: variable.attrs["units"] for name, variable in whole.variables.items()}
     assert all(variable.attrs["long_name"] for variable in whole.variables.values())
+    for surface in "12":
+        assert f"surface {surface}" in whole[f"roughness_{surface}"].attrs["long_name"]
     assert units["frame_time"] == units["time"] == "s"
     assert units["capacitance"] == "F/m"
     assert units["strength"] == units["stationary_strength"] == units["max_strength"] == "V/m"

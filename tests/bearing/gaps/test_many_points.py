@@ -1,5 +1,6 @@
 """Gaps of many points at once: each has the number that it has alone, and a refused one disturbs no other."""
 
+import itertools
 from dataclasses import replace
 
 import numpy as np
@@ -277,3 +278,12 @@ def test_an_offset_of_many_values():
         assert one == pytest.approx(
             outside_capacitance(race, LoadedContact(dry, E, offset, 0.0), ends), rel=1e-12
         )
+
+
+@pytest.mark.parametrize("state", list(itertools.product(range(3), repeat=3)))
+def test_the_length_from_which_ends_follow_is_found_again(state):
+    unit = UnitContact.of(4e-3, np.array([0.05, 0.3, 2.0]))
+    length = np.array([0.3, 1.2, 2.5])
+    ends = BALL_DOMAINS.ends(state, length, unit)
+    expected = length if 1 in state else np.ones(3)
+    assert np.broadcast_to(BALL_DOMAINS.length(state, ends, unit), (3,)) == pytest.approx(expected, rel=1e-12)

@@ -188,3 +188,14 @@ def test_keys_of_the_case():
     assert electric.resistivity == pytest.approx(2.2e-7)
     assert electric.tribofilm_resistance == 1e-9
     assert electric.mean_free_path == 2e-9
+
+
+def test_the_edge_of_spots_is_half_the_area_of_the_cells_that_it_cuts():
+    """By hand: 3 x 4 touching nodes at spacings of 2 and 5 cut 2 x 4 + 2 x 3 cells of an area of 10; in a
+    line of three touching nodes two of them.
+    """
+    x, y = 2.0 * np.arange(9), 5.0 * np.arange(10)
+    touches = np.zeros((9, 10), dtype=bool)
+    touches[3:6, 2:6] = True
+    assert Spots.of((x, y), touches, 1.0 * touches).edge == pytest.approx(0.5 * 14 * 10.0)
+    assert Spots.of((x,), touches[:, 3], 1.0 * touches[:, 3]).edge == pytest.approx(2.0)

@@ -1,10 +1,16 @@
 """Smooth surfaces that touch on a grid that is too coarse for their film are not to be used."""
 
+import re
+from types import SimpleNamespace
+
+import numpy as np
 import pytest
 
 from ehlectric import Case, solve
 from ehlectric.bearing.ring_contacts import without_regime
 from ehlectric.bearing.warnings import contact_warnings
+from ehlectric.contact.conditions import resolve_point
+from ehlectric.contact.touching import _smooth_spots
 
 LINE = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa", "max_hertz_pressure": "1 GPa"}
 BALL = {"geometry": "point", "radius_x": "12.7 mm", "radius_y": "12.7 mm", "reduced_modulus": "117 GPa"}
@@ -64,3 +70,11 @@ def test_a_bearing_has_the_warning_of_its_contacts():
 
     found = contact_warnings({"inner": [Contact], "outer": []})
     assert [warning.code for warning in found if warning.severity == "severe"] == [CODE]
+
+
+@pytest.mark.parametrize(("number", "text"), [(1, "1 spot"), (2, "2 spots"), (11, "11 spots")])
+def test_the_number_of_spots_is_stated(number, text):
+    film = SimpleNamespace(discretisation_error=0.2, axes=(np.zeros(9), np.zeros(5)))
+    case = Case.from_dict({"contact": BALL | {"entrainment_speed": "1 m/s"}, "lubricant": {"base": "paper"}})
+    (warning,) = _smooth_spots(case, resolve_point(case), film, number, known=False)
+    assert re.search(rf"\b{text}\b", warning.text)

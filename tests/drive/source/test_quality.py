@@ -155,3 +155,11 @@ def test_each_doubt_is_told_once_with_its_numbers():
     assert " 1e-08 s" in told["edges-unresolved"]
     assert " 2.1 V" in told["waveform-coarse"]
     assert not list(quality_warnings("scope.csv", Waveform(0.0, 1e-8, noisy(SINE, 0.01))))
+
+
+@each("first", [0, 1, 5])
+def test_an_edge_at_the_beginning_of_a_record_has_its_first_sample(first):
+    """Of samples at 0, 25, 50, 75 and 100 % three are between 10 and 90 %."""
+    values = np.interp(np.arange(40.0), [first, first + 4.0], [0.0, 100.0])
+    assert unresolved_edges(values) == (0, 1)
+    assert unresolved_edges(values[::-1]) == (0, 1)

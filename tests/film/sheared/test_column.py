@@ -288,3 +288,16 @@ def test_derivatives_of_an_even_plane(seed):
                 sides.append(even_flux(LIMITING, fluidity, weight, *changed).flux)
             difference = (sides[0] - sides[1]) / 2e-5
             np.testing.assert_allclose(derivative[axis], difference, rtol=1e-5, atol=1e-8)
+
+
+@each("law", [CARREAU, LIMITING])
+@each("fluidity", [1e-3, 1.0, 30.0])
+@each("gradient, slip", [(0.2, 0.5), (0.3, -4.0), (2.0, 0.01)])
+def test_the_rates_at_the_stress_of_a_column_add_up_to_its_slip(law, fluidity, gradient, slip):
+    """The column flows as much as its surfaces slide, at any viscosity."""
+    slip *= fluidity * (1e-2 if law is LIMITING else 1.0)
+    layers, gradient = fluidity * (1.0 + OFFSET), gradient * (1e-2 if law is LIMITING else 1.0)
+    middle = middle_stress(law, layers, np.array([gradient]), np.array([slip]), POINTS)
+    stress = middle[0] + gradient * POINTS.offset
+    rates = layers[:, 0] * stress * law.law.factor(stress**2, law.constants)[0]
+    assert POINTS.weights @ rates == pytest.approx(slip, rel=1e-9)
