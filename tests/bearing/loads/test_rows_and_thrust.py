@@ -189,9 +189,10 @@ def test_loads_that_balls_between_washers_do_not_carry(duty):
     assert not many.balanced[0]
 
 
+@each("speed", [300.0, 3000.0])
 @each("load", [1e2, 1e4, 1e6])
-def test_the_residual_of_a_fast_thrust_bearing_is_a_share_of_its_load(load):
+def test_the_residual_of_a_fast_thrust_bearing_is_a_share_of_its_load(load, speed):
     """Rounding: the halving of the slopes ends at neighbouring numbers."""
-    operation = Operation(radial_load=0.0, axial_load=load, inner_speed=300.0)
+    operation = Operation(radial_load=0.0, axial_load=load, inner_speed=speed)
     state = thrust_ball_equilibrium(ThrustBallBearing(16, 9.525e-3, 54e-3, 0.54, 0.54), operation, E, DENSITY)
     assert state.residual < 1e-13
