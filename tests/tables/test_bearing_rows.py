@@ -5,7 +5,13 @@ import re
 import pytest
 
 from ehlectric import BearingCase, solve
-from ehlectric.tables.bearing_tables import films_table, loads_table, total_rows
+from ehlectric.tables.bearing_tables import (
+    _alpha_star,
+    _viscosity_ratio,
+    films_table,
+    loads_table,
+    total_rows,
+)
 from tests.helpers.bearings import BALLS, bearing_case, changed
 
 # A unit at the end of a value, and at the beginning of a note.
@@ -123,3 +129,11 @@ def test_a_second_bearing_that_is_taken_as_equal_is_named(steel):
     assert "equal second bearing" in rows(steel)["bearing.shaft_voltage"].note
     given = summary_of(motor__second_bearing_capacitance="200 pF")
     assert "second bearing" not in rows(given)["bearing.shaft_voltage"].note
+
+
+def test_notes_have_the_pressure_viscosity_coefficient_and_the_viscosity_in_their_units():
+    """By hand: 22e-9 1/Pa, and 2.5 times 12e-6 m^2/s."""
+    assert "α = 22 1/GPa" in _alpha_star({"lubricant": {"pressure_viscosity_coefficient": 22e-9}})
+    shown = _viscosity_ratio({"life": {"viscosity_ratio": 2.5, "rated_viscosity": 12e-6}})
+    assert shown.value == 2.5
+    assert "ν = 30 mm²/s" in shown.note
