@@ -83,6 +83,17 @@ def test_a_strength_goes_with_its_laws():
     assert lower.discharge.strength_table.pressure[-1] == pytest.approx(1.6e9)
 
 
+def test_the_oil_has_the_values_of_its_laws_at_ambient_pressure():
+    """At p = 0 each factor on the parameter of the law is 1."""
+    laws = Laws(
+        viscosity=hybrid,
+        density=lambda pressure, _temperature: 850.0 * (1.0 + pressure / 1e10),
+        permittivity=lambda pressure, _temperature: 2.3 * (1.0 + pressure / 2e10),
+    )
+    oil = case(laws=laws).oil
+    assert (oil.viscosity, oil.density, oil.relative_permittivity) == pytest.approx((0.035, 850.0, 2.3))
+
+
 def test_files_and_tables_that_cannot_contain_laws_are_refused(result):
     for refused in (result.case.to_dict, result.case.to_toml):
         with pytest.raises(InputError, match=r"^laws: .*hybrid.*replace\(laws=None\)"):
