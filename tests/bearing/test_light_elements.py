@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 
 from ehlectric import BearingCase, InputError, evaluate, solve_bearing
+from ehlectric.bearing.bearing_kinds import KINDS
 from ehlectric.bearing.solution import ring_state
 from ehlectric.bearing.solving import solution_of
+from ehlectric.formulas.hertz import dry_contact, line_half_width, line_max_pressure
 from tests.helpers.bearings import OTHERS
 from tests.helpers.each import each
 from tests.helpers.kinds_of_bearings import OIL
@@ -175,3 +177,20 @@ def test_the_refusal_of_a_thick_film_names_the_room_and_the_remedies():
         InputError, match=r"room for at most 23\.8 um; expected a thinner film; raise the load"
     ):
         solve_bearing(case, workers=1)
+
+
+def test_light_contacts_change_as_dry_ones():
+    """Exponents of pressure, width along and width across over the load, by Hertz' formulas of two loads."""
+    balls = (dry_contact(load, 4e-3, 50e-3, 220e9) for load in (1.0, 2.0))
+    values = [(one.max_pressure, one.semi_axis_x, one.semi_axis_y) for one in balls]
+    line = {"radius": 4e-3, "modulus": 220e9}
+    rollers = [
+        (
+            line_max_pressure(load_per_length=load, **line),
+            line_half_width(load_per_length=load, **line),
+            1.0,  # the length of a roller
+        )
+        for load in (1e3, 2e3)
+    ]
+    for name, (one, twice) in {"deep-groove ball": values, "cylindrical roller": rollers}.items():
+        assert KINDS[name].dry_exponents == pytest.approx(np.log2(np.divide(twice, one)), abs=1e-9)
