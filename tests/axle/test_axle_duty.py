@@ -1,6 +1,7 @@
 """Duty cycle of an axle: rows against single axles, shares of time by hand, files, and what is refused."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -65,6 +66,13 @@ def test_shares_of_time_by_hand():
     assert (first["largest_ratio"], first["largest_time"]) == (2.0, 0.0)
     assert (second["largest_ratio"], second["largest_time"]) == (2.0, 2.0)
     assert by_hand().statement.values["elements"][0] == "a 38 %"
+
+
+@each("times", [0.01, 100.0])
+def test_shares_depend_on_ratios_of_voltages_only(times):
+    duty = by_hand()
+    other = replace(duty, voltages=times * duty.voltages, limits=times * duty.limits)
+    assert other.summary()["elements"] == duty.summary()["elements"]
 
 
 @pytest.mark.slow

@@ -1,6 +1,7 @@
 """Nested iteration: what direct solutions, kept grids, loose starts and early ends must not change."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -110,3 +111,14 @@ def test_films_that_are_only_starts_lead_to_the_same_film(monkeypatch, speed, ta
     assert early.discretisation_error == pytest.approx(accurate.discretisation_error, rel=1e-2)
     refined = early.steps[-1].nodes > problem.nodes
     assert len(early.steps) <= len(accurate.steps) - refined
+
+
+def test_the_coarser_grids_have_one_solution_each():
+    """The last one with each spacing, of solutions from coarse to fine, of which two have one grid."""
+    spacings = [0.4, 0.2, 0.2, 0.1]
+    grids = [
+        SimpleNamespace(status="stalled", level=SimpleNamespace(mesh=SimpleNamespace(dx=dx)))
+        for dx in spacings
+    ]
+    coarser = film_solver.RefinedSolution(problem=None, solutions=grids).coarser
+    assert [id(grid) for grid in coarser] == [id(grids[2]), id(grids[0])]
