@@ -7,7 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from ehlectric.calibration.posterior import Nearest, chi_squares, infer, weights_of
+from ehlectric.calibration.posterior import Nearest, chi_squares, infer, nearest_of, weights_of
+from ehlectric.formulas.sobol import sobol_points
 
 ENDS = (0.05, 0.5, 0.95)
 
@@ -137,3 +138,15 @@ def test_probability_of_a_larger_chi2(chi2):
     expected = [math.erfc(math.sqrt(half)), *series]
     found = [Nearest(at, at, chi2, freedom).p_value for freedom in (1, 2, 4, 6)]
     assert found == pytest.approx(expected, rel=1e-12)
+
+
+def test_the_nearest_prediction_of_a_linear_model_is_its_inverse():
+    """Two values of two inputs by 1 + 3a + b and 2 - a + 2b, measured at a = 0.4 and b = 0.7."""
+
+    def predict(at):
+        return np.array([1.0, 2.0]) + at @ np.array([[3.0, -1.0], [1.0, 2.0]])
+
+    at, measured = sobol_points(2, 64, 1), predict(np.array([0.4, 0.7]))
+    found = nearest_of(predict, at, predict(at), measured, np.full(2, 0.01), np.ones(2, dtype=bool), 1)
+    assert found.at == pytest.approx([0.4, 0.7], abs=1e-3)
+    assert found.predictions == pytest.approx(measured, abs=1e-3)
