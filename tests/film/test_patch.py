@@ -1,6 +1,7 @@
 """A film on a fine patch of a coarse grid is that on a fine grid over the whole domain."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -79,6 +80,19 @@ def test_the_excess_at_the_edges_is_that_above_ambient_pressure():
         expected[1:-1, 1:-1] = 0.0
         assert ambient > 0.0
         assert edged.edge_excess(mesh) == pytest.approx(expected, abs=1e-12)
+
+
+@pytest.mark.parametrize("times", [1, 2, 4])
+def test_cells_of_the_patch_and_cells_outside_fill_the_domain(times):
+    """Cells of the nodes of a patch reach half a fine spacing beyond its 4 x 3 coarse cells: the pressure of
+    all other 9 x 7 cells deforms the patch from outside.
+    """
+    mesh = Mesh(np.linspace(-2.0, 2.0, 9), np.linspace(-1.0, 1.0, 7))
+    level = SimpleNamespace(mesh=mesh, deflection=lambda pressure: pressure)
+    state = SimpleNamespace(pressure=np.ones(mesh.shape))
+    patch = Patch(None, SimpleNamespace(level=level, state=state), rows=(2, 6), lines=(1, 4))
+    outside = patch.outer_deflection(times)(mesh.x, mesh.y)
+    assert np.sum(outside) == pytest.approx(63.0 - (4.0 + 1.0 / times) * (3.0 + 1.0 / times), rel=1e-9)
 
 
 @pytest.mark.slow
