@@ -1,6 +1,7 @@
 """March of the energy equation against exact solutions and against one system of all columns."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ import pytest
 from ehlectric.film.energy_equation import (
     Heat,
     HeatColumns,
+    _March,
     energy_imbalance,
     moving_surface,
     solve_energy,
@@ -221,3 +223,17 @@ def test_heat_is_in_balance_where_the_speeds_of_the_nodes_do_not_conserve_mass()
     kept = replace(stream, through=(total, np.zeros((201, 0))))
     assert energy_imbalance(stream, solved(stream, surfaces), 300.0) > 0.01
     assert energy_imbalance(kept, solved(kept, surfaces), 300.0) < 0.001
+
+
+@pytest.mark.parametrize("symmetric", [False, True])
+def test_neighbouring_lines_bring_their_heat(symmetric):
+    """By hand: twice the left and three times the right line; oil of the inlet beyond the edges, or the
+    mirror image of the second line.
+    """
+    old = np.random.default_rng(2).uniform(300.0, 400.0, (2, 4, 3))
+    columns = SimpleNamespace(from_left=np.full(old.shape, 2.0), from_right=np.full(old.shape, 3.0))
+    found = _March._from_sides(SimpleNamespace(columns=columns), old, 290.0, symmetric=symmetric)
+    for line in range(4):
+        left = old[:, line - 1] if line else old[:, 1] if symmetric else 290.0
+        right = old[:, line + 1] if line < 3 else 290.0
+        assert found[:, line] == pytest.approx(2.0 * left + 3.0 * right, rel=1e-12)
