@@ -14,7 +14,7 @@ import ehlectric
 from ehlectric import BearingCase, DriveCase, GearCase, InputError
 from ehlectric.calibration import given_points
 from ehlectric.calibration.models import model_of
-from ehlectric.calibration.range_update import _Compared, given_values
+from ehlectric.calibration.range_update import _Compared, _quantiles, given_values
 from ehlectric.cases.measured_inputs import Measured, measured_points
 from ehlectric.cases.measurements import BEARING_POINTS, CALIBRATED
 
@@ -485,3 +485,10 @@ def test_the_share_that_a_further_value_removes_is_the_part_that_a_line_explains
         expected[name] = np.var(line) / np.var(logs)
     found = dict(_Compared._following(None, {k: v[:, None] for k, v in columns.items()}, np.exp(logs)))
     assert found == pytest.approx(expected, rel=1e-9)
+
+
+def test_quantiles_of_even_values_are_the_ends_of_nine_tenths():
+    """Of 0 to 100, of which each counts alike, and without values that are unknown or have no weight."""
+    values = np.concatenate([np.arange(101.0), [np.nan, 1e6]])
+    weights = np.concatenate([np.ones(102), [0.0]])
+    assert _quantiles(values, weights) == pytest.approx((5.0, 50.0, 95.0), abs=0.6)
