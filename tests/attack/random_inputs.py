@@ -59,7 +59,7 @@ def _estimated(tables: Any) -> Any:
     if not isinstance(tables, dict):
         return tables
     found = {key: _estimated(value) for key, value in tables.items()}
-    solved = "bearing" in found and "contacts" not in found and "lubricant" in found
+    solved = isinstance(found.get("bearing"), dict) and "contacts" not in found and "lubricant" in found
     return found | {"contacts": "atlas"} if solved or found.get("contacts") == "solved" else found
 
 
