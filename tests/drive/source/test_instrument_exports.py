@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 
 from ehlectric.cases.drive_inputs import Source
+from ehlectric.cases.measured_inputs import ShaftFile
 from ehlectric.drive.measured_source import measured_source
+from ehlectric.drive.shaft_record import measured_shaft
 from ehlectric.drive.waveform.waveform_file import read_waveform
 from ehlectric.errors import InputError
 from tests.helpers.each import each
@@ -375,3 +377,58 @@ def test_the_key_of_the_file_is_named(tmp_path):
         measured_source(Source(file=str(path)), None)
     assert error.value.key == "source.file"
     assert str(path) in error.value.text
+
+
+TWO = columns(evenly(1e-6), [-volt for volt in VOLTS], VOLTS, form="{:g},{:g},{:g}")
+BARE = [f",{-volt:g},{volt:g}" for volt in VOLTS]
+
+
+@each(
+    "above, rows",
+    [
+        (["Vertical Units,A,mV", "Horizontal Units,s", "", "TIME,CH1,CH2"], TWO),
+        (["Vertical Units,,A,,mV", "", "TIME,CH1,CH2"], TWO),
+        (["Vertical Units,CH1:A,CH2:mV", "Second,CH1,CH2"], TWO),
+        (["CH1 Unit,A", "CH2 Unit,mV", "", "TIME,CH1,CH2"], TWO),
+        (["Unit of x,s", "Trace Unit,A,mV", "", "TIME,CH1,CH2"], TWO),
+        (["x-axis,CH1,CH2", "s,W,mV"], TWO),
+        (["Time,CH1 Current A,CH2 mV"], TWO),
+        (["TraceName,CH1,CH2", "BlockSize,64,64", "VUnit,A,mV", "HResolution,1e-6,1e-6"], BARE),
+        (['"TraceName","CH1","CH2",', "VUnit,A,mV,", "HResolution,1e-6,1e-6,", "HUnit,s,s,"], BARE),
+    ],
+)
+def test_a_unit_belongs_to_its_channel(tmp_path, above, rows):
+    """The second channel has the written numbers in millivolts; the first is no voltage and is refused."""
+    path = written(tmp_path, [*above, *rows])
+    step = {"step": 1e-6} if rows is BARE else {}
+    if step:
+        assert "HResolution" in refused(path, column="CH2")
+    second = "CH2" if "CH2 mV" not in above[0] else 3
+    read, _ = read_waveform(path, column=second, **step)
+    assert read.values == pytest.approx(1e-3 * np.array(VOLTS))
+    assert read_waveform(path, **step)[0].values == pytest.approx(read.values)
+    assert re.search("'[AW]' as unit of CH1", refused(path, column=2, **step))
+
+
+def test_blocks_of_tektronix_have_units_of_their_own(tmp_path):
+    """Two channels next to each other, each with its keys left of its numbers."""
+    keys = [("Record Length", "64"), ("Vertical Units", "A"), ("Horizontal Units", "s")]
+    others = [(key, value.replace("A", "mV")) for key, value in keys]
+    rows = [
+        f"{a},{b},,{k}e-6,{-volt:g},,{c},{d},,{k}e-6,{volt:g},"
+        for k, (volt, (a, b), (c, d)) in enumerate(
+            zip(VOLTS, keys + [("", "")] * 61, others + [("", "")] * 61, strict=True)
+        )
+    ]
+    path = written(tmp_path, rows)
+    read, _ = read_waveform(path)
+    assert (read.step, read.values.tolist()) == (1e-6, pytest.approx([1e-3 * volt for volt in VOLTS]))
+    assert "'A' as unit of column 5" in refused(path, column=5)
+
+
+@each("head", ["shaft current", "Strom", "I in A", "Current A", "CH1 (mA)"])
+def test_a_current_is_no_shaft_voltage(tmp_path, head):
+    path = written(tmp_path, [f"time (s),{head}", *columns(evenly(1e-6), VOLTS)])
+    record = ShaftFile(file=str(path))
+    with pytest.raises(InputError, match=r"'m?A' as unit|may be a current"):
+        measured_shaft(record)

@@ -327,7 +327,7 @@ def test_a_file_with_an_interval_in_its_second_row_is_not_guessed():
 @each(
     "above, key, found",
     [
-        ("Vertical Units,mV,V", "value_unit", "mV, V"),
+        ("Vertical Units,mV,V,mV", "value_unit", "mV, V, mV"),
         ("Vertical Units,dB", "value_unit", "dB"),
         ("Horizontal Units,points", "time_unit", "points"),
         ("yunit: CH1", "value_unit", "CH1"),

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.drive.waveform.text_heads import Head, Labels, unit_of
+from ehlectric.drive.waveform.text_heads import Head, Labels, is_current, unit_of
 from ehlectric.errors import InputError, shown
 from ehlectric.quantities import units
 
@@ -213,13 +213,16 @@ def _factor(
         return _agreed(path, f"{shown(above[0])} above its numbers", unit_input, factors.pop(), requested)
     if requested is not None and factors <= {requested}:
         return requested
-    if above and (len(factors) != 1 or requested is not None):
+    if above:
         says = "missing;" if given is None else f"got {shown(given)}, but"
         states = f"{path} states {shown(', '.join(above))} above its numbers"
         raise InputError.worded(key, f"{says} {states}; expected the unit of {head}, such as {_USUAL[base]}")
-    if not factors:
-        assumed.append(f"{head} is in {base}")
-    return next(iter(factors), 1.0)
+    if requested is None and base == "V" and is_current(head.name):
+        raise InputError.worded(
+            key, f"missing; {head} of {path} may be a current; expected the unit, such as {_USUAL[base]}"
+        )
+    assumed.append(f"{head} is in {base}")
+    return 1.0
 
 
 def _agreed(

@@ -8,11 +8,12 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
-from itertools import pairwise
+from dataclasses import dataclass, replace
+from itertools import pairwise, takewhile
 
 from ehlectric.errors import printable, short
 from ehlectric.quantities.unit_spelling import typed
+from ehlectric.quantities.units import known_factor
 from ehlectric.runtime.text_table import Dialect, Layout, name_and_unit
 
 # Longest name of a column in a message [characters].
@@ -53,6 +54,7 @@ SPELLINGS = {
         "verticalscale", "voltsdiv", "voltdiv", "vdiv", "voltsperdivision", "voltsperdiv", "vscale",
         "verticalsensitivity", "scalevdiv",
     ),
+    "name": ("tracename", "tracenames", "channelname", "channelnames", "signalname", "signalnames"),
     "format": (
         "pointformat", "ptfmt", "acquisitionmode", "acquiremode", "acqmode", "samplemode", "samplingmode",
         "decimation", "acquisition",
@@ -63,8 +65,14 @@ SPELLINGS = {
 INTERVALS = ("interval", "increment", "xinc", "tinc", "hresolution", "rate", "period", "frequency", "delta")
 _STATED = ("unit", "length", *INTERVALS)
 
-# First letters of keys of units above the numbers that belong to the other axis: "Vertical Units", "xunit".
-_OTHERS = {"s": "vy", "V": "hxt"}
+# Beginnings of keys of units above the numbers that belong to the other axis: "Vertical Units", "xunit".
+_OTHERS = {"s": ("v", "y"), "V": ("h", "x", "time", "tunit")}
+
+# Words of a key of units without its channel, as in "Vertical Units CH1" and "Channel 1 Unit".
+_OF_UNIT = re.compile("units?|vertical|channel|ch")
+
+# Words of the names of currents.
+_CURRENT = re.compile("current|strom|courant", re.IGNORECASE)
 
 # Rates of samples: "250000000", "250 MSa/s", "1 GHz".
 _RATE = re.compile(r"([\d.]+(?:[eE][-+]?\d+)?)\s*([kMG]?)(?:Sa/s|S/s|sps|Hz)?", re.IGNORECASE)
@@ -153,9 +161,22 @@ def parts_of(head: str, *, bare_time: bool = False) -> tuple[str, str]:
     if len(words) == 1 and base in ("s", "V") and len(text) > 1:
         return text, text
     # "Channel A" is a name: of bare words, only those that no channel has are units.
-    if len(words) > 1 and (base == "V" or (base == "s" and words[0].lower() in _TIME_NAMES)):
+    of_time = base == "s" and words[0].lower() in _TIME_NAMES
+    of_current = base == "A" and is_current(text)
+    if len(words) > 1 and (base == "V" or of_time or of_current):
         return " ".join(words[:-1]), words[-1]
     return text, ""
+
+
+def is_current(name: str) -> bool:
+    """Whether a name is the name of a current.
+
+    Examples
+    --------
+    >>> is_current("shaft current"), is_current("CH1")
+    (True, False)
+    """
+    return _CURRENT.search(name) is not None
 
 
 @dataclass(frozen=True)
@@ -207,7 +228,7 @@ class Labels:
         return [
             value
             for spelling, each in firsts.items()
-            if "unit" in spelling and spelling[:1] not in _OTHERS[base]
+            if "unit" in spelling and not spelling.startswith(_OTHERS[base])
             for value in each.values
         ]
 
@@ -237,9 +258,62 @@ class Labels:
 def labels_of(layout: Layout, lines: Sequence[str]) -> Labels:
     """Heads of the columns of a layout, and the keys that some lines of the beginning state."""
     left = layout.columns[0] if layout.columns[0] > 1 else 0
-    keys = [",".join(layout.dialect.fields(line)[:left]) for line in lines[layout.first :]] if left else []
+    rows = [layout.dialect.fields(line) for line in lines[layout.first :]] if left else []
+    keys = [",".join(row[:left]) for row in rows]
     stated = (*_of_names_above(layout), *_stated([*layout.header, *keys]))
-    return Labels(_heads(layout), layout.header, stated)
+    return _of_channels(Labels(_of_blocks(layout, rows, _heads(layout)), layout.header, stated))
+
+
+def _of_channels(labels: Labels) -> Labels:
+    """Labels whose heads have the names and units that lines above the numbers state for each channel."""
+    heads, others = {head.place: head for head in labels.heads}, []
+    if not any(head.name for head in labels.heads):
+        for stated in labels.of("name"):
+            for place, name in _by_channel(stated, labels.heads).items():
+                heads[place] = replace(heads[place], name=name)
+    for stated in labels.stated:
+        is_unit = "unit" in stated.spelling and not stated.spelling.startswith(_OTHERS["V"])
+        units = _by_channel(stated, list(heads.values())) if is_unit else {}
+        for place, unit in units.items():
+            heads[place] = replace(heads[place], unit=heads[place].unit or unit)
+        others += [] if units else [stated]
+    return Labels(list(heads.values()), labels.header, tuple(others))
+
+
+def _by_channel(stated: Stated, heads: Sequence[Head]) -> dict[int, str]:
+    """Values of a key by the places of their channels; empty where it does not state one for each.
+
+    The key or the values contain the names of the channels ("CH1 Unit,A" or "Unit,CH1:A,CH2:V"), or the
+    values have the order of several channels.
+    """
+    channels = [head for head in heads if not head.is_time and not head.is_numbering]
+    names = {head.name.casefold(): head.place for head in channels if head.name}
+    spelled = {_OF_UNIT.sub("", "".join(filter(str.isalnum, name))): place for name, place in names.items()}
+    of_key = _OF_UNIT.sub("", stated.spelling)
+    if of_key and of_key in spelled:
+        return {spelled[of_key]: stated.values[0]}
+    named = {names[a.casefold()]: b for a, b in pairwise(stated.values) if a.casefold() in names}
+    if named or len(stated.values) != len(channels) or len(channels) < 2:
+        return named
+    return {head.place: value for head, value in zip(channels, stated.values, strict=True)}
+
+
+def _of_blocks(layout: Layout, rows: Sequence[Sequence[str]], heads: list[Head]) -> list[Head]:
+    """Heads with the units that keys left of each block of columns state, as Tektronix writes channels."""
+    ends = [0, *(head.place + 1 for head in heads)]
+    starts = [(end, head.place) for end, head in zip(ends, heads, strict=False) if head.place > end]
+    if len(starts) < 2:
+        return heads
+    placed = {head.place: head for head in heads}
+    for end, first in starts:
+        block = list(takewhile(lambda head: head is not None, map(placed.get, range(first, layout.width))))
+        pairs = [pair for row in rows for pair in pairwise(row[end:first]) if "unit" in pair[0].lower()]
+        for key, unit in pairs:
+            of_times = key.lower().startswith(_OTHERS["V"])
+            for head in block[:1] if of_times else block[1:] or block:
+                if head is not None and not head.unit:
+                    placed[head.place] = replace(head, unit=unit)
+    return list(placed.values())
 
 
 def _stated(lines: Iterable[str]) -> Iterator[Stated]:
@@ -269,14 +343,17 @@ def _of_names_above(layout: Layout) -> Iterator[Stated]:
 def _heads(layout: Layout) -> list[Head]:
     """Heads of the columns of numbers, by the last one or two lines above them."""
     rows = [row for row in (_head_fields(layout, line) for line in layout.header) if any(row)]
+    if layout.columns[0]:
+        rows = [row for row in rows if not _is_stated(row)]
     rows = [[], *(row if _covers(layout, row) else [] for row in rows)][-2:]
     if not rows[-1]:
         return [Head(place) for place in layout.columns]
     last = [rows[-1][place] for place in layout.columns]
     enclosed = [text[:1] + text[-1:] in ("()", "[]") for text in last]
     bare = [text[1:-1].strip() if inside else text for text, inside in zip(last, enclosed, strict=True)]
-    known = [bool(unit_of(text)[0]) or text.lower() in _NUMBERINGS for text in bare]
-    if any(known) and all(a or b or not c for a, b, c in zip(known, enclosed, last, strict=True)):
+    of_scope = [bool(unit_of(text)[0]) or text.lower() in _NUMBERINGS for text in bare]
+    known = [a or known_factor(text, text) is not None for a, text in zip(of_scope, bare, strict=True)]
+    if any(of_scope) and all(a or b or not c for a, b, c in zip(known, enclosed, last, strict=True)):
         names = rows[-2] if rows[0] and _are_names(layout, rows[-2]) else []
         pairs = zip(layout.columns, bare, strict=True)
         return [Head(place, parts_of(names[place])[0] if names else "", unit) for place, unit in pairs]
@@ -305,9 +382,14 @@ def _covers(layout: Layout, row: Sequence[str]) -> bool:
     return enough and all(row[place] for place in layout.columns[1:])
 
 
+def _is_stated(row: Sequence[str]) -> bool:
+    """Whether a row begins with a key of units, of a length or of an interval."""
+    return any(word in row[0].lower() for word in _STATED)
+
+
 def _are_names(layout: Layout, row: Sequence[str]) -> bool:
     """Whether a row has names in the columns of numbers: texts, or whole numbers of channels."""
-    if any(word in row[0].lower() for word in _STATED):
+    if _is_stated(row):
         return False
     texts = [row[place] for place in layout.columns]
     numbers = [text for text in texts if layout.dialect.number(text) is not None]
