@@ -242,3 +242,14 @@ def test_quoted_fields_of_a_spreadsheet(tmp_path):
     np.testing.assert_allclose(surface.heights[0], 1e-9 * Z, atol=1e-13)
     commas = [f'"{0.5 * k}","{z:.7f}"'.replace(".", ",") for k, z in zip(K, Z, strict=True)]
     assert_read(read_surface(written(tmp_path / "b.csv", ['"x [um]","z [nm]"'], commas)))
+
+
+@each(
+    "above",
+    [["SJ-410"], [f"{len(K)}"], [f"{len(K)}", "0.5"], ["0.5", f"{len(K)}"], ["Z", f"{len(K)}", "0.50"]],
+)
+def test_a_number_of_heights_above_them_is_no_height(tmp_path, above):
+    """After Mitutoyo: the number of heights and their spacing in lines of their own."""
+    path = written(tmp_path / "a.txt", above, [f"{z:.7f}" for z in Z])
+    surface = read_surface(path, spacing=0.5e-6, z_unit="nm")
+    np.testing.assert_allclose(surface.heights[0], 1e-9 * Z, atol=1e-13)

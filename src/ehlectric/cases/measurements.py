@@ -6,10 +6,11 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+import unicodedata
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
-from itertools import product
+from itertools import islice, product
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING
@@ -24,6 +25,7 @@ from ehlectric.quantities.grouped_digits import doubt_of_column, readings
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.unit_spelling import plain
+from ehlectric.quantities.units import degree, known_factor
 from ehlectric.runtime.memory import MOST_MEASURED
 from ehlectric.runtime.reading import read_bytes
 from ehlectric.runtime.text_table import (
@@ -83,12 +85,18 @@ class ColumnBook:
 
     @cached_property
     def names(self) -> Mapping[str, str]:
-        """Quantities by the names over a column, in small letters and with spaces."""
+        """Quantities by the names over a column, as ``_folded`` writes them."""
         return {
-            name: key
+            _folded(name): key
             for key, column in self.columns.items()
             for name in (key.replace("_", " "), *column.names)
         }
+
+
+def _folded(name: str) -> str:
+    """Name in small letters, with spaces and without accents."""
+    text = unicodedata.normalize("NFKD", name.lower().replace("_", " "))
+    return " ".join("".join(letter for letter in text if not unicodedata.combining(letter)).split())
 
 
 # Largest numbers of rows of a measurement and of a duty cycle: 28 hours at a row a second.
@@ -246,8 +254,8 @@ def column_of(head: str, book: ColumnBook = MEASURED) -> Column | None:
     --------
     >>> column_of("Capacitance [pF]").name, column_of("uncertainty [%]").uncertainty
     ('capacitance', True)
-    >>> column_of("speed [m/s]").name
-    'entrainment_speed'
+    >>> column_of("speed [m/s]").name, column_of("speed_rpm").unit, column_of("Drehzahl in 1/min").name
+    ('entrainment_speed', 'rpm', 'speed')
     >>> column_of("remark") is None
     True
     """
@@ -285,12 +293,43 @@ def _parts_of(head: str, book: ColumnBook) -> _Head | None:
     if len(text) > _LONGEST:
         return None
     name, unit = name_and_unit(text)
-    bare = " ".join(name.lower().replace("_", " ").split())
+    return _known_head(text, name, unit, book) or (None if unit is not None else _with_bare_unit(text, book))
+
+
+def _known_head(text: str, name: str, unit: str | None, book: ColumnBook) -> _Head | None:
+    bare = _folded(name)
     uncertain = _UNCERTAINTY in bare
     words = bare.replace(_UNCERTAINTY + " of", "").replace(_UNCERTAINTY, "").strip()
     if words not in book.names and not (uncertain and not words):
         return None
     return _Head(text, name, unit, book.names.get(words, ""), uncertain)
+
+
+# Between a name and a unit without brackets: "speed_rpm", "Zeit in s", "U / V", "Torque, N m".
+_BETWEEN = re.compile(r"\s*+[_,/:]\s*+|\s+(?:in\s+)?")
+
+# Largest number of words of a head with a unit without brackets.
+_MOST_WORDS = 12
+
+
+def _with_bare_unit(text: str, book: ColumnBook) -> _Head | None:
+    """Name and unit of a head without brackets; None if its end is not a unit.
+
+    In a name of a program, "rad_s" and "m_per_s" are quotients, and "mPa_s" is a product.
+    """
+    for match in islice(_BETWEEN.finditer(text), _MOST_WORDS):
+        end = text[match.end() :].strip()
+        head = _known_head(text, text[: match.start()], end, book)
+        if head is None or not end:
+            continue
+        for unit in (end, end.replace("_per_", "/").replace("_", "/"), end.replace("_", " ")):
+            if unit == "%" or known_factor(unit, unit) is not None or degree(unit) is not None:
+                quantity = book.columns.get(head.known)
+                if quantity is None or len(end.split("_")) == 1 or units.is_unit(unit, quantity.unit):
+                    return replace(head, unit=unit)
+            elif head.known and units.is_unit(unit, book.columns[head.known].unit):
+                return replace(head, unit=unit)
+    return None
 
 
 # Quantities that a speed may be, whose unit is a unit of a velocity.
@@ -326,8 +365,24 @@ def _checked(name: str, head: str, unit: str, book: ColumnBook) -> Column:
     )
 
 
-# Quantities of an impedance, all three of which give a capacitance.
-_OF_IMPEDANCE = ("impedance", "phase", "frequency")
+# Quantities that a meter prints in one of its modes, all of which give a parallel capacitance, and the
+# impedance [Ohm] that they state.
+_TURN = 2.0 * math.pi
+_MODES: Mapping[tuple[str, ...], Callable[..., Array]] = {
+    ("impedance", "phase", "frequency"): lambda z, phase, _: z * np.exp(1j * phase),
+    ("series_resistance", "reactance", "frequency"): lambda r, x, _: r + 1j * x,
+    ("series_capacitance", "series_resistance", "frequency"): lambda c, r, f: (
+        r - 1j / (2.0 * math.pi * f * c)
+    ),
+    ("series_capacitance", "dissipation", "frequency"): lambda c, d, f: (d - 1j) / (_TURN * f * c),
+}
+
+# Quantities that only a mode has, and the columns of the modes in the words of an error.
+_OF_MODES = ("impedance", "phase", "series_resistance", "series_capacitance", "reactance")
+_MODE_TEXT = (
+    "a column 'capacitance [pF]', or the frequency with impedance and phase, Rs and Xs, or Cs and Rs, such "
+    "as 'frequency [Hz]', 'impedance [ohm]' and 'phase [deg]'"
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -364,46 +419,53 @@ def capacitance_of(measured: Measurement, uncertainty: float | None = None) -> M
     """Parallel capacitance of all rows of a measurement, with its uncertainty. Columns of the measurement
     are used instead of ``uncertainty``. Raises InputError if the measurement has neither, or has both.
     """
-    if measured.has("capacitance") and measured.has("impedance"):
-        raise InputError(measured.source, "has a capacitance and an impedance", takes="one of the two")
+    both = next((name for name in _OF_MODES if measured.has("capacitance", name)), None)
+    if both in ("impedance", "series_capacitance"):
+        words = both.replace("_", " ")
+        raise InputError(measured.source, f"has a capacitance and an {words}", takes="one of the two")
     if measured.has("capacitance"):
         value = measured.values["capacitance"]
         stated = measured.uncertainties.get("capacitance")
         return MeasuredCapacitance(value, _stated(value, stated, uncertainty))
-    missing = [name for name in _OF_IMPEDANCE if not measured.has(name)]
-    if len(missing) == len(_OF_IMPEDANCE) or "impedance" in missing:
-        raise InputError.missing(
-            f"{measured.source}: capacitance",
-            "a column 'capacitance [pF]', or columns 'impedance [ohm]', 'phase [deg]' and 'frequency [Hz]'",
-        )
-    if missing:
-        raise InputError.missing(
-            f"{measured.source}: {missing[0]}", "a column of this quantity with the impedance"
-        )
-    value, resistance = parallel_circuit(*(measured.values[name] for name in _OF_IMPEDANCE))
-    stated = _of_impedance(measured)
+    lacking = {mode: [name for name in mode if not measured.has(name)] for mode in _MODES}
+    mode = min(lacking, key=lambda each: len(lacking[each]))
+    if lacking[mode]:
+        if not any(measured.has(name) for name in _OF_MODES):
+            raise InputError.missing(f"{measured.source}: capacitance", _MODE_TEXT)
+        key = f"{measured.source}: {lacking[mode][0]}"
+        raise InputError.missing(key, f"a column of this quantity with the {mode[0].replace('_', ' ')}")
+    columns = [measured.values[name] for name in mode]
+    value, resistance = _parallel(mode, columns)
+    stated = _of_mode(measured, mode, columns)
     value = np.where(value > 0.0, value, np.nan)
     return MeasuredCapacitance(value, _stated(value, stated, uncertainty), resistance)
 
 
-def _of_impedance(measured: Measurement) -> Array | None:
-    """Uncertainty of the capacitance [F] from the uncertainties of magnitude, phase and frequency, in
-    quadrature.
-    """
-    magnitude, phase, frequency = (measured.values[name] for name in _OF_IMPEDANCE)
-    given = measured.uncertainties
-    if not any(name in given for name in _OF_IMPEDANCE):
+def _parallel(mode: tuple[str, ...], columns: Sequence[Array]) -> tuple[Array, Array]:
+    """Capacitance and resistance in parallel from the quantities of a mode."""
+    impedance = _MODES[mode](*columns)
+    return parallel_circuit(np.abs(impedance), np.angle(impedance), columns[mode.index("frequency")])
+
+
+def _of_mode(measured: Measurement, mode: tuple[str, ...], columns: Sequence[Array]) -> Array | None:
+    """Uncertainty of the capacitance [F] from the uncertainties of the quantities, in quadrature."""
+    given = {k: measured.uncertainties[name] for k, name in enumerate(mode) if name in measured.uncertainties}
+    if not given:
         return None
-    slope = 1.0 / (2.0 * math.pi * frequency * magnitude)
-    capacitance = -np.sin(phase) * slope
-    none = np.zeros_like(magnitude)
-    parts = (
-        capacitance * given.get("impedance", none) / magnitude,
-        np.cos(phase) * slope * given.get("phase", none),
-        capacitance * given.get("frequency", none) / frequency,
-    )
-    total: Array = np.sqrt(sum(part**2 for part in parts))
+    squares = []
+    for k, uncertainty in given.items():
+        # Central differences over a small part of the uncertainty.
+        ends = [
+            _parallel(mode, [*columns[:k], columns[k] + sign * _PART * uncertainty, *columns[k + 1 :]])[0]
+            for sign in (1.0, -1.0)
+        ]
+        squares.append(((ends[0] - ends[1]) / (2.0 * _PART)) ** 2)
+    total: Array = np.sqrt(np.sum(squares, axis=0))
     return total
+
+
+# Part of an uncertainty over which differences are taken.
+_PART = 1e-3
 
 
 def _stated(value: Array, stated: Array | None, relative: float | None) -> Array | None:
@@ -620,7 +682,7 @@ def _numbered(columns: Mapping[int, Column], twins: Mapping[int, int]) -> dict[i
 
 
 # Quantities that a film factor explains.
-_MEASURED = ("film", "capacitance", "impedance")
+_MEASURED = ("capacitance", "impedance", "series_capacitance", "film")
 
 
 def _measures(columns: Mapping[int, Column]) -> bool:
@@ -763,6 +825,7 @@ def _merged(
 def _heads(path: Path, lines: list[str], book: ColumnBook) -> tuple[list[str], int, Dialect]:
     """Heads in the first line with a known quantity, the place of the line below, and their dialect."""
     wrong: InputError | None = None
+    found: Sequence[str] = ()
     for place in range(min(len(lines), _MOST_ABOVE)):
         record, below = record_at(lines, place)
         text = uncommented(record)
@@ -770,6 +833,10 @@ def _heads(path: Path, lines: list[str], book: ColumnBook) -> tuple[list[str], i
         heads = dialect.fields(text)
         if len(heads) > 1 and any(dialect.number(head) is not None for head in heads[:_MOST_COLUMNS]):
             # The name of a quantity with its value, as above the table of a rig.
+            continue
+        found = heads if len(heads) >= len(found) else found
+        if len(heads) == 1 and len(text) <= _LONGEST and _with_bare_unit(text.strip(), book) is not None:
+            # A sentence may end with a unit.
             continue
         known = 0
         try:
@@ -783,7 +850,20 @@ def _heads(path: Path, lines: list[str], book: ColumnBook) -> tuple[list[str], i
             return heads, below, dialect
     if wrong is not None:
         raise InputError(path, str(wrong))
-    raise InputError(path, "has no headings of known columns", takes=f"headings such as {book.examples}")
+    raise _unknown(path, found, book)
+
+
+# Most headings that an error lists.
+_LISTED = 9
+
+
+def _unknown(source: object, heads: Sequence[str], book: ColumnBook) -> InputError:
+    """Error of a file without known headings, which lists those that it has."""
+    listed = [shown(printable(head)) for head in heads if head]
+    has = f", but {', '.join(listed[:_LISTED])}{', ...' * (len(listed) > _LISTED)}" if listed else ""
+    return InputError(
+        source, f"has no headings of known columns{has}", takes=f"headings such as {book.examples}"
+    )
 
 
 def _number_known(
@@ -831,9 +911,7 @@ def _columns(
         columns[place] = column
     columns = _with_vehicle(source, heads, columns, book)
     if all(column.uncertainty for column in columns.values()):
-        raise InputError(
-            source, "has no headings of known columns", takes=f"headings such as {book.examples}"
-        )
+        raise _unknown(source, heads, book)
     ignored = (printable(head[:60]) for place, head in enumerate(heads) if place not in columns)
     return columns, tuple(head for head in ignored if head), twins
 
@@ -847,7 +925,10 @@ def _with_vehicle(
     names = {column.name for column in columns.values()}
     if VEHICLE_SPEED not in book.columns or "speed" in names:
         return {place: column for place, column in columns.items() if column.name != VEHICLE_SPEED}
-    units_of = {place: name_and_unit(head)[1] or "" for place, head in enumerate(heads)}
+    units_of = {
+        place: name_and_unit(head)[1] or re.split(r"[\s_]", head.strip())[-1]
+        for place, head in enumerate(heads)
+    }
     vehicles = {
         place: Column(VEHICLE_SPEED, heads[place].strip(), unit, book=book)
         for place, unit in units_of.items()
@@ -921,7 +1002,7 @@ def _uncertainties(
     uncertainties: dict[str, Array] = {}
     for place, numbers in uncertain.items():
         column = columns[place]
-        name = column.name or next((key for key in ("capacitance", "impedance", "film") if key in values), "")
+        name = column.name or next((key for key in _MEASURED if key in values), "")
         if name not in values:
             what = name or "capacitance, impedance or film"
             raise InputError(source, f"has the column {shown(column.head)}", takes=f"a column {what} with it")

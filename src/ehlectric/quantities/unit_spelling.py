@@ -7,8 +7,11 @@ import unicodedata
 
 # Superscript exponents as in GPa⁻¹. NFKC would turn "5²" into the number 52, so that they are replaced first.
 _SUPERSCRIPT = re.compile("[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+")
+# A sign on the line before a raised digit, as Malvern writes "s-¹".
+_SIGNED = re.compile("(?<=[A-Za-zµΩ])([+-])(?=[⁰¹²³⁴⁵⁶⁷⁸⁹])")
 _NOT_RAISED = re.compile("[^⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+")
 _DIGITS = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "+-0123456789")
+_RAISED_SIGNS = str.maketrans("+-", "⁺⁻")
 
 # Characters that look alike and that NFKC does not join: degree signs, minus signs and signs of a product.
 _BEFORE = str.maketrans(
@@ -82,10 +85,11 @@ def plain(text: str) -> str:
 
     Examples
     --------
-    >>> plain("GPa⁻¹"), plain("W/(m K)"), plain("V/mil"), plain("° F"), plain("mPas")
-    ('GPa^-1', 'W/m/K', 'V/thou', 'degF', 'mPa s')
+    >>> plain("GPa⁻¹"), plain("W/(m K)"), plain("V/mil"), plain("° F"), plain("s-¹")
+    ('GPa^-1', 'W/m/K', 'V/thou', 'degF', 's^-1')
     """
-    text = _SUPERSCRIPT.sub(lambda match: "^" + match[0].translate(_DIGITS), typed(text)).strip()
+    text = _SIGNED.sub(lambda match: match[0].translate(_RAISED_SIGNS), typed(text))
+    text = _SUPERSCRIPT.sub(lambda match: "^" + match[0].translate(_DIGITS), text).strip()
     if text == "°":
         return "deg"
     text = _BRACKETS.sub(lambda match: "/" + "/".join(_PRODUCT.split(match[1].strip())), text)

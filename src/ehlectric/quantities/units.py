@@ -30,7 +30,20 @@ _RAISED = str.maketrans("+-0123456789", "⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _WORD = re.compile(rf"{_LETTER}+")
 
 # Revolutions per minute as catalogues and machines print them, in small letters and without spaces.
-_TURNS = ("rpm", "r/min", "rev/min", "u/min", "1/min", "/min", "min^-1", "min-1", "min**-1")
+_TURNS = (
+    "rpm",
+    "r/min",
+    "rev/min",
+    "u/min",
+    "umdr/min",
+    "upm",
+    "tr/min",
+    "1/min",
+    "/min",
+    "min^-1",
+    "min-1",
+    "min**-1",
+)
 
 # Frequent mistakes, by the SI unit of the quantity: unit of another quantity that users write, and advice.
 _HINTS = {

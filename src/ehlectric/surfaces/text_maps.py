@@ -124,6 +124,8 @@ def _column(path: Path, layout: Layout, text: str, scale: Scale) -> TextSurface:
         got = "contains one column of numbers"
         raise NoTableError(path, got, takes="two, position and height, or spacing with heights alone")
     (z,) = layout.numbers(path, layout.columns, layout.below(text), layout.first + 1, voids=layout.columns)
+    # Instruments such as Mitutoyo's write the number of heights, and perhaps their spacing, above them.
+    z = next((z[above:] for above in (1, 2) if z.size > above and z.size - above in z[:above]), z)
     if z.size < LEAST_POINTS:
         raise InputError(path, f"has {z.size} points", takes=f"at least {LEAST_POINTS}")
     z, marked = without_void_numbers(path, z)

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from ehlectric.cases.film_factors import mean_factor, slope_of
 from ehlectric.cases.measurements import capacitance_of, parallel_circuit, read_measurement
 from ehlectric.errors import InputError
+from tests.helpers.each import each
 
 
 @given(st.floats(1e-13, 1e-8), st.floats(1e2, 1e9), st.floats(1e2, 1e7))
@@ -50,7 +51,39 @@ def test_uncertainty_of_an_impedance_is_that_of_its_capacitance():
     assert found.uncertainty[0] == pytest.approx(math.hypot(*parts), rel=1e-3)
 
 
+CS, RS, OMEGA = np.array([5.0e-10, 4.4e-10]), np.array([300.0, 280.0]), 2e5 * math.pi
+
+
+@each(
+    "columns",
+    [
+        {"Cs [F]": CS, "Rs [ohm]": RS},
+        {"Cs [pF]": 1e12 * CS, "dissipation [-]": OMEGA * RS * CS},
+        {"Rs [ohm]": RS, "Xs [ohm]": -1.0 / (OMEGA * CS)},
+        {"Cs_F": CS, "ESR_ohm": RS},
+    ],
+)
+def test_values_in_series_become_a_parallel_capacitance(columns):
+    """The closed form Cp = Cs/(1 + (omega Rs Cs)^2): 495.6 pF and 437.4 pF."""
+    frame = pd.DataFrame({**columns, "Frequency [Hz]": 1e5})
+    found = capacitance_of(read_measurement(frame))
+    assert found.value == pytest.approx(CS / (1.0 + (OMEGA * RS * CS) ** 2), rel=1e-12)
+    assert 1e12 * found.value == pytest.approx([495.6, 437.4], abs=0.05)
+    assert found.resistance == pytest.approx(RS * (1.0 + 1.0 / (OMEGA * RS * CS) ** 2), rel=1e-9)
+
+
+def test_uncertainty_of_a_capacitance_in_series():
+    """The derivative of the closed form: dCp/dCs = (1 - q)/(1 + q)^2 with q = (omega Rs Cs)^2."""
+    frame = pd.DataFrame({"Cs [F]": CS, "Rs [ohm]": RS, "f [Hz]": 1e5, "frequency [Hz]": 1e5})
+    frame["uncertainty [%]"] = 2.0
+    q = (OMEGA * RS * CS) ** 2
+    found = capacitance_of(read_measurement(frame))
+    assert found.uncertainty == pytest.approx(0.02 * CS * (1.0 - q) / (1.0 + q) ** 2, rel=1e-6)
+
+
 def test_a_measurement_needs_all_of_an_impedance():
+    with pytest.raises(InputError, match="series_resistance: missing"):
+        capacitance_of(read_measurement(pd.DataFrame({"Cs [F]": CS, "frequency [Hz]": 1e5})))
     frame = pd.DataFrame({"impedance [ohm]": [1.0], "phase [deg]": [-80.0]})
     with pytest.raises(InputError, match="frequency: missing"):
         capacitance_of(read_measurement(frame))

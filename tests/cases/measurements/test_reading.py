@@ -9,12 +9,14 @@ import pytest
 
 from ehlectric.cases.measurements import (
     CYCLE,
+    GEAR_CYCLE,
     MEASURED,
     MOST_ROWS,
     column_of,
     read_measurement,
     void_rows,
 )
+from ehlectric.cases.viscosity_tables import VISCOSITIES
 from ehlectric.errors import InputError
 from tests.helpers.each import each
 
@@ -45,6 +47,11 @@ TWO = {"speed": [1000 * RPM, 3000 * RPM], "capacitance": [260.5e-12, 190e-12]}
         "speed [rpm];capacitance [pF]\n1000;260,5\n3000;190\n",
         "Speed (1/min)\tCapacitance (nF)\n1000\t0.2605\n3000\t0.190\n",
         "# made by hand\n# speed [rpm], Cp [F]\n1000, 2.605e-10\n\n# a pause\n3000, 190e-12\n",
+        "speed_rpm,Cp_pF\n1000,260.5\n3000,190\n",
+        "speed rpm,Capacitance_F\n1000,260.5e-12\n3000,1.9e-10\n",
+        "Drehzahl in 1/min;Kapazität / pF\n1000;260,5\n3000;190\n",
+        "Vitesse de rotation [tr/min];capacité (nF)\n1000;0,2605\n3000;0,190\n",
+        "speed_1/min,cp: pF,remark_a\n1000,260.5,2\n3000,190,3\n",
         "\tspeed [rpm]\tcapacitance [pF]\n0\t1000\t260.5\n1\t3000\t190\n",  # to_csv of pandas, with its index
         "#\tspeed [rpm]\tcapacitance [pF]\n1000\t260.5\n3000\t190\n",
         "LCR meter 7\nOperator;N. N.\nShaft_speed [U/min];CAPACITANCE [pF]\r\n1000;260.5\r\n3000;190.0\r\n",
@@ -116,7 +123,10 @@ def test_a_table_of_pandas_is_read_by_its_heads():
         ("speed [%],capacitance [pF]\n1,2\n", "column 'speed [%]': has the unit '%'"),
         ("speed [rpm],capacitance [%]\n1,2\n", "the value of 100 % is unknown); expected values in pF"),
         ("phase [percent],film [nm]\n1,2\n", "percent is not a unit of an angle"),
-        ("a,b\n1,2\n", "has no headings of known columns; expected headings such as 'speed [rpm]'"),
+        (
+            "a,b\n1,2\n",
+            "has no headings of known columns, but 'a', 'b'; expected headings such as",
+        ),
         ("speed [rpm],capacitance [pF]\n", "has no rows below its headings"),
         ("speed [rpm],shaft speed [rpm]\n1,2\n", "has the columns 'speed [rpm]' and 'shaft speed [rpm]'"),
         ("speed [rpm],film uncertainty [nm]\n1,2\n", "expected a column film with it"),
@@ -197,3 +207,35 @@ def test_rows_without_a_value_are_counted_and_named(tmp_path):
     assert "line 4" in warning.text
     frame = pd.DataFrame({"speed [rpm]": [1000, np.nan, 3000], "capacitance [pF]": [260.5, 1.0, 190.0]})
     assert read_measurement(frame).values["speed"] == pytest.approx(TWO["speed"])
+
+
+@each(
+    "head, book, name, value",
+    [
+        ("time_s", CYCLE, "time", 1.0),
+        ("speed_kmh", CYCLE, "vehicle_speed", 1 / 3.6),
+        ("temperature_degC", CYCLE, "temperature", 274.15),
+        ("Fahrgeschwindigkeit in km/h", CYCLE, "vehicle_speed", 1 / 3.6),
+        ("Öltemperatur / °C", CYCLE, "temperature", 274.15),
+        ("torque_Nm", GEAR_CYCLE, "torque", 1.0),
+        ("Drehmoment (Nm)", GEAR_CYCLE, "torque", 1.0),
+        ("speed_rad_s", MEASURED, "speed", 1.0),
+        ("entrainment_speed_m_per_s", MEASURED, "entrainment_speed", 1.0),
+        ("viscosity_mPa_s", VISCOSITIES, "viscosity", 1e-3),
+        ("Shear rate(s-¹)", VISCOSITIES, "shear_rate", 1.0),
+        ("Température, °C", VISCOSITIES, "temperature", 274.15),
+    ],
+)
+def test_units_without_brackets(head, book, name, value):
+    column = column_of(head, book)
+    assert (column.name, column.value(1.0)) == (name, pytest.approx(value, rel=1e-12))
+
+
+@each("head", ["temperature_oil", "speed ratio", "time stamp", "load_case", "film_left"])
+def test_words_after_a_name_are_no_units(head):
+    assert column_of(head) is None
+
+
+def test_a_bare_unit_of_another_quantity_is_refused():
+    with pytest.raises(InputError, match="has the unit 'V'"):
+        column_of("speed_V")

@@ -432,3 +432,28 @@ def test_a_current_is_no_shaft_voltage(tmp_path, head):
     record = ShaftFile(file=str(path))
     with pytest.raises(InputError, match=r"'m?A' as unit|may be a current"):
         measured_shaft(record)
+
+
+def test_the_interval_of_owon_is_offered(tmp_path):
+    """After OWON HDS242: its other lines have frequencies and periods of the signal."""
+    above = ["Channel\t\t\t  :,CH1", "Frequency\t\t  :,F=1.498kHz", "Period \t\t\t  :,T=667.4us"]
+    above += ["Voltage per ADC value:,20.00mV", "Time interval\t\t  :,0.40uS", "", "index,CH1_Voltage(mV)"]
+    path = written(tmp_path, [*above, *columns(evenly(1), VOLTS)])
+    assert "the line 'Time interval :,0.40uS'" in refused(path)
+    read, warnings = read_waveform(path, step=0.4e-6)
+    assert read.values == pytest.approx(1e-3 * np.array(VOLTS))
+    assert "samples-missing" not in [warning.code for warning in warnings]
+    _, warnings = read_waveform(path, step=0.8e-6)
+    assert "samples-missing" in [warning.code for warning in warnings]
+
+
+@each("empty", ["{:g},40,", "{:g},,"])
+def test_a_channel_may_end_before_the_others(tmp_path, empty):
+    rows = columns(evenly(1e-6), VOLTS, VOLTS, form="{:g},{:g},{:g}")
+    ends = [empty.format(k * 1e-6) for k in range(64, 80)]
+    path = written(tmp_path, ["time (s),CH1 (V),CH2 (V)", *rows, *ends])
+    read, warnings = read_waveform(path, column="CH2")
+    assert read.values.tolist() == VOLTS
+    assert "the last 16 of 80 rows have no value in CH2 (column 3)" in warnings[0].text
+    inside = written(tmp_path, ["time (s),CH1 (V),CH2 (V)", *rows[:40], ends[0], *rows[40:]])
+    assert "line 42 has" in refused(inside, column="CH2")

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from ehlectric.arrays import Array
+from ehlectric.errors import InputError
 from ehlectric.runtime.text_table import Layout, text_blocks
 
 # Smallest number of samples of a waveform.
@@ -34,14 +35,27 @@ class Samples:
     times: Array
     digit: float = 0.0
     place: Callable[[int], str] = _number_of  # name of the place of a sample, by its index from 0
+    spare: int = 0  # number of rows at the end without a voltage
 
 
 def read_samples(path: Path, layout: Layout, places: tuple[int, ...], blocks: Iterable[str]) -> Samples:
-    """Numbers of the columns at ``places``, voltages first; the blocks are the text below the header."""
+    """Numbers of the columns at ``places``, voltages first; the blocks are the text below the header.
+
+    A channel may be shorter than the others: rows at the end may lack its voltages.
+    """
     parts: list[tuple[Array, ...]] = []
     line, head, tail = layout.first + 1, "", ""
+    spare, ended = 0, None
     for text in blocks:
-        parts.append(layout.numbers(path, places, text, line))
+        try:
+            columns = layout.numbers(path, places, text, line)
+        except InputError as error:
+            columns, ended = layout.numbers(path, places, text, line, voids=places), ended or error
+        count = int(np.count_nonzero(~np.isnan(columns[0])))
+        if ended is not None and ((spare and count) or any(np.isnan(each[:count]).any() for each in columns)):
+            raise ended
+        spare += columns[0].size - count
+        parts.append(tuple(each[:count] for each in columns))
         line += text.count("\n")
         head, tail = head or text[:_ENDS], (tail + text[-_ENDS:])[-_ENDS:]
     values, times = (
@@ -50,7 +64,7 @@ def read_samples(path: Path, layout: Layout, places: tuple[int, ...], blocks: It
     # The last line of the one text may be cut off, and the first one of the other.
     ends = head.split("\n")[:-1][:_COUNTED], tail.split("\n")[1:][-_COUNTED:]
     digit = layout.last_digit(places[-1], ends) if times.size else 0.0
-    return Samples(values, times, digit, lambda index: f"line {line_of(path, layout, index)}")
+    return Samples(values, times, digit, lambda index: f"line {line_of(path, layout, index)}", spare)
 
 
 def numbered_lines(path: Path) -> Iterator[tuple[int, str]]:

@@ -43,7 +43,7 @@ SPELLINGS = {
     "length": ("recordlength", "memorylength", "waveformlength", "datalength", "points", "blocksize"),
     "interval": (
         "sampleinterval", "samplinginterval", "sampleperiod", "samplingperiod", "increment", "xincrement",
-        "xinc", "tinc", "hresolution", "tinterval",
+        "xinc", "tinc", "hresolution", "tinterval", "timeinterval",
     ),
     "rate": ("samplerate", "samplingrate", "samplingfrequency", "samplefrequency"),
     "segments": (
@@ -249,7 +249,8 @@ class Labels:
     @property
     def interval(self) -> str | None:
         """Text of the first statement that may be the sampling interval; None without any."""
-        named = [each for each in self.stated if any(word in each.spelling for word in INTERVALS)]
+        named = [*self.of("interval"), *self.of("rate")]
+        named += [each for each in self.stated if any(word in each.spelling for word in INTERVALS)]
         # Words in a sentence are none of a key; a number is what the user needs.
         named = [each for each in named if each.number is not None] or named
         return named[0].text if named else None
@@ -321,7 +322,7 @@ def _stated(lines: Iterable[str]) -> Iterator[Stated]:
     for number, line in enumerate(lines, 1):
         key, *values = (text.strip(' "') for text in _BETWEEN.split(line))
         if any(values):
-            yield Stated(key, tuple(value for value in values if value), number, line.strip())
+            yield Stated(key, tuple(value for value in values if value), number, " ".join(line.split()))
         for field in re.split("[;,\t]", line)[1:]:
             name, sign, value = field.partition("=")
             if sign and value.strip():

@@ -80,11 +80,12 @@ def read_waveform(
         raise InputError(path, f"has {read.values.size} samples", takes=f"at least {LEAST_SAMPLES}")
     refuse_scpi(path, read)
     refuse_counts(path, labels, read.values, choice.factor, keys)
+    count = read.values.size
     read, uneven = evened(path, read, choice, resample if step is None else None, scale)
     start, interval, gaps = timing(path, read, choice, step)
     waveform = Waveform(start, interval, _volts(path, read.values, choice, scale))
     warnings = (
-        *_of_reading(path, labels, choice, read.values.size),
+        *_of_reading(path, labels, choice, count, read.spare),
         *_of_step(path, labels, step),
         *gaps,
         *uneven,
@@ -140,11 +141,21 @@ def _volts(path: Path, values: Array, choice: Choice, scale: float) -> Array:
     return values
 
 
-def _of_reading(path: Path, labels: Labels, choice: Choice, count: int) -> Iterator[ResultWarning]:
-    """Warnings about units that the file does not state, and about a length that it does not have."""
+def _of_reading(
+    path: Path, labels: Labels, choice: Choice, count: int, spare: int
+) -> Iterator[ResultWarning]:
+    """Warnings about units that the file does not state, and about a length that it does not have.
+
+    ``count`` is the number of samples, and ``spare`` the number of rows at the end without a voltage.
+    """
     if choice.assumed:
         assumptions = " and that ".join(choice.assumed)
         yield ResultWarning.of("units-assumed", file=path, assumptions=assumptions)
+    if spare:
+        yield ResultWarning.of(
+            "samples-missing", "channel", file=path, spare=spare, rows=count + spare, head=choice.value
+        )
+        return
     points = max((each.number or 0.0 for each in labels.of("length")), default=0.0)
     if count < points:
         yield ResultWarning.of("samples-missing", "cut_off", file=path, stated=points, count=count)
