@@ -360,7 +360,7 @@ def _checked(name: str, head: str, unit: str, book: ColumnBook) -> Column:
             return column
     raise InputError(
         f"column {shown(head)}",
-        f"has the unit {shown(unit)} ({short(reasons[0])})",
+        f"has the unit {shown(unit)} ({reasons[0]})",
         takes=f"values in {book.columns[name].usual} or another unit of this quantity",
     )
 
@@ -759,7 +759,7 @@ def _tables_of(path: Path, lines: list[str], book: ColumnBook) -> tuple[list[_Ta
             if any(_split(cell)[1] or dialect.number(cell) is not None for cell in row) and title:
                 got = f"line {number} has numbers below {shown(title)}"
                 raise InputError(path, got, takes="a line of headings below each title")
-            title = title or " ".join(filter(None, row))[:60]
+            title = title or short(" ".join(filter(None, row)))
         else:
             table.rows.append((number, _fitted(path, number, row, table.heads)))
             count += 1
@@ -912,7 +912,7 @@ def _columns(
     columns = _with_vehicle(source, heads, columns, book)
     if all(column.uncertainty for column in columns.values()):
         raise _unknown(source, heads, book)
-    ignored = (printable(head[:60]) for place, head in enumerate(heads) if place not in columns)
+    ignored = (printable(short(head)) for place, head in enumerate(heads) if place not in columns)
     return columns, tuple(head for head in ignored if head), twins
 
 

@@ -26,7 +26,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.errors import InputError, shown
+from ehlectric.errors import InputError, short, shown
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.runtime.file_kinds import is_workbook, not_text
 from ehlectric.runtime.memory import in_bytes
@@ -817,7 +817,7 @@ def _read_other(
     except (InputError, MemoryError):
         raise
     except Exception as error:  # the readers of forty formats raise exceptions of any kind
-        why = "" if type(error).__name__ == "CannotDetectFileFormat" else f", {str(error)[:80]}"
+        why = "" if type(error).__name__ == "CannotDetectFileFormat" else f", {short(str(error))}"
         raise InputError(path, f"{otherwise}; it cannot be read by SurfaceTopography either{why}") from None
     if heights.ndim == 1:
         return HeightMap(heights[np.newaxis], float(spacing[0]), None)

@@ -239,3 +239,23 @@ def test_words_after_a_name_are_no_units(head):
 def test_a_bare_unit_of_another_quantity_is_refused():
     with pytest.raises(InputError, match="has the unit 'V'"):
         column_of("speed_V")
+
+
+@each(
+    "head, book, reason",
+    [
+        ("viscosity [cSt]", VISCOSITIES, "quantity; multiply a kinematic viscosity by the density)"),
+        ("speed [Hz]", CYCLE, "turns or radians: write rpm, min^-1, rad/s or deg/s)"),
+        ("radial load [kg]", CYCLE, "quantity; a mass is not a force: write N, lbf or kgf)"),
+    ],
+)
+def test_a_reason_is_never_cut(head, book, reason):
+    with pytest.raises(InputError) as error:
+        column_of(head, book)
+    assert reason in str(error.value)
+
+
+def test_cuts_of_a_long_head_are_visible(tmp_path):
+    measured = read(tmp_path, f"speed [rpm],film [nm],{'n' * 190}\n1000,20,1\n")
+    assert measured.ignored[0].startswith("nnnn")
+    assert "..." in measured.ignored[0]

@@ -23,7 +23,7 @@ from ehlectric.drive.waveform.chosen_columns import Choice, Keys, choice_of, env
 from ehlectric.drive.waveform.refusals import exceeded, segments
 from ehlectric.drive.waveform.samples import MOST_BYTES, Samples
 from ehlectric.drive.waveform.text_heads import Head, Labels, Stated, parts_of
-from ehlectric.errors import InputError, shown
+from ehlectric.errors import InputError, short, shown
 from ehlectric.readable import readable
 from ehlectric.runtime.file_kinds import PEEKED
 from ehlectric.runtime.reading import regular
@@ -80,7 +80,8 @@ def read_binary(path: Path, kind: str, keys: Keys) -> tuple[Labels, Choice, Samp
         takes = "the extra ehlectric[scopes], or the waveform as CSV"
         raise InputError(path, f"needs the package {library}", takes=takes) from None
     except Exception as error:  # readers of damaged files raise exceptions of any kind
-        raise InputError(path, f"cannot be read by {library}, {str(error)[:80]}; export it as CSV") from None
+        what = f"cannot be read by {library}, {short(str(error))}"
+        raise InputError(path, f"{what}; export it as CSV") from None
     if not 0 < len(columns) <= _MOST_COLUMNS:
         raise InputError(path, f"has {len(columns)} columns of numbers", takes=f"1 to {_MOST_COLUMNS}")
     heads = [Head(place, column.name, column.unit) for place, column in enumerate(columns)]
@@ -158,7 +159,7 @@ def _tdms(path: Path) -> tuple[list[Column], list[Stated]]:
     finally:
         log_manager.console_handler.removeFilter(refuse)
     if faults:
-        raise InputError(path, f"is damaged: {faults[0][:80]}; export it as CSV")
+        raise InputError(path, f"is damaged: {short(faults[0])}; export it as CSV")
     columns: list[Column] = []
     channels = [channel for group in file.groups() for channel in group.channels()]
     names = [channel.name for channel in channels]
