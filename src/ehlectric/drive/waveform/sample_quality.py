@@ -23,8 +23,11 @@ _RUN, _RUNS, _FLAT, _BAND = 6, 4, 6.0, 0.005
 # Least share of samples between the extremes by which flat extremes differ from a computed square wave.
 _QUALITY_BETWEEN = 0.05
 
-# An edge moves by at least this share of the range between two samples; it is resolved by this many samples.
+# An edge has at least this share of the range as its height, and is resolved by this many samples. Without
+# them, one of its steps is at least a quarter of its height. The range omits this share of samples at each
+# end, and steps of noise are below this many medians of all steps.
 _EDGE, _RESOLVED = 0.2, 3
+_STEP, _OUTLIERS, _NOISE = 0.25, 1e-3, 6.0
 
 # Samples to each side of an edge within which it comes and goes, and most edges that are looked at.
 _AROUND, _MOST_REPEATED = 4, 100_000
@@ -137,8 +140,9 @@ def few_levels(values: Array) -> int | None:
 def unresolved_edges(values: Array) -> tuple[int, int]:
     """Number of steep edges with fewer than three samples between 10 and 90 % of their height, and of all.
 
-    A steep edge moves by a fifth of the range or more between two samples; slower ones are resolved. Of more
-    than 100 000 edges, the first ones count. The voltages have the shape (n,).
+    A steep edge moves by a fifth of the range or more, and by a quarter of this between two samples; slower
+    ones are resolved. The range omits 0.1 % of the samples at each end, as a few peaks may be much higher. Of
+    more than 100 000 edges, the first ones count. The voltages have the shape (n,).
 
     Examples
     --------
@@ -146,11 +150,15 @@ def unresolved_edges(values: Array) -> tuple[int, int]:
     >>> unresolved_edges(steps)
     (2, 2)
     >>> unresolved_edges(np.interp(np.arange(60.0), [20.0, 26.0], [0.0, 1.0]))
-    (0, 0)
+    (0, 1)
     """
     steps = np.diff(values)
     np.abs(steps, out=steps)
-    steep = np.flatnonzero(steps >= _EDGE * np.ptp(values))
+    low, high = np.quantile(values, [_OUTLIERS, 1.0 - _OUTLIERS])
+    least = _EDGE * float(high - low)
+    steep = np.flatnonzero(
+        steps >= max(_STEP * least, _NOISE * float(np.median(steps)), np.finfo(float).tiny)
+    )
     edges = _largest_of_groups(steep, steps)[:_MOST_REPEATED]
     if not edges.size:
         return 0, 0
@@ -163,7 +171,9 @@ def unresolved_edges(values: Array) -> tuple[int, int]:
     inside = np.count_nonzero((share > 0.1) & (share < 0.9), axis=1)
     # A spike that comes back within the window has no height of its own: nothing resolves it.
     none = np.abs(height[:, 0]) < 0.5 * steps[edges]
-    return int(np.count_nonzero((inside < _RESOLVED) | none)), int(edges.size)
+    high_enough = np.maximum(np.abs(height[:, 0]), steps[edges]) >= least
+    unresolved = ((inside < _RESOLVED) | none) & high_enough
+    return int(np.count_nonzero(unresolved)), int(np.count_nonzero(high_enough))
 
 
 def _largest_of_groups(places: IntArray, steps: Array) -> IntArray:
