@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from ehlectric import DriveCase, InputError, solve_drive
@@ -126,8 +127,30 @@ def test_discharges_of_a_simulated_drive_are_counted(simulated, step):
     assert found.times.size == np.count_nonzero(voltages > found.threshold)
     assert found.ratio.value == pytest.approx(divider, abs=2.0 * found.ratio.uncertainty)
     assert found.ratio.uncertainty < 0.04 * divider
+    turned = shaft_record(-shaft, step, source, gain=0.0)
+    assert (found.inverted, turned.inverted) == (False, True)
+    assert turned.times.tolist() == found.times.tolist()
     exact = np.quantile(voltages, 1.0 - math.exp(-1.0))
     assert found.breakdown.value == pytest.approx(exact, abs=2.0 * found.breakdown.uncertainty)
+
+
+@pytest.mark.parametrize("column", ["CH1", "CH2"])
+def test_an_inverted_probe_is_turned(tmp_path, column):
+    """With either probe inverted, all quantities are those of the record with correct probes."""
+    path = EXAMPLES / "measurements" / "shaft_voltage.csv"
+    table = pd.read_csv(path, skiprows=3, names=["time (s)", "CH1", "CH2"], dtype={"time (s)": str})
+    table[column] *= -1.0
+    table.rename(columns={"CH1": "CH1 (V)", "CH2": "CH2 (V)"}).to_csv(tmp_path / "inverted.csv", index=False)
+    (known, notes), (found, warnings) = (
+        measured_shaft(ShaftFile(file=str(file), column="CH2", common_mode_column="CH1"))
+        for file in (path, tmp_path / "inverted.csv")
+    )
+    assert {name: one.value for name, one in found.items()} == pytest.approx(
+        {name: one.value for name, one in known.items()}
+    )
+    (note,) = [one.text for one in warnings if "wrong way round" in one.text]
+    assert f"ratio -{known['bearing_voltage_ratio'].value:.3g} " in note
+    assert len(warnings) == len(notes) + 1
 
 
 def test_wrong_columns_and_files_are_named(tmp_path):

@@ -94,6 +94,7 @@ class ShaftRecord:
     peak: Estimate | None  # peak without discharges [V]
     rate: Estimate | None  # discharges in a second [1/s]
     breakdown: Estimate | None  # 63.2 % quantile of the voltages before collapses [V]
+    inverted: bool = False  # whether a probe is connected the wrong way round, by the edges
 
     def measured(self) -> dict[str, Estimate]:
         """Return the quantities that a calibration compares, by their names in the table [measured].
@@ -120,7 +121,8 @@ def shaft_record(
     voltage U falls to less than half of its value before. Edges of the inverter also reduce the voltage. A
     collapse therefore has to be 1.5 times as large as the growth of U in this time by the steep edges of the
     record, the 90 % quantile of all edges. If the common-mode voltage u is given, the change a du that it
-    explains is subtracted first, with the ratio a = dU/du of most edges.
+    explains is subtracted first, with the ratio a = dU/du of most edges. If more edges share a negative ratio
+    than a positive one, a probe is inverted: the shaft voltage is turned.
 
     With N collapses in the time T, the rate is N/T. Its standard uncertainty is the half-width of the 95 %
     interval of ``event_rate`` (Poisson, or the scatter of ten blocks) divided by 1.96. The voltage of the
@@ -167,11 +169,16 @@ def shaft_record(
     """
     noise = _noise(shaft)
     largest = float(np.max(np.abs(shaft)))
-    ratio, explained, doubt = None, np.zeros_like(shaft), noise
+    ratio, explained, doubt, inverted = None, np.zeros_like(shaft), noise, False
     if common_mode is not None:
         noise_of_source = _noise(common_mode)
-        ratio = _ratio(shaft, common_mode, noise, noise_of_source)
-        if ratio is not None:
+        turned = _ratio(-shaft, common_mode, noise, noise_of_source)
+        direct = _ratio(shaft, common_mode, noise, noise_of_source)
+        inverted = turned is not None and (direct is None or turned[1] > direct[1])
+        shaft = -shaft if inverted else shaft
+        known = turned if inverted else direct
+        if known is not None:
+            ratio, _ = known
             explained = ratio.value * common_mode
             # The change that the source explains has the noise of two samples.
             doubt = math.hypot(noise, math.sqrt(2.0) * ratio.value * noise_of_source)
@@ -199,6 +206,7 @@ def shaft_record(
         peak=_peak(shaft, common_mode, ratio, statistics, undisturbed=not slow and not places.size),
         rate=None if slow else _rate(places, shaft.size, duration),
         breakdown=None if slow else statistics.breakdown(voltages, error),
+        inverted=inverted,
     )
 
 
@@ -267,9 +275,12 @@ def _groups(places: IntArray, distance: int) -> list[IntArray]:
     return np.split(places, np.flatnonzero(np.diff(places) > distance) + 1) if places.size else []
 
 
-def _ratio(shaft: Array, common_mode: Array, noise: float, noise_of_source: float) -> Estimate | None:
-    """Change of the shaft voltage divided by the change of the common-mode voltage, at most of its edges.
-    None if edges have no ratio in common, as where all films break down within a sample.
+def _ratio(
+    shaft: Array, common_mode: Array, noise: float, noise_of_source: float
+) -> tuple[Estimate, int] | None:
+    """Change of the shaft voltage divided by the change of the common-mode voltage, at most of its edges, and
+    the number of samples that share this positive ratio. None if edges have no ratio in common, as where all
+    films break down within a sample.
 
     While an arc burns, the shaft voltage does not follow an edge: only changes that are large count. The
     half-sample mode is robust against edges with a collapse (D. R. Bickel and R. Fruehwirth, Comput. Stat.
@@ -304,7 +315,7 @@ def _ratio(shaft: Array, common_mode: Array, noise: float, noise_of_source: floa
     if size.size < least or not highest <= _SPREAD * value:
         return None
     scatter = _ROBUST * float(np.median(np.abs(ratios[near] - value))) * math.sqrt(0.5 * math.pi / size.size)
-    return Estimate(value, math.hypot(scatter, max(upper - value, 0.0)))
+    return Estimate(value, math.hypot(scatter, max(upper - value, 0.0))), int(size.size)
 
 
 def _width_of_edges(common_mode: Array, noise: float) -> int:
@@ -466,7 +477,9 @@ def _notes(record: ShaftFile, result: ShaftRecord) -> Iterator[ResultWarning]:
         )
         if result.breakdown is None:
             yield ResultWarning.of("shaft-record", "few", file=file, least=_FEW)
-    if result.peak is None:
+    if result.peak is None and record.common_mode_column is None:
         yield ResultWarning.of("shaft-record", "peak", file=file)
+    if result.inverted and result.ratio is not None:
+        yield ResultWarning.of("shaft-record", "inverted", file=file, ratio=-result.ratio.value)
     if record.common_mode_column is not None and result.ratio is None:
         yield ResultWarning.of("shaft-record", "ratio", file=file, step=amount(result.step, "s"))
