@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+import os.path
+from collections.abc import Iterable, Mapping
+from pathlib import Path
 from string import Formatter
 from typing import Any
 
@@ -12,6 +14,40 @@ from typing import Any
 _GROUPED, _MILLION, _LARGE = 1e4, 1e6, 1e9
 
 _RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def file_text(path: object) -> str:
+    """Name of a file without the folders of a machine: relative to the working folder, or alone elsewhere.
+
+    Examples
+    --------
+    >>> file_text("/home/ann/rig/scope.csv"), file_text("measurements/scope.csv")
+    ('scope.csv', 'measurements/scope.csv')
+    """
+    given = Path(str(path))
+    if not given.is_absolute():
+        return str(path)
+    try:
+        return given.relative_to(Path.cwd()).as_posix()
+    except (OSError, ValueError):
+        return given.name
+
+
+def file_texts(paths: Iterable[Any]) -> list[Any]:
+    """Names of files as by ``file_text``; with folders below a common one where names alone are equal.
+
+    Examples
+    --------
+    >>> file_texts(["/rig/a.csv", "/rig/b.csv", None]), file_texts(["/rig/1/a.csv", "/rig/2/a.csv"])
+    (['a.csv', 'b.csv', None], ['1/a.csv', '2/a.csv'])
+    """
+    listed = list(paths)
+    distinct = sorted({path for path in listed if isinstance(path, str)})
+    names = {path: file_text(path) for path in distinct}
+    if len(set(names.values())) < len(distinct) and all(Path(path).is_absolute() for path in distinct):
+        common = os.path.commonpath(distinct)
+        names = {path: Path(path).relative_to(common).as_posix() for path in distinct}
+    return [names.get(path, path) if isinstance(path, str) else path for path in listed]
 
 
 def formatted(value: float, digits: str, ceiling: float | None = None) -> str:

@@ -9,7 +9,7 @@ from types import MappingProxyType
 from typing import Any, Literal, Self
 
 from ehlectric.quantities.quantity import data_file
-from ehlectric.readable import filled_in
+from ehlectric.readable import file_text, filled_in
 
 # "severe": the numbers must not be used. "note": the numbers are valid, and the text describes how they were
 # obtained.
@@ -98,13 +98,16 @@ class ResultWarning:
     def of(cls, code: str, situation: str = "", /, **values: object) -> Self:
         """Return the warning with its text of ``warning_texts.toml``, filled with ``values`` by their names.
 
-        A code with several texts has one for each situation in which it is given.
+        A code with several texts has one for each situation in which it is given. A ``file`` is named without
+        the folders of its machine.
 
         Examples
         --------
         >>> print(ResultWarning.of("seed-repeated", times=2, seed=5).text[:36])
         2 rough surfaces have the seed 5: th
         """
+        if "file" in values:
+            values["file"] = file_text(values["file"])
         return cls(code, filled_in(_texts()[code][situation or "text"], values))
 
     @classmethod

@@ -10,7 +10,6 @@ from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from importlib.metadata import version
 from itertools import groupby
-from pathlib import Path
 from typing import Any
 
 from ehlectric.cases import library
@@ -31,6 +30,7 @@ from ehlectric.figures.figure_names import with_units_kept
 from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED, end_and_key, input_at
 from ehlectric.quantities.results import NAMES_OF_ENDS
 from ehlectric.quantities.rows import value_at
+from ehlectric.readable import file_text
 from ehlectric.report.report_content import DOI, Block, Cell, Link, Named, Section, Table, Text
 from ehlectric.report.report_texts import SENTENCES, TEXTS, conditions_of, limits_of, references_of
 from ehlectric.runtime.display import is_number
@@ -121,6 +121,8 @@ def input_text(case: SolvedCase, key: str, value: Any) -> str:
     """Value of an input as a report shows it, in a unit that suits it."""
     if value == INFINITE:
         return "infinite, a plane"
+    if key.endswith(".file"):
+        value = file_text(value)
     text = input_row(case, key, value).text
     return with_units_kept(printable(text.replace("ohm", "Ω") if is_number(value) else text))
 
@@ -357,7 +359,7 @@ def _given(case: SolvedCase, inputs: Sequence[Input]) -> Iterator[str]:
     for entry in inputs:
         key = end_and_key(entry.key)[1]
         # The folder of a file belongs to one machine.
-        value = Path(entry.value).name if key.endswith(".file") else input_text(case, entry.key, entry.value)
+        value = input_text(case, entry.key, entry.value)
         if key == "lubricant.base" and from_data_sheet:
             value = f"from a data sheet, with what that lacks from {value} of the library"
         yield f"{named(key).text} =\xa0{value}"

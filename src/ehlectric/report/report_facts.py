@@ -17,7 +17,7 @@ from ehlectric.figures.result_figures import default_figure, figure, figure_name
 from ehlectric.quantities.quantity import unbroken
 from ehlectric.quantities.result_warnings import CODES, ResultWarning, Severity
 from ehlectric.quantities.rows import Row, value_at
-from ehlectric.readable import capital, readable
+from ehlectric.readable import capital, file_text, readable
 from ehlectric.report.appendix import worded
 from ehlectric.report.report_content import DOI, Link, Part, Picture, Table, Text, WarningLine, Warnings
 from ehlectric.report.report_texts import SENTENCES, TEXTS
@@ -44,16 +44,25 @@ def part_of(result: Any, summary: Mapping[str, Any], *, date: str = "", **fields
     """
     names, default = figure_names(result), default_figure(result)[0].removesuffix(".png")
     first = next((name for name in (*_DECIDING, default) if name in names), "")
-    shared = {
+    shared: dict[str, Any] = {
         "lead": lead_of(result),
         "failure": "" if getattr(result, "converged", True) else SENTENCES["unsolved"],
         "verdict": getattr(result, "verdict", None),
         "warnings": result.all_warnings if isinstance(result, BearingResult) else result.warnings,
         "figures": tuple(sorted(names, key=lambda name: name != first)),
         "details": _details(summary, date),
-        "toml": result.case.described_toml(),
+        "toml": without_folders(result.case.described_toml()),
     }
     return Part(**shared | fields)
+
+
+# Absolute path in a text in TOML.
+_ABSOLUTE = re.compile(r'"((?:/|[A-Za-z]:\\\\)[^"\n]+\.\w+)"')
+
+
+def without_folders(toml: str) -> str:
+    """Text of a case whose files are named without the folders of a machine."""
+    return _ABSOLUTE.sub(lambda match: f'"{file_text(match[1].replace(2 * chr(92), chr(92)))}"', toml)
 
 
 def _details(summary: Mapping[str, Any], date: str) -> dict[str, str]:

@@ -15,11 +15,11 @@ from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.quantity import BOUNDS
 from ehlectric.quantities.rows import value_at
 from ehlectric.quantities.sheets import SWEEPS
-from ehlectric.readable import readable
+from ehlectric.readable import file_texts, readable
 from ehlectric.report.appendix import named
 from ehlectric.report.drive_report import deciding_blocks, listed_values, swept_values
 from ehlectric.report.report_content import Block, Cell, Named, Part, Section, Table, Text
-from ehlectric.report.report_facts import cell_table, lead_of, row_tables, swept_names
+from ehlectric.report.report_facts import cell_table, lead_of, row_tables, swept_names, without_folders
 from ehlectric.report.report_texts import SENTENCES
 from ehlectric.runtime.display import is_number
 from ehlectric.sweep import (
@@ -63,7 +63,7 @@ def sweep_part(results: SweepResults) -> Part:
         further=tuple(_sections(results)),
         rests=deciding_blocks(case, varied=results.varied) if isinstance(case, DriveCase) else (),
         details=_details(results),
-        toml=results.described_toml(),
+        toml=without_folders(results.described_toml()),
         varied=tuple(results.varied),
     )
 
@@ -171,7 +171,7 @@ def _status(point: Point) -> str:
 
 def _column(results: SweepResults, key: str, values: Iterable[Any]) -> tuple[str, list[str]]:
     """Head with the unit, and cells of a column."""
-    listed = list(values)
+    listed = file_texts(values) if key.endswith(".file") else list(values)
     label = label_of(key, results.case)
     numbers = np.array([float(value) for value in listed if is_number(value)])
     if not numbers.size:

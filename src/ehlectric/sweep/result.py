@@ -24,6 +24,7 @@ from ehlectric.quantities.results import TEXTS_OF_POINTS, is_text_of_points
 from ehlectric.quantities.sheets import SWEEP_COLUMNS
 from ehlectric.quantities.units import ROTATION
 from ehlectric.quantities.verdict import Verdict
+from ehlectric.readable import file_texts
 from ehlectric.runtime.display import ResultKind, Shown, headline, is_number, read_only
 from ehlectric.runtime.files import Content, column_head, csv_of, write_together
 from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
@@ -58,6 +59,7 @@ def columns_of(results: SweepPoints) -> dict[str, list[Any]]:
         "seconds": [point.seconds for point in points],
     }
     columns |= {key: [point.inputs[key] for point in points] for key in results.varied}
+    columns |= {key: file_texts(values) for key, values in columns.items() if key.endswith(".file")}
     summaries = texts_of(results) | numbers_of(results)
     return columns | {key: values for key, values in summaries.items() if key not in columns}
 
