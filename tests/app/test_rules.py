@@ -71,6 +71,30 @@ def test_a_designation_brings_its_class_as_in_a_file(base, clearance_class):
     assert case(file).bearing == case(found).bearing
 
 
+COATED = EXAMPLE.changed(
+    {"bearing.coating": {"ring": "outer", "thickness": "100 um", "relative_permittivity": 9.0}}
+)
+OF_DRIVE, OF_AXLE = (Inputs(tomllib.loads(example_text(name))) for name in ("drive", "e_axle"))
+
+
+@each(
+    "inputs, key, name",
+    [
+        (EXAMPLE, "bearing.base", "62088"),
+        (EXAMPLE, "bearing.base", "nu 9999"),
+        (changed(EXAMPLE, {"bearing.base": "6314-C3"}), "bearing.base", "6314-C3X9"),
+        (EXAMPLE, "lubricant.base", "fva-33"),
+        (COATED, "bearing.coating.base", "schaeffler-j99"),
+        (OF_DRIVE, "drive_end.bearing.base", "62088"),
+        (OF_AXLE, "bearing.1.base", "62088"),
+    ],
+)
+def test_a_refused_name_changes_nothing_else(inputs, key, name):
+    found = changed(inputs, {key: name})
+    assert found.value(key) == name
+    assert found.changed({key: inputs.value(key)}).table == inputs.table
+
+
 @each("base", ["625 ZZ", "6244"])
 def test_a_bore_without_classes_gets_a_clearance_to_be_set(base):
     found = changed(EXAMPLE, {"bearing.base": base})

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from copy import deepcopy
 from typing import Any
 
-from ehlectric.app.catalogue import bearing, coating, contradicts, designated
+from ehlectric.app.catalogue import bearing, coating, contradicts, designated, oil
 from ehlectric.app.form_fields.axle_fields import fitted_axle, without_first_values
 from ehlectric.app.form_fields.drive_fields import DRIVE_ALTERNATIVES, fitted_to_source, with_fitted_remedies
 from ehlectric.app.form_fields.field import Field, Group, first_of_kind, fitted_to_kind, form_data, kind_of
@@ -144,7 +144,8 @@ def changed(inputs: Inputs, changes: Mapping[str, Any], given: frozenset[str] = 
     """Inputs with new values by dotted key, and without those that they replace.
 
     None removes a key, and a mapping sets a table. With another kind of bearing, the first values of the old
-    kind become the first values of the new kind, except of the keys ``given``, which the user has set. With
+    kind become the first values of the new kind, except of the keys ``given``, which the user has set. A name
+    that the library does not know changes no other value. With
     another drawing of gears, the values of the example that would contradict it are removed.
 
     Examples
@@ -181,6 +182,10 @@ def _changed(inputs: Inputs, changes: Mapping[str, Any], set_by_user: frozenset[
     if isinstance(named, str):
         typed = {"designation": None} | designated(named)
         changes = {**changes, **{f"bearing.{key}": value for key, value in typed.items()}}
+        if not bearing(str(changes["bearing.base"])):
+            # A name that the library does not know replaces no values: the user corrects it.
+            changes = {key: value for key, value in changes.items() if key != "bearing.designation"}
+            return inputs.changed(changes)
     given = _flat(changes)
     displaced = (*_displaced(inputs, given), *of_the_example(inputs, given, set_by_user))
     dropped = {key: None for key in displaced if key not in given}
@@ -249,7 +254,7 @@ def is_custom(inputs: Inputs, key: str) -> bool:
 def _displaced(inputs: Inputs, given: Mapping[str, Any]) -> Iterable[str]:
     """Keys that new values replace."""
     new = {key for key, value in given.items() if value is not None}
-    if "lubricant.base" in new:
+    if "lubricant.base" in new and oil(str(given["lubricant.base"])):
         yield from _within(inputs, "lubricant")
     typed, clearance = inputs.value("bearing.designation"), given.get("bearing.clearance_class")
     if "bearing.base" in given or (typed and clearance and contradicts(str(typed), str(clearance))):
@@ -257,7 +262,7 @@ def _displaced(inputs: Inputs, given: Mapping[str, Any]) -> Iterable[str]:
     if "bearing.base" in new:
         names = {*DIMENSIONS, *bearing(str(inputs.value("bearing.base")))}
         yield from (f"bearing.{name}" for name in names - {"base"})
-    if "bearing.coating.base" in new:
+    if "bearing.coating.base" in new and coating(str(given["bearing.coating.base"])):
         known = {"ring", "thickness", "breakdown_voltage", "strength", "resistance"}
         yield from (f"bearing.coating.{name}" for name in known)
     geometry = inputs.value("contact.geometry") or "line"
