@@ -17,7 +17,7 @@ _RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def file_text(path: object) -> str:
-    """Name of a file without the folders of a machine: relative to the working folder, or alone elsewhere.
+    """Name of a file without the folders of a machine, relative to the working folder if this contains it.
 
     Examples
     --------
@@ -34,7 +34,7 @@ def file_text(path: object) -> str:
 
 
 def file_texts(paths: Iterable[Any]) -> list[Any]:
-    """Names of files as by ``file_text``; with folders below a common one where names alone are equal.
+    """Names of files as by ``file_text``; with folders below a common one if names are equal.
 
     Examples
     --------

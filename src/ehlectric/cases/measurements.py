@@ -825,7 +825,7 @@ def _merged(
 def _heads(path: Path, lines: list[str], book: ColumnBook) -> tuple[list[str], int, Dialect]:
     """Heads in the first line with a known quantity, the place of the line below, and their dialect."""
     wrong: InputError | None = None
-    found: Sequence[str] = ()
+    listed: Sequence[str] = ()
     for place in range(min(len(lines), _MOST_ABOVE)):
         record, below = record_at(lines, place)
         text = uncommented(record)
@@ -834,7 +834,7 @@ def _heads(path: Path, lines: list[str], book: ColumnBook) -> tuple[list[str], i
         if len(heads) > 1 and any(dialect.number(head) is not None for head in heads[:_MOST_COLUMNS]):
             # The name of a quantity with its value, as above the table of a rig.
             continue
-        found = heads if len(heads) >= len(found) else found
+        listed = heads if len(heads) >= len(listed) else listed
         if len(heads) == 1 and len(text) <= _LONGEST and _with_bare_unit(text.strip(), book) is not None:
             # A sentence may end with a unit.
             continue
@@ -850,7 +850,7 @@ def _heads(path: Path, lines: list[str], book: ColumnBook) -> tuple[list[str], i
             return heads, below, dialect
     if wrong is not None:
         raise InputError(path, str(wrong))
-    raise _unknown(path, found, book)
+    raise _unknown(path, listed, book)
 
 
 # Most headings that an error lists.

@@ -278,9 +278,9 @@ def _groups(places: IntArray, distance: int) -> list[IntArray]:
 def _ratio(
     shaft: Array, common_mode: Array, noise: float, noise_of_source: float
 ) -> tuple[Estimate, int] | None:
-    """Change of the shaft voltage divided by the change of the common-mode voltage, at most of its edges, and
-    the number of samples that share this positive ratio. None if edges have no ratio in common, as where all
-    films break down within a sample.
+    """Change of the shaft voltage divided by the change of the common-mode voltage, at most edges, and how
+    many samples share this positive ratio. None if edges have no ratio in common, as where all films break
+    down within a sample.
 
     While an arc burns, the shaft voltage does not follow an edge: only changes that are large count. The
     half-sample mode is robust against edges with a collapse (D. R. Bickel and R. Fruehwirth, Comput. Stat.
