@@ -2,6 +2,8 @@
 
 import csv
 import math
+import re
+import tomllib
 from collections import Counter
 from pathlib import Path
 
@@ -406,3 +408,34 @@ def test_a_class_of_a_kind_without_radial_clearance_is_refused_in_the_designatio
     with pytest.raises(InputError, match="'C3'") as caught:
         BearingCase.of(base=base, lubricant=OIL, **REST)
     assert caught.value.key == "bearing.base"
+
+
+@each(
+    "text, parts, coating",
+    [
+        ("FAG 6312-C-VL0241", ["'C'", "'VL0241'", "of SKF"], "skf-insocoat-vl0241"),
+        ("6312 XYZ-J20AA", ["'XYZ'", "'J20AA'", "of Schaeffler"], "schaeffler-j20aa"),
+        ("6312-VL2071", ["'VL2071'"], "skf-insocoat-vl2071"),
+    ],
+)
+def test_one_refusal_names_all_suffixes_with_lines_to_paste(text, parts, coating):
+    """The lines of the message, pasted into a file, are a base of the library and its coating."""
+    with pytest.raises(InputError) as error:
+        read_designation(text, known_bearings())
+    line = str(error.value)
+    assert [part for part in parts if part not in line] == []
+    base, coated = re.search("(base = '[^']+')$", line), re.search(r"bearing\.(coating = \{.*?\})", line)
+    pasted = tomllib.loads(f"{base[1]}\n{coated[1]}\n")
+    assert pasted == {"base": "6312", "coating": {"base": coating, "relative_permittivity": 9}}
+    assert coating in library.coating_names()
+
+
+@each(
+    "text, bore",
+    [("NCF 3010", 50.0), ("SL18 3010", 50.0), ("NU 2110", 50.0), ("6410", 50.0), ("7416 B", 80.0)],
+)
+def test_suggestions_have_the_bore_of_the_designation(text, bore):
+    """ISO 15: the last two digits are the bore divided by 5 mm."""
+    takes = no_such_bearing(text).takes
+    suggested = re.findall("such as ('.*?') \\(", takes)[0].replace("'", "").split(", ")
+    assert [1e3 * series()[name].bore for name in suggested] == pytest.approx([bore] * 3)

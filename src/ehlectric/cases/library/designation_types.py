@@ -19,6 +19,10 @@ from ehlectric.errors import InputError, shown
 _EXAMPLES = ("6208", "NU 210 ECP", "7210 BEP")
 
 
+# Least two digits at the end of a number that are the bore divided by 5 mm.
+_LEAST_OF_FIVES = 4
+
+
 @dataclass(frozen=True)
 class DesignationType:
     """Type of bearings whose designations begin in the same way."""
@@ -120,14 +124,23 @@ def _alike(text: str) -> list[str]:
 
 
 def _of_kind(kind: str, parts: Parts) -> list[str]:
-    """Bearings of a kind whose names are most similar to the number of a designation, nearest first."""
+    """Bearings of a kind with the bore and the name that are nearest to a designation, nearest first."""
     stem = parts.stems[0] if parts.stems else parts.head.lower()
     names = [name for name, entry in series().items() if entry.kind == kind]
 
-    def far(name: str) -> tuple[int, int]:
+    # The number of a needle bearing is its two dimensions.
+    number = None if "needle" in kind else re.search(r"\d(\d\d)(?!\d)", parts.head)
+    bore = 5e-3 * int(number[1]) if number is not None and int(number[1]) >= _LEAST_OF_FIVES else None
+
+    def far(name: str) -> tuple[float, int, int]:
         pairs = enumerate(zip(stem, name, strict=False))
         alike = next((place for place, (a, b) in pairs if a != b), min(len(stem), len(name)))
-        return -alike, abs(_digits(name.partition("-")[0] if name[0].isdigit() else name) - _digits(stem))
+        away = 0.0 if bore is None else round(abs(series()[name].bore - bore), 6)
+        return (
+            away,
+            -alike,
+            abs(_digits(name.partition("-")[0] if name[0].isdigit() else name) - _digits(stem)),
+        )
 
     return sorted(names, key=far)[:3]
 

@@ -285,8 +285,9 @@ def _check_angle_letters(text: str, name: str, rest: Sequence[str]) -> None:
 
 
 def _checked_suffixes(text: str, rest: Sequence[str], name: str) -> Iterator[Suffix]:
-    """Suffixes of a bearing; raises InputError for one that is unknown or may change its elements."""
+    """Suffixes of a bearing; raises one InputError for all that are unknown or may change its elements."""
     kind, of_series = kind_and_series(name)
+    wrong: list[str] = []
     bore = 1e3 * series()[name].bore if name in series() else None
     for part in _joined(rest, bore):
         known, unknown = parted(part, bore)
@@ -296,10 +297,15 @@ def _checked_suffixes(text: str, rest: Sequence[str], name: str) -> Iterator[Suf
                 f"a designation without {shown(unknown)}, which is no suffix that is known{latin}: it may "
                 "change the geometry; omit it only if the catalogue says that all elements are the same"
             )
-            raise InputError("base", got=shown(text), takes=takes)
+            wrong.append(takes)
         for suffix in known:
-            _check_suffix(text, suffix, kind, of_series)
+            try:
+                _check_suffix(text, suffix, kind, of_series)
+            except InputError as error:
+                wrong.append(error.takes or "")
         yield from known
+    if wrong:
+        raise InputError("base", got=shown(text), takes=f"{'; '.join(wrong)}; the rest is base = {name!r}")
 
 
 def _joined(rest: Sequence[str], bore: float | None) -> Iterator[str]:
