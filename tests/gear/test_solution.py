@@ -1,6 +1,7 @@
 """Solved gear pairs: stiffness, loss, temperatures, limits and symmetries."""
 
 import math
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -42,6 +43,14 @@ def test_stiffness_by_method_b(drawing, torque, pair, mesh):
     assert 1e-9 * stiffness == pytest.approx(pair, rel=1e-5)
     ratio = contact_path(gears).contact_ratio
     assert 1e-9 * mesh_stiffness(stiffness, ratio) == pytest.approx(mesh, rel=1e-5)
+
+
+@pytest.mark.parametrize(("degrees", "factor"), [(17.5, 0.95), (20.0, 1.0), (25.0, 1.1)])
+def test_the_pressure_angle_of_the_basic_rack_changes_the_stiffness(degrees, factor):
+    """C_B has the factor 1 - 0.02 (20 - alpha_n) of the angle in degrees; a spur pair keeps its q'."""
+    pair = replace(gear_pair(FZG_C), normal_pressure_angle=math.radians(degrees))
+    ratio = pair_stiffness(pair, 200e3) / pair_stiffness(gear_pair(FZG_C), 200e3)
+    assert ratio == pytest.approx(factor, rel=1e-12)
 
 
 def test_light_loads_have_softer_teeth():
@@ -87,6 +96,73 @@ def test_the_loss_factor_of_three_pairs_in_contact_is_the_sum_over_lines():
     power = 100.0 * solution.flanks.pinion_speed
     expected = loss_factor(solution.pair, solution.path)
     assert solution.sliding_power / power == pytest.approx(expected, rel=5e-3)
+
+
+FACTORS = ("application", "dynamic", "face_load", "transverse_load")
+
+
+@pytest.mark.parametrize("name", FACTORS)
+def test_load_factors_do_not_change_the_friction_loss(name):
+    """The mean loss of rigid sharing is P mu H_v of the transmitted power."""
+    given = {"operation__load_sharing": "rigid", "operation__friction_coefficient": 0.05}
+    case = case_of(**given, **{f"operation__{name}_factor": 1.5})
+    gear = ehlectric.solve_gear(case).summary()["gear"]
+    assert gear["loss"] == pytest.approx(gear["power"] * 0.05 * gear["loss_factor"], rel=5e-3)
+    assert gear["normal_force"] == pytest.approx(1.5 * solve_gear_pair(case_of()).normal_force, rel=1e-12)
+
+
+def test_load_factors_change_the_loss_of_asperities_by_their_share_of_the_load_alone():
+    """Thinner films under 1.5 times the load: asperities carry a little more of the nominal load."""
+    given = {"operation__load_sharing": "rigid", "operation__boundary_friction": 0.1}
+    losses = [
+        solve_gear_pair(case_of(**given, operation__application_factor=factor)).asperity_loss
+        for factor in (1.0, 1.5)
+    ]
+    assert 1.0 < losses[1] / losses[0] < 1.1
+
+
+def test_films_have_the_room_of_the_backlash():
+    """Films of rigid flanks are inversely proportional to the load; the middle of 60 µm is the limit."""
+    case = ehlectric.GearCase.from_toml(EXAMPLE)
+    torque = "gear.operation.pinion_torque"
+    small = solve_gear_pair(case.replace({torque: "0.1 N m"}))
+    with pytest.raises(InputError, match="normal backlash of 60 µm; expected about 35") as refused:
+        solve_gear_pair(case.replace({torque: "0.01 N m"}))
+    assert refused.value.key == torque
+    least = 0.1 * small.minimum_film / 30e-6
+    solve_gear_pair(case.replace({torque: 1.05 * least}))
+    with pytest.raises(InputError):
+        solve_gear_pair(case.replace({torque: 0.95 * least}))
+
+
+def test_pairs_without_a_known_backlash_have_the_recommended_one():
+    """ISO/TR 10064-2, table 1: 0.18 mm for modules of 5 mm and 100 mm, 0.09 mm for 1.5 mm and 50 mm."""
+    room = [
+        replace(gear_pair(FZG_C), normal_module=module, centre_distance=distance).recommended_backlash
+        for module, distance in ((5e-3, 100e-3), (1.5e-3, 50e-3))
+    ]
+    assert room == pytest.approx([0.18e-3, 0.09e-3], abs=0.01e-3)
+    with pytest.raises(InputError, match=r"assumed without gear\.normal_backlash"):
+        solve_gear_pair(case_of(centre_distance=None, operation__pinion_torque="1 mN m"))
+
+
+def test_a_film_that_takes_much_of_the_backlash_is_thinner_due_to_the_oil_behind_it():
+    """0.2 of the backlash: 5 = 1/x - 1/(1 - x), 5 x^2 - 7 x + 1 = 0, has the root 0.1615, 19 % less."""
+    case = ehlectric.GearCase.from_toml(EXAMPLE)
+    film = solve_gear_pair(case).minimum_film
+    texts = {
+        share: [
+            str(warning)
+            for warning in ehlectric.solve_gear(
+                case.replace({"gear.normal_backlash": film / share}), probable=False
+            ).warnings
+            if warning.code == "film-fills-backlash"
+        ]
+        for share in (0.09, 0.2)
+    }
+    assert texts[0.09] == []
+    assert "takes 20 % of the backlash" in texts[0.2][0]
+    assert "about 19 % thinner" in texts[0.2][0]
 
 
 def test_the_temperature_of_the_flanks_by_hand():

@@ -83,7 +83,7 @@ def gear_verdict(
     state = state_of(solution)
     breakdown = solution.breakdown_voltage
     share = solution.mean_contact_share
-    ratio = float(solution.films.minimum[solution.thinnest]) / solution.rq
+    ratio = solution.minimum_film / solution.rq
     assumed = tuple(_assumptions(solution))
     given = solution.case.gear.contact.conduction != "by-film"
     of_state = Statement.of(

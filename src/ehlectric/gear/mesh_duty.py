@@ -339,7 +339,7 @@ def _numbers(solution: GearSolution) -> tuple[float, ...]:
     share = solution.mean_contact_share
     exposure = -math.log1p(-share) if share < 1.0 else math.inf
     values = (
-        float(solution.films.minimum[solution.thinnest]) / solution.rq,
+        solution.minimum_film / solution.rq,
         solution.loads.mean(solution.capacitance),
         min(max(exposure, _LEAST_EXPOSURE), _MOST_EXPOSURE),
         solution.strength,

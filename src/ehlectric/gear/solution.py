@@ -82,13 +82,24 @@ class GearSolution:
     @property
     def smooth_breakdown_voltage(self) -> float | None:
         """Breakdown voltage of the minimum film between smooth flanks [V]; None without a strength."""
-        strength, films = self.strength, self.films
-        return None if strength is None else strength * float(films.minimum[films.thinnest])
+        strength = self.strength
+        return None if strength is None else strength * self.minimum_film
 
     @property
     def thinnest(self) -> int:
         """Number of the node with the smallest film of all lines."""
         return self.films.thinnest
+
+    @property
+    def minimum_film(self) -> float:
+        """Smallest film of all lines [m]."""
+        return float(self.films.minimum[self.thinnest])
+
+    @property
+    def backlash(self) -> float:
+        """Normal backlash [m]; the recommended one where it is not known."""
+        given = self.pair.normal_backlash
+        return self.pair.recommended_backlash if given is None else given
 
     @property
     def film_error(self) -> float:
@@ -169,7 +180,7 @@ class GearSolution:
 
     @property
     def sliding_power(self) -> float:
-        """Mean over the phases of the integral of w abs(v_g) over all lines [W]."""
+        """Mean over the phases of the integral of w abs(v_g)/K over all lines [W]."""
         return self._mean_loss(1.0)
 
     @property
@@ -190,9 +201,12 @@ class GearSolution:
         return self._mean_loss(friction * LOAD_SHARE["zhou_hoeprich"].share(ratio))
 
     def _mean_loss(self, friction: Numbers) -> float:
-        """Mean over the phases of the integral of mu w abs(v_g) over all lines [W]."""
-        films = self.films
-        return self.loads.mean(self.loads.along(friction * films.load * np.abs(films.sliding_speed)))
+        """Mean over the phases of the integral of mu w abs(v_g)/K over all lines [W].
+
+        Load factors K raise the load of a place or of an instant, and not the mean load of the mesh.
+        """
+        films, factor = self.films, self.case.gear.operation.load_factor
+        return self.loads.mean(self.loads.along(friction * films.load * np.abs(films.sliding_speed))) / factor
 
 
 def strength_of(case: GearCase) -> float | None:

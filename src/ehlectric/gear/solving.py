@@ -21,6 +21,7 @@ from ehlectric.gear.flank_oil import by_lubricant, check_oils, flank_oils
 from ehlectric.gear.load_sharing import SIDES, LineLoads, OpenPieces, loads_at_points
 from ehlectric.gear.mesh_capacitance import capacitance_per_length, open_capacitance
 from ehlectric.gear.solution import GearSolution, OperatingPair
+from ehlectric.quantities.formats import amount
 
 # Result of a pair, or why it has none.
 Outcome = GearSolution | InputError | ConvergenceError
@@ -143,10 +144,32 @@ def _solved(lubricant: Lubricant, pairs: Sequence[_LoadedPair]) -> dict[int, Out
     tables = film_tables(oils.oil, oils.groups, [_ranges(each.groups) for each in placed])
     for pair, each, contacts, table in zip(pairs, flanks, placed, tables, strict=True):
         try:
-            outcomes[pair.number] = _solution(pair, each, contacts, table)
-        except ConvergenceError as error:
+            solution = _solution(pair, each, contacts, table)
+            check_room(solution)
+            outcomes[pair.number] = solution
+        except (InputError, ConvergenceError) as error:
             outcomes[pair.number] = error
     return outcomes
+
+
+def check_room(solution: GearSolution) -> None:
+    """Refuse a mesh whose smallest film fills half the backlash.
+
+    Oil pushes back from behind the teeth: without a torque, a tooth is in the middle of the backlash. Raises
+    InputError.
+    """
+    torque, film = abs(solution.case.gear.operation.pinion_torque), solution.minimum_film
+    if film <= 0.5 * solution.backlash:
+        return
+    assumed = " (assumed without gear.normal_backlash)" if solution.pair.normal_backlash is None else ""
+    raise InputError(
+        "gear.operation.pinion_torque",
+        got=f"{amount(torque, 'N m')}, which gives a film of {amount(film, 'm')} in a normal backlash of "
+        f"{amount(solution.backlash, 'm')}{assumed}",
+        takes=f"about {amount(2.0 * torque * film / solution.backlash, 'N m')} or more, a lower speed, or a "
+        "lower viscosity: below this torque the oil on both sides of the teeth keeps them in the middle of "
+        "the backlash, and they may rattle",
+    )
 
 
 def _ranges(groups: Groups) -> tuple[float, float, float, float]:

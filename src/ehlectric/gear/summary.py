@@ -78,7 +78,7 @@ def _mesh(solution: GearSolution) -> dict[str, Any]:
     """Film, contact, capacitance and breakdown of the mesh."""
     films, capacitance = solution.films, solution.capacitance
     voltage = solution.breakdown_voltage
-    thinnest = float(films.minimum[films.thinnest])
+    thinnest = solution.minimum_film
     place, across = weakest(solution)
     loads = solution.loads
     mean = loads.mean(capacitance)

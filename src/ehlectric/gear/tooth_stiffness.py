@@ -5,10 +5,11 @@ With z_n = z/(cos^2 beta_b cos beta), the flexibility of a pair of teeth at the 
     q' = 0.04723 + 0.15551/z_n1 + 0.25791/z_n2 - 0.00635 x_1 - 0.11654 x_1/z_n1 - 0.00193 x_2
     - 0.24188 x_2/z_n2 + 0.00529 x_1^2 + 0.00182 x_2^2        [mm um/N]
     c' = 0.8 C_B cos beta/q'        c_gamma = c' (0.75 eps_alpha + 0.25)        [N/(mm um)]
+    C_B = (1 + 0.5 (1.2 - h_fP/m_n)) (1 - 0.02 (20 - alpha_n))        alpha_n [degrees]
 
-C_B = 0.975 for a dedendum of 1.25 modules of the basic rack, and steel gears of solid discs. Below 100 N/mm
-of F_t K_A/b both are less by the power 1/4 of that load over 100 N/mm. The text of the standard was not at
-hand: its constants are quoted from memory of it, an unverified source.
+for steel gears of solid discs, with a dedendum h_fP of 1.25 modules of the basic rack. Below 100 N/mm of
+F_t K_A/b both are less by the power 1/4 of that load over 100 N/mm. The text of the standard was not at hand:
+its constants are quoted from memory of it, an unverified source.
 """
 
 from __future__ import annotations
@@ -20,8 +21,11 @@ from ehlectric.gear.geometry import GearPair
 # Constants of q': 1, 1/z_n1, 1/z_n2, x_1, x_1/z_n1, x_2, x_2/z_n2, x_1^2, x_2^2.
 _FLEXIBILITY = (0.04723, 0.15551, 0.25791, -0.00635, -0.11654, -0.00193, -0.24188, 0.00529, 0.00182)
 
-# Factor between computed and measured stiffness of full discs, and factor C_B of a dedendum of 1.25 m_n.
-_MEASURED, _BASIC_RACK = 0.8, 0.975
+# Factor between computed and measured stiffness of full discs.
+_MEASURED = 0.8
+
+# Factor C_B of a dedendum of 1.25 m_n at 20 degrees, and its change per degree of the pressure angle.
+_BASIC_RACK, _PER_DEGREE = 0.975, 0.02
 
 # Load below which the stiffness decreases, F_t K_A/b [N/m].
 _LIGHT = 100e3
@@ -49,8 +53,9 @@ def pair_stiffness(pair: GearPair, load_per_width: float) -> float:
         first, second, x1, x2 = second, first, x2, x1
     terms = (1.0, first, second, x1, x1 * first, x2, x2 * second, x1 * x1, x2 * x2)
     flexibility: float = sum(factor * term for factor, term in zip(_FLEXIBILITY, terms, strict=True))
+    rack = _BASIC_RACK * (1.0 - _PER_DEGREE * (20.0 - math.degrees(pair.normal_pressure_angle)))
     light: float = min(1.0, load_per_width / _LIGHT) ** 0.25
-    return light * _UNIT * _MEASURED * _BASIC_RACK * math.cos(pair.helix_angle) / flexibility
+    return light * _UNIT * _MEASURED * rack * math.cos(pair.helix_angle) / flexibility
 
 
 def mesh_stiffness(pair_stiffness: float, contact_ratio: float) -> float:

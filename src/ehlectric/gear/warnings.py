@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 
 import numpy as np
@@ -14,6 +15,9 @@ from ehlectric.quantities.result_warnings import ResultWarning
 
 # Share of the capacitance above which films outside the atlas are worth a warning.
 _OUTSIDE = 0.1
+
+# Part of the backlash above which the film behind the teeth makes this film 10 % thinner.
+_FILLED = 0.1
 
 
 def gear_warnings(solution: GearSolution, *, in_axle: bool = False) -> Iterator[ResultWarning]:
@@ -41,7 +45,7 @@ _KEY = "gear.operation.bulk_temperature"
 def _of_pair(solution: GearSolution, *, in_axle: bool = False) -> Iterator[ResultWarning]:
     """Warnings that do not depend on the laws of the oil."""
     gear, operation = solution.case.gear, solution.case.gear.operation
-    ratio = float(solution.films.minimum[solution.thinnest]) / solution.rq
+    ratio, filled = solution.minimum_film / solution.rq, solution.minimum_film / solution.backlash
     if isinstance(operation.bulk_temperature, str):
         yield ResultWarning.of("flank-temperature-estimated", celsius=solution.bulk_temperature - 273.15)
     if operation.load_factor == 1.0:
@@ -60,8 +64,25 @@ def _of_pair(solution: GearSolution, *, in_axle: bool = False) -> Iterator[Resul
         yield ResultWarning.of("flanks-touch", ratio=ratio, height=gear.summit_height)
     if solution.pair.normal_backlash is None:
         yield ResultWarning.of("backlash-unknown")
+    if filled > _FILLED:
+        yield ResultWarning.of("film-fills-backlash", percent=100.0 * filled, less=100.0 * _thinner(filled))
     yield from _in_fillets(solution)
     yield from _outside_atlas(solution)
+
+
+def _thinner(filled: float) -> float:
+    """Relative decrease of a film by the film behind the teeth; ``filled``, film over the backlash.
+
+    Films of rigid flanks carry w ~ 1/h, so that the film x j between both flanks has 1/f = 1/x - 1/(1 - x).
+
+    Examples
+    --------
+    The tooth is nearly in the middle of the backlash under a small load:
+
+    >>> round(100.0 * (1.0 - _thinner(100.0)), 3)
+    0.499
+    """
+    return 1.0 - 0.5 * (1.0 + 2.0 * filled - math.sqrt(1.0 + 4.0 * filled**2)) / filled
 
 
 def _in_fillets(solution: GearSolution) -> Iterator[ResultWarning]:
