@@ -7,7 +7,8 @@ import pytest
 from ehlectric import AxleCase, DriveCase, InputError
 from ehlectric.axle.many_axles import solve_axles
 from ehlectric.axle.solution import loads_on_shafts, solve_elements
-from tests.axle.axles import ALONE, two_stages
+from tests.axle.axles import ALONE, BEARING, two_stages
+from tests.gear.pairs import FZG_C_CASE
 from tests.helpers.each import each
 from tests.helpers.places import DATA, EXAMPLES
 
@@ -274,6 +275,30 @@ def test_a_torque_that_a_bearing_cannot_carry_is_named_with_its_load(solved):
     assert error.text.startswith(
         "got 6000 N m, with which bearing 1 of rotor carries 197.8 kN of radial load"
     )
+
+
+@pytest.mark.parametrize("solved", [solve_elements, lambda case: next(iter(solve_axles([case])))])
+def test_a_bearing_that_no_gear_loads_is_named(solved):
+    """Statics: a spur gear in the plane of a bearing loads this bearing alone."""
+    places = [(shaft, at) for shaft in ("rotor", "out") for at in ("0 mm", "200 mm")]
+    mesh = {"gears": ["rotor", "out"], "at": ["0 mm", "0 mm"], "direction": "0 deg", "pair": FZG_C_CASE}
+    table = {
+        **ALONE,
+        "shaft": [*ALONE["shaft"], {"name": "out"}],
+        "bearing": [{"shaft": shaft, "at": at, **BEARING} for shaft, at in places],
+        "mesh": [mesh],
+    }
+    loads = loads_on_shafts(AxleCase.from_dict(table))["rotor"]
+    # Printed: radius of the working circle 36.6 mm, and working pressure angle.
+    force = 30.0 / 36.6e-3 / math.cos(math.radians(22.4388))
+    assert loads.radial == pytest.approx([force, 0.0], rel=1e-4, abs=1e-6)
+    try:
+        error = solved(AxleCase.from_dict(table))
+    except InputError as refused:
+        error = refused
+    assert error.key == "bearing.2.at"
+    assert "the gears of the shaft do not load the bearing" in error.text
+    assert "(bearing 2 of rotor)" in error.text
 
 
 def test_limits_of_angles_are_in_degrees():

@@ -46,7 +46,7 @@ from ehlectric.runtime.progress import Progress, silent
 # Assumptions about the conduction of gear meshes.
 CONDUCTIONS: tuple[Conduction, ...] = ("by-film", "always", "never")
 
-# Axial forces that are no load of a bearing [N].
+# Forces that are no load of a bearing [N].
 _NO_FORCE = 1e-6
 
 
@@ -461,6 +461,7 @@ def load_of(case: AxleCase, number: int, loads: Mapping[str, BearingLoads]) -> t
     on_shaft = loads[bearing.shaft]
     place = case.bearings_of(bearing.shaft).index(number)
     radial = on_shaft.radial[place]
+    radial = radial if radial > _NO_FORCE else 0.0
     if on_shaft.shares is not None:
         return radial, on_shaft.shares[place]
     return radial, on_shaft.axial if bearing.locating and abs(on_shaft.axial) > _NO_FORCE else 0.0

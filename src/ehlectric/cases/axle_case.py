@@ -242,6 +242,13 @@ class AxleCase(CaseFile, book="axle_file"):
             "lubricant": self.lubricant.model_copy(),
         }
         with self.naming(number):
+            if not any(keys[load] for load in loads):
+                raise InputError(
+                    "bearing.at",
+                    got="a place at which the gears of the shaft do not load the bearing",
+                    takes="another place of this bearing or of a gear: a bearing without a load has no film "
+                    "that is computed",
+                )
             return BearingCase.from_dict(table | {"discharge": self._discharge()})
 
     def keys_of_bearing(self, number: int) -> dict[str, Any]:
