@@ -243,6 +243,17 @@ def test_helix_to_zero_is_the_spur_pair(law):
     assert least - 1e-4 < helical["mesh"]["minimum_thickness"] / spur["mesh"]["minimum_thickness"] < 1.0001
 
 
+def test_helix_to_zero_has_the_smallest_film_of_the_spur_pair_with_relief_of_the_deflection():
+    """Lines that enter without a load leave no difference of both models."""
+    films = [
+        solve_gear_pair(
+            case_of(helix_angle=f"{angle} deg", tip_relief="40 um", tip_relief_length="3 mm")
+        ).minimum_film
+        for angle in (0.0, 1e-4)
+    ]
+    assert films[1] == pytest.approx(films[0], rel=1e-4)
+
+
 def test_the_first_stage_of_an_e_axle():
     """Capacitance and film of a separate program, at 150 N m and 12 000 rpm with flanks of 80 °C: 1.592 nF
     with a ripple of 1.6 %, and 118 nm at A under the mean line load. A line always passes A, so that the

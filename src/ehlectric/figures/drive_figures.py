@@ -79,8 +79,9 @@ def voltages(result: DriveResult) -> str:
     rates = " and ".join(
         f"{readable(end['events_per_second'])} ({name})" for end, name in zip(ends, NAMES, strict=True)
     )
-    mean = max(end["voltage_mean"] for end in ends if end["events"])
-    return f"{rates} discharges a second, mean {readable(mean)} V"
+    mean = sum(end["events"] * end["voltage_mean"] for end in ends if end["events"])
+    mean /= sum(end["events"] for end in ends)
+    return f"{rates} discharges a second, mean of all {readable(mean)} V"
 
 
 def histogram(result: DriveResult) -> str:

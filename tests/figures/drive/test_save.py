@@ -14,6 +14,7 @@ from ehlectric.drive.result import DriveResult
 from ehlectric.figures.drive_figures import shares_above
 from ehlectric.figures.figure_names import DRIVE_DUTY_FIGURE, DRIVE_FIGURE_FILES, FORMATS, in_formats
 from ehlectric.quantities.inputs import ENDS
+from ehlectric.readable import readable
 from tests.helpers.drives import drive_with_remedy
 from tests.helpers.titles import title_of
 
@@ -44,6 +45,12 @@ def one_sided(drive):
 def markers(ax, label):
     """Places of the markers of an entry of the legend."""
     return [line for line in ax.get_lines() if line.get_label() == label]
+
+
+@pytest.mark.slow
+def test_a_title_states_the_mean_voltage_of_the_discharges_of_both_bearings(drive):
+    mean = np.mean([abs(event["voltage"]) for event in drive.events()])
+    assert title_of(figure(drive, VOLTAGES)).endswith(f"mean of all {readable(mean)} V")
 
 
 @pytest.mark.slow
