@@ -1,4 +1,4 @@
-"""Film and electric field of lubricated contacts, and breakdown of the film in bearings.
+"""Film and electric field of lubricated contacts, and breakdown of the film in bearings and gears.
 
 The public names are listed in ``__init__.pyi``. Each is imported when it is first used, so
 ``import ehlectric`` loads no NumPy.

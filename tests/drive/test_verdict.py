@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ehlectric import solve_drive
+from ehlectric import load, save, solve_drive
 from ehlectric.drive.drive_record import event_rate
 from ehlectric.drive.result import DriveResult
 from ehlectric.drive.verdict_rule import SELDOM, drive_verdict, most_by_law
@@ -33,6 +33,25 @@ def quiet(drive, **values):
     }  # fmt: skip
     summary = drive.summary()
     return summary | {end: summary[end] | own | values for end in ("drive_end", "non_drive_end")}
+
+
+def test_a_voltage_far_above_a_narrow_threshold_breaks_each_film_down():
+    """Every renewed film breaks down, whatever the shape: the rate is that of new films."""
+    end = {"peak_voltage": 40.0, "breakdown_voltage": 1.0, "weibull_shape": 200.0, "renewal_time": 1e-4}
+    assert most_by_law(end) == 1e4
+    assert most_by_law(end | {"peak_voltage": 0.0}) == 0.0
+    assert most_by_law(end | {"peak_voltage": 1.0}) == pytest.approx(1e4 * (1.0 - math.exp(-1.0)))
+
+
+def test_a_simulation_is_saved_before_its_summary_fails(drive, tmp_path, monkeypatch):
+    def fails(self):
+        raise OverflowError("a number is too large")
+
+    monkeypatch.setattr(DriveResult, "summary", fails)
+    with pytest.raises(OverflowError):
+        save(drive, tmp_path / "out")
+    monkeypatch.undo()
+    assert load(tmp_path / "out").summary()["drive_end"] == drive.summary()["drive_end"]
 
 
 def judged(drive, summary, *warnings):

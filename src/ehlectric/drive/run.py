@@ -53,7 +53,7 @@ def solve_to_folder(
 def save(result: DriveResult, folder: str | Path, *, replaced: Sequence[str] = ()) -> list[Path]:
     """Save the result of a drive: summary.json, drive.nc and its tables as CSV, all files or none.
 
-    Files of the names ``replaced``, of an earlier result there, are removed. Raises an InputError where the
+    If the summary cannot be made, the simulation is saved before the error is raised. Files of the names ``replaced``, of an earlier result there, are removed. Raises an InputError where the
     folder cannot be used. The files are complete if an UnreadableError is raised, as ``load`` would refuse
     drive.nc.
     """
@@ -61,14 +61,16 @@ def save(result: DriveResult, folder: str | Path, *, replaced: Sequence[str] = (
     lines = [column_head(name, unit) for name, unit in SPECTRUM_COLUMNS.items()]
     dataset = result.to_xarray()
     contents: dict[str, Content] = {
-        SUMMARY: json_of(result.summary()),
         EVENTS: csv_of(heads, (row.values() for row in result.events())),
         SPECTRUM: csv_of(lines, result.spectrum().itertuples(index=False)),
         **({} if result.duty is None else result.duty.contents()),
         NETCDF: content_of(dataset),
     }
     with alone_in(folder, FILES, locks=[RESULT_LOCK]) as folder:
-        files = write_together(folder, contents, (*FILES, *replaced))
+        try:
+            contents = {SUMMARY: json_of(result.summary()), **contents}
+        finally:
+            files = write_together(folder, contents, (*FILES, *replaced))
     check_readable(dataset, folder / NETCDF, result_of)
     return files
 

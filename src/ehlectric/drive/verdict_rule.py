@@ -122,8 +122,11 @@ def most_by_law(end: Mapping[str, Any], part: float = 1.0) -> float:
     ratio = end["peak_voltage"] / (part * at)
     if end["weibull_shape"] is None:
         return math.inf if ratio >= 1.0 else 0.0
-    # A threshold that is reached at all is reached in each new film from some voltage on.
-    return float(-math.expm1(-(min(ratio, 1e3) ** end["weibull_shape"]))) / float(end["renewal_time"])
+    if ratio <= 0.0:
+        return 0.0
+    # Each new film breaks down long before the exponent is 100.
+    exponent = min(end["weibull_shape"] * math.log(ratio), 100.0)
+    return float(-math.expm1(-math.exp(exponent))) / float(end["renewal_time"])
 
 
 def _rates(summary: Mapping[str, Any]) -> Statement:

@@ -58,7 +58,7 @@ def vtkhdf_file(result: Any) -> bytes:
         raise InputError(
             ".vtkhdf",
             "holds film and field of a contact",
-            takes=".mat or .xlsx for results of bearings, drives and sweeps",
+            takes=".mat or .xlsx for results of bearings, gear pairs, drives, e-axles and sweeps",
         )
     load_library()
     import h5py

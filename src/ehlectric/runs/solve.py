@@ -242,7 +242,7 @@ def solve(
 
     Returns
     -------
-    Result, PointResult, BearingResult, GearResult or DriveResult
+    Result, PointResult, BearingResult, GearResult, DriveResult or AxleResult
         Result of a line contact, a point contact, a bearing, a gear pair or a drive. Its warnings are also
         logged.
 
