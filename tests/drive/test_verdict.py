@@ -44,7 +44,7 @@ def test_a_voltage_far_above_a_narrow_threshold_breaks_each_film_down():
 
 
 def test_a_simulation_is_saved_before_its_summary_fails(drive, tmp_path, monkeypatch):
-    def fails(self):
+    def fails(_):
         raise OverflowError("a number is too large")
 
     monkeypatch.setattr(DriveResult, "summary", fails)

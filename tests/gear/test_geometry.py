@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 import ehlectric
 from ehlectric.errors import InputError
 from ehlectric.gear.contact_path import contact_path
-from ehlectric.gear.geometry import gear_pair, involute, pressure_angle
+from ehlectric.gear.geometry import Drawing, gear_pair, involute, pressure_angle
 from tests.gear.pairs import FIRST_STAGE, FZG_A, FZG_C, SECOND_STAGE, case_of
 from tests.helpers.each import each
 
@@ -245,3 +245,14 @@ def test_the_backlash_that_follows_from_other_numbers_may_be_given(larger):
     assert gear_pair(replace(drawing, normal_backlash=backlash)).normal_backlash == backlash
     with pytest.raises(InputError, match="normal_backlash"):
         gear_pair(replace(drawing, normal_backlash=0.5 * backlash))
+
+
+@pytest.mark.parametrize("shift", [1.0, 0.5, 0.1, 0.0, -0.5])
+def test_a_ring_needs_a_smaller_sum_of_shifts(shift):
+    """inv alpha_w = inv alpha - 2 x tan alpha/8 of 16 and -24 teeth is negative above x = 0.1638."""
+    drawing = Drawing(3e-3, (16, -24), math.radians(20.0), 0.0, 18e-3, None, (0.0, shift), (54e-3, 69.4e-3))
+    if shift > 0.1638:
+        with pytest.raises(InputError, match=r"a smaller sum of both.*positive towards the axis"):
+            gear_pair(drawing)
+    else:
+        assert gear_pair(drawing).working_pressure_angle > 0.0

@@ -53,9 +53,9 @@ def solve_to_folder(
 def save(result: DriveResult, folder: str | Path, *, replaced: Sequence[str] = ()) -> list[Path]:
     """Save the result of a drive: summary.json, drive.nc and its tables as CSV, all files or none.
 
-    If the summary cannot be made, the simulation is saved before the error is raised. Files of the names ``replaced``, of an earlier result there, are removed. Raises an InputError where the
-    folder cannot be used. The files are complete if an UnreadableError is raised, as ``load`` would refuse
-    drive.nc.
+    If the summary cannot be made, the simulation is saved before the error is raised. Files of the names
+    ``replaced``, of an earlier result there, are removed. Raises an InputError where the folder cannot be
+    used. The files are complete if an UnreadableError is raised, as ``load`` would refuse drive.nc.
     """
     heads = ["bearing", *(column_head(name, unit) for name, unit in EVENT_COLUMNS.items())]
     lines = [column_head(name, unit) for name, unit in SPECTRUM_COLUMNS.items()]

@@ -312,10 +312,13 @@ def _distance_of(drawing: Drawing, total_shift: float) -> float:
     slope = 2.0 * math.tan(drawing.normal_pressure_angle) / sum(drawing.teeth)
     value = involute(alpha) + slope * total_shift
     if value <= 0.0:
+        ring = sum(drawing.teeth) < 0
+        size = "a smaller" if ring else "a larger"
+        sign = "; the shift of a ring is positive towards the axis" if ring else ""
         raise InputError(
             "gear.profile_shift",
             got=shown(total_shift) + " as sum",
-            takes="a larger sum of both: the working pressure angle would be 0",
+            takes=f"{size} sum of both: the working pressure angle would be 0{sign}",
         )
     return diameters * math.cos(alpha) / (2.0 * math.cos(pressure_angle(value)))
 
