@@ -241,7 +241,7 @@ def unused_keys(case: AxleCase) -> Iterator[ResultWarning]:
         if bearing.life is not None:
             # Load ratings also determine the geometry of a bearing that the library lacks.
             used = ("dynamic_rating", "static_rating") if is_estimated(bearing.base) else ()
-            given = [key for key in type(bearing.life).model_fields if key in bearing.life.model_fields_set]
+            given = given_keys(bearing.life, [*type(bearing.life).model_fields])
             if unused := [f"life.{key}" for key in given if key not in used]:
                 yield unused_note("life", unused, name)
         if unused := given_keys(bearing, _NOT_OF_BEARINGS):
@@ -252,9 +252,7 @@ def unused_keys(case: AxleCase) -> Iterator[ResultWarning]:
             "lubricant": pair.lubricant != case.lubricant,
             "discharge": given_keys(pair.discharge, [*Discharge.model_fields])
             and dict(pair.discharge) != dict(case.discharge),
-            "contacts": contacts is not None
-            and "contacts" in pair.model_fields_set
-            and pair.contacts != contacts,
+            "contacts": contacts not in (None, pair.contacts) and given_keys(pair, ["contacts"]),
         }
         if any(replaced.values()):
             yield unused_note("pair", [key for key, differs in replaced.items() if differs], name)

@@ -9,16 +9,21 @@ from ehlectric.quantities.result_warnings import ResultWarning
 
 
 def given_keys(table: Any, keys: Sequence[str]) -> list[str]:
-    """Return the dotted keys that a table and the tables in it contain."""
+    """Return the dotted keys that a table and the tables in it contain with another value than the default.
+
+    Values alone decide, so that a case that was saved and loaded has the same keys.
+    """
     return [key for key in keys if _is_given(table, key)]
 
 
 def _is_given(table: Any, key: str) -> bool:
     name, _, rest = key.partition(".")
-    if table is None or name not in table.model_fields_set:
+    if table is None:
         return False
     inner = getattr(table, name)
-    return _is_given(inner, rest) if rest else inner is not None
+    if rest:
+        return _is_given(inner, rest)
+    return bool(inner != type(table).model_fields[name].get_default(call_default_factory=True))
 
 
 def unused_note(situation: str, keys: Sequence[str], part: str = "") -> ResultWarning:
