@@ -179,7 +179,7 @@ def test_the_focus_is_seen_and_never_lost(page):
         stops.append(page.evaluate(_FOCUSED))
     assert "BODY" not in [one["name"] for one in stops]
     assert not any(one["hidden"] or one["size"] < 16 for one in stops), stops
-    buttons = [one for one in stops if one["test"] in ("copy-link", "compare", "vary", "open-file")]
+    buttons = [one for one in stops if one["test"] in ("copy-link", "compare", "vary", "open-case")]
     assert len(buttons) == 4
     assert all(one["outline"] != "none" and one["wide"] >= 1 for one in buttons), buttons
 
