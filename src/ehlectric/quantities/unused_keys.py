@@ -11,7 +11,7 @@ from ehlectric.quantities.result_warnings import ResultWarning
 def given_keys(table: Any, keys: Sequence[str]) -> list[str]:
     """Return the dotted keys that a table and the tables in it contain with another value than the default.
 
-    Values alone decide, so that a case that was saved and loaded has the same keys.
+    The values decide, so that a case that was saved and loaded has the same keys.
     """
     return [key for key in keys if _is_given(table, key)]
 
