@@ -12,7 +12,7 @@ from pydantic.json_schema import models_json_schema
 from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
-from ehlectric.cases.discharge_inputs import BearingDischarge
+from ehlectric.cases.discharge_inputs import AxleDischarge, BearingDischarge
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.input_keys import descriptions, phrase, tables_of_files
@@ -41,8 +41,8 @@ _Mode = Literal["validation", "serialization"]
 # Kind whose keys the book of inputs describes under its own name.
 _SWEEP = "sweep"
 
-# Tables of bearing files whose keys have the texts of a table of contacts.
-_ALIKE: tuple[tuple[str, type[Table]], ...] = (("discharge", BearingDischarge),)
+# Tables of bearing and axle files whose keys have the texts of a table of contacts.
+_ALIKE: tuple[tuple[str, type[Table]], ...] = (("discharge", BearingDischarge), ("discharge", AxleDischarge))
 
 # Examples that are shown of a key.
 _EXAMPLES = 3
