@@ -19,7 +19,7 @@ from ehlectric.drive.motor_circuit import oscillations
 from ehlectric.quantities.formats import amount, rpm_text
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.result_warnings import ResultWarning, active
-from ehlectric.quantities.unused_keys import unused_note
+from ehlectric.quantities.unused_keys import given_keys, unused_note
 
 # Share of time from which films are said to conduct on.
 MOSTLY = 0.2
@@ -63,10 +63,7 @@ def unused_keys(case: DriveCase) -> Iterator[ResultWarning]:
     """Yield notes about tables of both bearing files that the result of a drive does not use."""
     for end in ENDS[: 1 if case.non_drive_end is case.drive_end else 2]:
         bearing: BearingCase = getattr(case, end)
-        keys = [key for key in NOT_IN_DRIVES if getattr(bearing, key) is not None]
-        keys += [
-            f"discharge.{key}" for key in NOT_OF_DISCHARGES if getattr(bearing.discharge, key) is not None
-        ]
+        keys = given_keys(bearing, [*NOT_IN_DRIVES, *(f"discharge.{key}" for key in NOT_OF_DISCHARGES)])
         if keys:
             yield unused_note("end", keys, end)
 
