@@ -28,11 +28,18 @@ def test_that_fails_at_first():
 
 @pytest.fixture
 def suite(tmp_path, monkeypatch):
-    """Function that writes a suite whose marked test fails so many times, and goes to its folder."""
+    """Function that writes a suite whose marked test fails so many times, and goes to its folder.
+
+    It has two folders with a file of fixtures each, for which pytest compares its plugins.
+    """
 
     def write(mark, failures):
         (tmp_path / "pytest.ini").write_text("[pytest]\nmarkers =\n    slow\n    gate\n    browser\n")
-        (tmp_path / "test_suite.py").write_text(SUITE.format(mark=mark, failures=failures))
+        for folder in ("one", "two"):
+            (tmp_path / folder).mkdir()
+            (tmp_path / folder / "conftest.py").touch()
+        (tmp_path / "one" / "test_suite.py").write_text(SUITE.format(mark=mark, failures=failures))
+        (tmp_path / "two" / "test_other.py").write_text("def test_other():\n    pass\n")
         monkeypatch.chdir(tmp_path)
         monkeypatch.setenv("PYTHONPATH", str(ROOT))
         monkeypatch.setenv("PYTEST_ADDOPTS", "-p no:cacheprovider")
@@ -105,7 +112,7 @@ def test_the_rest_of_changed_rooms_is_what_the_part_leaves():
 def test_a_test_of_the_browser_has_a_second_try_alone(suite, capfd, mark, failures, passed):
     suite(mark, failures)
     assert schedule.passes("all", "-m", "not slow", "-n", "1", until=float("inf")) is passed
-    outcome = f"test_suite.py::test_that_fails_at_first: failed, {'passed' if passed else 'failed'} alone"
+    outcome = f"one/test_suite.py::test_that_fails_at_first: failed, {'passed' if passed else 'failed'} alone"
     assert (outcome in capfd.readouterr().out) is (mark == "browser")
 
 
@@ -115,6 +122,6 @@ def test_no_test_starts_after_the_time_of_a_run(suite, capfd):
     suite("gate", 9)
     assert schedule.passes("all", "-n", "2", until=0.0)
     printed = capfd.readouterr().out
-    assert "2 tests not run" in printed
-    assert "test_suite.py::test_long" in printed
+    assert "3 tests not run" in printed
+    assert "one/test_suite.py::test_long" in printed
     assert not (ROOT / "tries").exists()

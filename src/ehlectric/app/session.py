@@ -146,11 +146,17 @@ class Session:
         return self._names.get(file, shown_name(file))
 
     def named(self, text: str) -> str:
-        """Text in which paths of uploaded files are the names that their users know."""
-        for file, name in self._names.items():
-            if (path := self.path_of(file)) is not None:
-                text = text.replace(str(path), name)
-        return text
+        """Text in which uploaded files have the names that their users know.
+
+        Errors name a file by its path, warnings without the folders of the machine.
+        """
+        if not self._names or self._folder is None:
+            return text
+        names = {Path(file).name: name for file, name in self._names.items()}
+        roots = "|".join(re.escape(f"{root}{os.sep}") for root in (self._folder, self._folder.resolve()))
+        stored = "|".join(map(re.escape, names))
+        pattern = rf"(?<![\w./\\-])(?:(?:{roots})?{SURFACES}[/\\])?({stored})(?![\w-])"
+        return re.sub(pattern, lambda found: names[found[1]], text)
 
     def named_error(self, error: Exception) -> Exception:
         """Error in which paths of uploaded files are the names that their users know."""
