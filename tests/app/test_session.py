@@ -96,7 +96,13 @@ def test_errors_have_the_names_that_users_gave_to_their_files(work):
 def test_texts_have_the_names_that_users_gave_to_their_files_however_they_name_them(work):
     session = Session(work, Inputs({}))
     first, second = (session.add(name, b"1 2") for name in ("surface-2.csv", r"my \1.csv"))
-    texts = [str(session.path_of(second)), second, Path(second).name, f"{first}, {second}.", f"x-{second} {second}2"]
+    texts = [
+        str(session.path_of(second)),
+        second,
+        Path(second).name,
+        f"{first}, {second}.",
+        f"x-{second} {second}2",
+    ]
     assert [session.named(text) for text in texts] == [
         *[r"my \1.csv"] * 3,
         r"surface-2.csv, my \1.csv.",  # each once, as one name is another file's stored one

@@ -15,6 +15,7 @@ from ehlectric.cases.drive_inputs import Breakdown, Circuit
 from ehlectric.discharge.breakdown_rule import Chance
 from ehlectric.drive.drive_bearings import bearing_element
 from ehlectric.drive.motor_circuit import capacitive_divider
+from ehlectric.readable import readable
 from tests.axle.axles import ALONE, two_stages
 
 NANO = 1e-9
@@ -110,6 +111,34 @@ def test_a_shaft_alone_has_the_divider_of_a_drive():
         assert axle.elements[number].breakdown_voltage == pytest.approx(np.min(element.breakdown), rel=1e-12)
     divider, _ = capacitive_divider(Circuit.from_dict(ALONE["circuit"]), bearings)
     assert axle.potentials()["rotor"] == divider * 300.0
+
+
+def test_ceramic_elements_without_a_capacitance_bound_the_voltages():
+    """Divider by hand, C_wr/(C_wr + C_rf + C_1 + C_2), with the computed C_1 of the hybrid bearing and with 0."""
+    first, second = ALONE["bearing"]
+    case = AxleCase.from_dict(ALONE | {"bearing": [first | {"element_material": "silicon-nitride"}, second]})
+    solution = solve_elements(case)
+    hybrid, steel = (element.capacitance for element in solution.elements)
+    low, high = (case.edge * 0.1 / (1.1 + (steel + part * hybrid) / NANO) for part in (1.0, 0.0))
+    assert [solution.potentials()["rotor"], solution.without_bounds.potentials()["rotor"]] == pytest.approx(
+        [low, high], rel=1e-5
+    )
+    text = next(warning.text for warning in solution.warnings if warning.code == "capacitance-bound")
+    assert text.startswith("bearing 1 of rotor: the elements are ceramic")
+    assert f"rotor {readable(low)} to {readable(high)} V" in text
+    # The level is that of both ends; it is not known if a strength less by 20 % matters at one of them only.
+    assert high > 1.1 * low
+    for limit, level in ((0.5 * low, "red"), (1.05 * low / 0.8, "grey"), (3.0 * high, "green")):
+        elements = tuple(
+            replace(each, breakdown_voltage=limit if each.name == "bearing 2 of rotor" else None)
+            for each in solution.elements
+        )
+        assert axle_verdict(replace(solution, elements=elements)).level == level
+    given = case.replace({"bearing.1.element_capacitance": "1 pF"})
+    assert (given.tables_of_bearings[0].capacitance_is_bound, solve_elements(given).without_bounds) == (
+        False,
+        None,
+    )
 
 
 def test_the_example_of_an_axle():

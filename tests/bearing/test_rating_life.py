@@ -211,15 +211,17 @@ def test_own_ratings_are_the_printed_ones_within_a_per_cent():
 @pytest.mark.slow
 @pytest.mark.gate
 @pytest.mark.parametrize(
-    ("tables", "power", "changes"), [(BALLS, 0.0, {"bearing__axial_load": 0.0}), (ROLLERS, 2.0 / 3.0, {})]
+    ("tables", "power", "stress", "changes"),
+    [(BALLS, 0.0, 1.0, {"bearing__axial_load": 0.0}), (ROLLERS, 2.0 / 3.0, 0.83, {})],
 )
-def test_reference_life_is_near_the_basic_one(tables, power, changes):
+def test_reference_life_is_near_the_basic_one(tables, power, stress, changes):
     """Half of the ring is loaded without clearance, as ISO 281 takes it.
 
-    With rollers the reference life falls with the power 4 of the load and the basic one with 10/3.
+    With rollers the reference life falls with the power 4 of the load and the basic one with 10/3, and its
+    ratings are larger by the stress at the ends, λν = 0.83 in ISO/TS 16281.
     """
     found = life(tables, **CLEAN, bearing__radial_clearance="0 um", bearing__inner_speed="500 rpm", **changes)
-    steeper = (found["dynamic_rating"] / found["equivalent_load"]) ** power
+    steeper = (found["dynamic_rating"] / found["equivalent_load"]) ** power / stress**4
     assert found["reference_life"] == pytest.approx(steeper * found["basic_life"], rel=0.15)
 
 

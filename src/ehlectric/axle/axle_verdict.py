@@ -73,8 +73,9 @@ def axle_verdict(
     margin is the breakdown voltage divided by the voltage of the first element, 0 if its summits touch.
 
     ``pending``, whether the axle has probabilities that are not computed; the verdict then states this.
-    Grey without a strength, and if no element with a voltage breaks down. A margin that a change of the
-    strength by 20 % takes across 1 is yellow.
+    Grey without a strength, if no element with a voltage breaks down, and if the level depends on a
+    capacitance of ceramic elements that is not known. A margin that a change of the strength by 20 % takes
+    across 1 is yellow.
     """
     if not solution.case.discharge.has_strength:
         return no_verdict(Statement.of("no-strength"))
@@ -82,6 +83,15 @@ def axle_verdict(
     if not ranking:
         return no_verdict(Statement.of("axle-none"))
     (first, ratio), limits = ranking[0], solution.breakdown_voltages
+    if without := solution.without_bounds:
+        # The voltages are between those of both axles.
+        others = without.discharging() or [(first, 0.0)]
+        ratios = sorted((ratio, others[0][1]))
+        levels = {level_of(*strength_interval(1.0 / each)) if each else "green" for each in ratios}
+        if len(levels) > 1 or others[0][0] != first:
+            return no_verdict(
+                Statement.of("axle-ceramic", low=ratios[0], high=ratios[1], elements=solution.bounded)
+            )
     margin, touching = 1.0 / ratio, first not in limits
     interval = None if touching else strength_interval(margin)
     level, code = _level(solution, margin, None if uncertainty is None else uncertainty.chance)
@@ -100,7 +110,7 @@ def axle_verdict(
         )
     else:
         facts += (Fact("first.margin", margin, interval),)
-    without = (Statement.of("axle-without-probability"),) if pending else ()
+    uncomputed = (Statement.of("axle-without-probability"),) if pending else ()
     drive = solution.case.drive
     return Verdict(
         level,
@@ -112,7 +122,7 @@ def axle_verdict(
         else _first_film(solution, first, "axle-first"),
         Statement.of("at-axle", torque=drive.torque, speed=drive.speed, temperature=drive.temperature),
         facts=facts,
-        reasons=(*_reasons(solution, first), *doubts, *without),
+        reasons=(*_reasons(solution, first), *doubts, *uncomputed),
         assumptions=(Statement.of("axle-model"), strength_clause(solution.case.discharge)),
         bound="best",
     )

@@ -46,6 +46,9 @@ from ehlectric.runtime.progress import Progress, silent
 # Assumptions about the conduction of gear meshes.
 CONDUCTIONS: tuple[Conduction, ...] = ("by-film", "always", "never")
 
+# Part of a capacitance that stands for none, so that each shaft keeps its path to the housing.
+_NO_CAPACITANCE = 1e-6
+
 # Forces that are no load of a bearing [N].
 _NO_FORCE = 1e-6
 
@@ -197,6 +200,25 @@ class AxleSolution:
             math.inf if film.conducts else each.limit for each, film in zip(self.elements, films, strict=True)
         ]
         return np.array([abs(network.voltage(film, potentials)) for film in films]), np.array(limits)
+
+    @property
+    def bounded(self) -> tuple[str, ...]:
+        """Names of bearings whose capacitances are upper bounds, as their elements are ceramic."""
+        tables = zip(self.case.names_of_bearings(), self.case.tables_of_bearings, strict=True)
+        return tuple(name for name, bearing in tables if bearing.capacitance_is_bound)
+
+    @cached_property
+    def without_bounds(self) -> AxleSolution | None:
+        """Axle with almost no capacitance instead of those that are upper bounds; None without such a one."""
+        if not self.bounded:
+            return None
+        elements = tuple(
+            replace(each, capacitance=_NO_CAPACITANCE * each.capacitance)
+            if each.name in self.bounded
+            else each
+            for each in self.elements
+        )
+        return replace(self, elements=elements)
 
     @cached_property
     def changed_ranks(self) -> tuple[str, ...]:
@@ -403,12 +425,44 @@ def elements_of(films: SolvedFilms) -> AxleSolution:
     warnings = [*axle_warnings(case, films.turning, films.loads)]
     mounted = zip(case.names_of_bearings(), case.bearing, films.bearings, films.axial, strict=True)
     for name, bearing, result, axial in mounted:
-        warnings.append((name, result.warnings))
+        warnings.append((name, [each for each in result.warnings if each.code != "capacitance-bound"]))
         elements += bearing_elements(result.solution, [(name, bearing.shaft, axial)])
     for name, mesh, gears in zip(case.names_of_meshes(), case.mesh, films.meshes, strict=True):
         elements.append(mesh_element(name, mesh.gears, gears))
         warnings.append((name, tuple(gear_warnings(gears, in_axle=True))))
-    return AxleSolution(case, films.turning, tuple(elements), tuple(named_warnings(warnings)))
+    solution = AxleSolution(case, films.turning, tuple(elements), tuple(named_warnings(warnings)))
+    return replace(solution, warnings=(*solution.warnings, *_bound_warning(solution)))
+
+
+def _bound_warning(solution: AxleSolution) -> Iterator[ResultWarning]:
+    """Warning of bearings whose capacitances are upper bounds, with the voltages between the bounds and none.
+
+    In a network with one source, a capacitance to the housing that falls raises the voltages of all shafts.
+    """
+    without = solution.without_bounds
+    if without is None:
+        return
+    potentials = [each.potentials() for each in (solution, without)]
+    voltages = ", ".join(
+        f"{shaft.name} {_range([abs(each[shaft.name]) for each in potentials])} V"
+        for shaft in solution.case.shaft
+    )
+    (name, ratio), (other, highest) = (
+        each.discharging()[0] if each.discharging() else ("", math.inf) for each in (solution, without)
+    )
+    first = ""
+    if name != other:
+        first = f". With the bound, {name} breaks down first, and without capacitance {other}"
+    elif math.isfinite(ratio) and math.isfinite(highest):
+        first = f", and U/V_b of the first element, {name}, is {_range([ratio, highest])}"
+    yield ResultWarning.of(
+        "capacitance-bound", "axle", bearings=", ".join(solution.bounded), voltages=voltages, first=first
+    )
+
+
+def _range(values: Sequence[float]) -> str:
+    """Smallest and largest value as text."""
+    return f"{readable(min(values))} to {readable(max(values))}"
 
 
 def axle_warnings(

@@ -502,7 +502,7 @@ def capacitance(solution: BearingSolution, fill: Numbers | str | None = None) ->
 
 def capacitance_is_bound(solution: BearingSolution) -> bool:
     """Whether the capacitance is only an upper bound: ceramic elements without ``element_capacitance``."""
-    return solution.conditions.ceramic and solution.case.bearing.element_capacitance is None
+    return solution.case.bearing.capacitance_is_bound
 
 
 def plate_capacitance(solution: BearingSolution) -> Numbers | None:

@@ -513,6 +513,16 @@ class Bearing(Table, book="bearing", named_by="base"):
         return self.isothermal or (is_number(self.summit_height) and self.summit_height == 0.0)
 
     @property
+    def ceramic(self) -> bool:
+        """Whether the elements insulate."""
+        return not library.solid(self.element_material)["conducting"]
+
+    @property
+    def capacitance_is_bound(self) -> bool:
+        """Whether the capacitance is an upper bound: ceramic elements without ``element_capacitance``."""
+        return self.ceramic and self.element_capacitance is None
+
+    @property
     def rows(self) -> int:
         """Number of bearings side by side: 2 of a pair."""
         return 1 if self.pair is None else 2
@@ -543,8 +553,7 @@ class Bearing(Table, book="bearing", named_by="base"):
             if self.kind not in GEOMETRY_CONSTANTS:
                 takes = "'flooded' or a number: its rule has no constant for a needle roller bearing"
                 raise InputError("supply", got=shown(self.supply), takes=takes)
-        ceramic = not library.solid(self.element_material)["conducting"]
-        if self.element_capacitance is not None and not ceramic:
+        if self.element_capacitance is not None and not self.ceramic:
             raise InputError.worded(
                 "element_capacitance",
                 "is only for ceramic elements; the capacitance of steel elements is computed",

@@ -80,10 +80,12 @@ def bearing_warnings(bearings: tuple[BearingResult, BearingResult]) -> Iterator[
 
 
 def _of_bearing(result: BearingResult) -> Iterator[ResultWarning]:
-    """Warnings of a bearing, where the warning of touching surfaces states what a drive makes of them."""
+    """Warnings of a bearing; those of touching surfaces and ceramic elements in words about a drive."""
     for warning in result.warnings:
         if warning.code == "touching" and conducts(result.solution):
             yield ResultWarning.of("touching", "drive", ratio=lambda_text(result.solution))
+        elif warning.code == "capacitance-bound":
+            yield ResultWarning.of("capacitance-bound", "drive")
         else:
             yield warning
 

@@ -36,6 +36,12 @@ def _cell(value: float | None, factor: float = 1.0) -> str:
     return "–" if value is None else readable(factor * value)
 
 
+def _to_housing(summary: Summary, value: float | None) -> str:
+    """Voltage of a shaft or a bearing, a lower bound where capacitances of bearings are upper bounds."""
+    bound = "≥ " if value is not None and "capacitance-bound" in summary["warning_codes"] else ""
+    return f"{bound}{_cell(value)}"
+
+
 def element_cells(summary: Summary) -> Iterator[tuple[str, ...]]:
     """Yield the heads of the table of bearings and meshes, then a row for each, the first to break down
     first.
@@ -49,7 +55,7 @@ def element_cells(summary: Summary) -> Iterator[tuple[str, ...]]:
             _cell(row["lambda_ratio"]),
             _cell(row["capacitance"], 1e9),
             _cell(row["breakdown_voltage"]),
-            _cell(row["voltage"]),
+            _cell(row["voltage"]) if row["radial_load"] is None else _to_housing(summary, row["voltage"]),
             ratio_word(row) or _cell(row["voltage_ratio"]),
         )
 
@@ -74,9 +80,7 @@ def shaft_cells(summary: Summary) -> Iterator[tuple[str, ...]]:
             printable(row["shaft"]),
             _cell(row["speed"], _RPM),
             _cell(row["torque"]),
-            _cell(row["voltage"]),
-            _cell(row["voltage_always"]),
-            _cell(row["voltage_never"]),
+            *(_to_housing(summary, row[key]) for key in ("voltage", "voltage_always", "voltage_never")),
         )
 
 
