@@ -425,7 +425,7 @@ def elements_of(films: SolvedFilms) -> AxleSolution:
     warnings = [*axle_warnings(case, films.turning, films.loads)]
     mounted = zip(case.names_of_bearings(), case.bearing, films.bearings, films.axial, strict=True)
     for name, bearing, result, axial in mounted:
-        warnings.append((name, [each for each in result.warnings if each.code != "capacitance-bound"]))
+        warnings.append((name, tuple(each for each in result.warnings if each.code != "capacitance-bound")))
         elements += bearing_elements(result.solution, [(name, bearing.shaft, axial)])
     for name, mesh, gears in zip(case.names_of_meshes(), case.mesh, films.meshes, strict=True):
         elements.append(mesh_element(name, mesh.gears, gears))
