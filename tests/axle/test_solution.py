@@ -114,7 +114,7 @@ def test_a_shaft_alone_has_the_divider_of_a_drive():
 
 
 def test_ceramic_elements_without_a_capacitance_bound_the_voltages():
-    """Divider by hand, C_wr/(C_wr + C_rf + C_1 + C_2), with the computed C_1 of a hybrid bearing and with 0."""
+    """Divider by hand, C_wr/(C_wr + C_rf + C_1 + C_2), C_1 of the hybrid bearing as computed and 0."""
     first, second = ALONE["bearing"]
     case = AxleCase.from_dict(ALONE | {"bearing": [first | {"element_material": "silicon-nitride"}, second]})
     solution = solve_elements(case)
@@ -134,7 +134,9 @@ def test_ceramic_elements_without_a_capacitance_bound_the_voltages():
             for each in solution.elements
         )
         assert axle_verdict(replace(solution, elements=elements)).level == level
-    given = case.replace({"bearing.1.element_capacitance": "1 pF"})
+    given = case.replace(
+        {"bearing.rotor.element_capacitance": "1 pF", "bearing.rotor.element_material": "silicon-nitride"}
+    )
     assert (given.tables_of_bearings[0].capacitance_is_bound, solve_elements(given).without_bounds) == (
         False,
         None,
