@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from ehlectric.calibration.causes import CauseSearch
 from ehlectric.calibration.posterior import Nearest, chi_squares, infer, nearest_of, weights_of
 from ehlectric.formulas.sobol import sobol_points
+from ehlectric.runtime.progress import silent
 
 ENDS = (0.05, 0.5, 0.95)
 
@@ -150,3 +153,40 @@ def test_the_nearest_prediction_of_a_linear_model_is_its_inverse():
     found = nearest_of(predict, at, predict(at), measured, np.full(2, 0.01), np.ones(2, dtype=bool), 1)
     assert found.at == pytest.approx([0.4, 0.7], abs=1e-3)
     assert found.predictions == pytest.approx(measured, abs=1e-3)
+
+
+def test_a_voltage_of_summits_that_almost_touch_is_explained():
+    """Breakdown voltage of a film h less summits s, 0 where they touch; both from 0 to 1.
+
+    A value near 0 means h = s, whatever s is: s keeps its range of 0.05 to 0.95, and h follows s.
+    """
+
+    def predict(at):
+        return np.maximum(2.0 * (at[:, :1] - at[:, 1:]), 0.0)
+
+    values, uncertainties = np.array([2.4e-3]), np.array([1.2e-4])
+    posterior = infer(predict, 2, values, uncertainties, samples=512)
+    assert posterior.explained
+    assert abs(posterior.nearest.predictions[0] - values[0]) < 3.0 * uncertainties[0]
+    assert posterior.correlation[0, 1] > 0.9
+    assert posterior.quantiles((0.05, 0.95))[1] == pytest.approx([0.05, 0.95], abs=0.1)
+    assert posterior.effective >= 5.0
+    # A value beyond the ranges is still unexplained, and one of touching summits as well.
+    assert not infer(predict, 2, np.array([2.2]), np.array([0.01]), samples=64).explained
+    touching = infer(lambda at: 0.0 * predict(at), 2, values, uncertainties, samples=64)
+    assert (touching.explained, touching.nearest.predictions.tolist()) == (False, [0.0])
+
+
+def test_a_line_without_a_prediction_at_its_start_has_no_step():
+    """Points that are computed together with others may have no prediction, though they had one alone."""
+    rounds = iter(range(9))
+
+    def predict(at):
+        return 2.0 * at if next(rounds) < 3 else np.full(at.shape, np.nan)
+
+    row = SimpleNamespace(value=3.0, quantity="capacitance")
+    names = [SimpleNamespace(key="films", label="films")]
+    model = SimpleNamespace(names=lambda: names, values=lambda _, at: 1.0 + at)
+    posterior = infer(lambda at: 2.0 * at, 1, np.array([3.0]), np.array([0.1]), samples=64)
+    search = CauseSearch(model, (row,), predict, posterior, 1, silent)
+    assert search._steps(0, [(posterior.nearest.at, 1.0), (posterior.nearest.at, -1.0)]) == []

@@ -277,8 +277,11 @@ class CauseSearch:
                     brackets.append(np.linspace(steps[best - 1], high, _REFINED))
             better, requested = kept, brackets
             lines = self._on_lines(place, better, requested)
+        better = [way for way, (steps, _) in zip(better, lines, strict=True) if len(steps)]
         ends = []
         for steps, predictions in lines:
+            if not len(steps):
+                continue
             fine = np.linspace(steps[0], steps[-1], _BETWEEN)
             between = np.stack([np.interp(fine, steps, column) for column in predictions.T], axis=-1)
             ends.append(fine[[int(np.argmin(chi_squares(between, values, errors)))]])

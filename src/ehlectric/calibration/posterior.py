@@ -39,6 +39,9 @@ Errors = Callable[[Array], Array]
 # Effective number of points below which weights count as collapsed.
 LEAST_EFFECTIVE = 50.0
 
+# Effective number of points below which the uncertainties are widened.
+_TOO_FEW = 5.0
+
 # Points at which polynomials are evaluated at once, and seed of all random numbers.
 _DENSE, SEED = 8192, 1
 
@@ -59,6 +62,10 @@ UNEXPLAINED = float(2.0 * scipy.special.ndtr(-3.0))
 
 # Steps of the search for the nearest prediction, and of the search for the errors of likely predictions.
 _SEARCH, _WIDENED = 6, 3
+
+# Standard uncertainties from which a value is searched on a line between smaller and larger predictions, points
+# on the line, and how often it is narrowed to two of them.
+_FAR, _ON_LINE, _NARROWED = 3.0, 33, 3
 
 
 def chi_squares(predictions: Array, values: Array, uncertainties: Array) -> Array:
@@ -142,6 +149,7 @@ class Posterior:
     uncertainties: Array
     residuals: Array  # deviation of each nearest prediction in standard uncertainties, shape (m,)
     chain: bool  # whether the points are from a Markov chain
+    widened: float = 1.0  # factor on the uncertainties, so that enough points have weight
 
     @property
     def effective(self) -> float:
@@ -205,6 +213,10 @@ def infer(
         predictions = np.concatenate([predictions, predict(at[len(first) :])])
     at = at[: len(predictions)]
     uncertainties = _widened(uncertainties, at, predictions, values, errors)
+    prior_predictions = predictions
+    nonzero = _NonZero(predict, values > _FAR * uncertainties)
+    if np.any(np.all(np.isfinite(nonzero.kept(predictions)), axis=1)):
+        predict, predictions = nonzero, nonzero.kept(predictions)
     chi2 = chi_squares(predictions, values, uncertainties)
     if not np.any(np.isfinite(chi2)):
         raise InputError("measured", "has values that the model does not compute at any inputs")
@@ -217,7 +229,7 @@ def infer(
         at=at,
         weights=weights,
         predictions=predictions,
-        prior_predictions=predictions,
+        prior_predictions=prior_predictions,
         prior_at=at,
         active=active,
         emulator=emulator,
@@ -249,7 +261,40 @@ def infer(
         if smaller is None:
             break
         box = smaller
-    return best
+    return best if best.effective >= _TOO_FEW else _widely(posterior, chi2)
+
+
+def _widely(posterior: Posterior, chi2: Array) -> Posterior:
+    """Points of the design with uncertainties so much larger that enough of them have weight; ``chi2`` of the
+    points, shape (n,). The posterior itself if they have no such points.
+    """
+
+    def weights(logarithm: float) -> Array:
+        return weights_of(chi2 / math.exp(2.0 * logarithm))
+
+    low, high = 0.0, 0.5 * math.log(max(float(np.max(chi2[np.isfinite(chi2)])), 1.0))
+    if effective_number(weights(high)) < LEAST_EFFECTIVE:
+        return posterior
+    logarithm = scipy.optimize.brentq(lambda x: effective_number(weights(x)) - LEAST_EFFECTIVE, low, high)
+    return replace(posterior, weights=weights(logarithm), widened=math.exp(logarithm))
+
+
+@dataclass(frozen=True)
+class _NonZero:
+    """Model that predicts nothing where a value of 0 cannot be what was measured, as the breakdown voltage of
+    surfaces that touch: a measured voltage then belongs to the films that separate them.
+    """
+
+    predict: Predict
+    measured: Mask  # whether a measured value is far from 0, shape (m,)
+
+    def __call__(self, at: Array) -> Array:
+        """Return predictions at points, shape (n, k) -> (n, m)."""
+        return self.kept(self.predict(at))
+
+    def kept(self, predictions: Array) -> Array:
+        """Predictions, NaN instead of 0."""
+        return np.where((predictions == 0.0) & self.measured, np.nan, predictions)
 
 
 def _active(predict: Predict, at: Array, predictions: Array) -> Mask:
@@ -346,7 +391,35 @@ class _Measured:
                 if np.max(np.abs(following - now)) < 1e-6:
                     break
                 now = following
+        for j in np.flatnonzero(np.abs(prediction - self.values) > _FAR * self.uncertainties).tolist():
+            found = self._between(at, predictions, chi2, j)
+            if found is not None and found[2] < least:
+                point, prediction, least = found
         return Nearest(point, prediction, least, self._freedom(emulator, point, prediction))
+
+    def _between(
+        self, at: Array, predictions: Array, chi2: Array, j: int
+    ) -> tuple[Array, Array, float] | None:
+        """Point, prediction and chi2 where the value ``j`` is met on the line from the nearest larger prediction
+        of it to the closest point with a smaller one or none; None without both.
+
+        Voltages that fall to 0 as summits begin to touch are small in a thin layer that no point hits.
+        """
+        column = np.nan_to_num(predictions[:, j])
+        below, above = column <= self.values[j], column >= self.values[j]
+        if not (np.any(below) and np.any(above)):
+            return None
+        high = at[int(np.argmin(np.where(above, chi2, np.inf)))]
+        low = at[int(np.argmin(np.where(below, np.sum(np.square(at - high), axis=1), np.inf)))]
+        for _ in range(_NARROWED):
+            line = low + np.linspace(0.0, 1.0, _ON_LINE)[:, np.newaxis] * (high - low)
+            known = self.predict(line)
+            larger = np.flatnonzero(known[:, j] > self.values[j])
+            last = int(larger[0]) if larger.size else len(line) - 1
+            low, high = line[max(last - 1, 0)], line[last]
+        found = chi_squares(known, self.values, self.uncertainties)
+        best = int(np.argmin(np.where(np.isfinite(found), found, np.inf)))
+        return line[best], known[best], float(found[best])
 
     def _least_squares(self, emulator: Emulator, now: Array, known: Array) -> Array:
         """Inputs at which shifted polynomials are nearest to the measured values, shape (k,)."""

@@ -452,7 +452,9 @@ class _Compared:
         for places in self._repeated(posterior):
             texts = " and ".join(row_text(self.given.values[place]) for place in places[:_NAMED])
             yield ResultWarning.of("measured-twice", values=texts)
-        if posterior.explained and posterior.effective < LEAST_EFFECTIVE:
+        if posterior.widened > 1.0:
+            yield ResultWarning.of("effective-samples-few", "widened", factor=posterior.widened)
+        elif posterior.explained and posterior.effective < LEAST_EFFECTIVE:
             yield ResultWarning.of("effective-samples-few", effective=posterior.effective)
 
     def _repeated(self, posterior: Posterior) -> Iterator[list[int]]:

@@ -67,6 +67,7 @@ _WAYS: Mapping[str, Callable[[Any], str]] = {
     ", ": lambda parts: ", ".join(parts),
     " and ": lambda parts: " and ".join(parts),
     "; ": lambda parts: "; ".join(parts),
+    "; or ": lambda parts: "; or ".join(parts),
 }
 
 
