@@ -182,7 +182,7 @@ def test_a_line_without_a_prediction_at_its_start_has_no_step():
     rounds = iter(range(9))
 
     def predict(at):
-        return 2.0 * at if next(rounds) < 3 else np.full(at.shape, np.nan)
+        return 2.0 * at if next(rounds) < 2 else np.full(at.shape, np.nan)
 
     row = SimpleNamespace(value=3.0, quantity="capacitance")
     names = [SimpleNamespace(key="films", label="films")]

@@ -63,8 +63,8 @@ UNEXPLAINED = float(2.0 * scipy.special.ndtr(-3.0))
 # Steps of the search for the nearest prediction, and of the search for the errors of likely predictions.
 _SEARCH, _WIDENED = 6, 3
 
-# Standard uncertainties from which a value is searched on a line between smaller and larger predictions, points
-# on the line, and how often it is narrowed to two of them.
+# Standard uncertainties from which a value is searched on a line between smaller and larger predictions,
+# points on the line, and how often it is narrowed to two of them.
 _FAR, _ON_LINE, _NARROWED = 3.0, 33, 3
 
 
@@ -400,8 +400,8 @@ class _Measured:
     def _between(
         self, at: Array, predictions: Array, chi2: Array, j: int
     ) -> tuple[Array, Array, float] | None:
-        """Point, prediction and chi2 where the value ``j`` is met on the line from the nearest larger prediction
-        of it to the closest point with a smaller one or none; None without both.
+        """Point, prediction and chi2 where the value ``j`` is met on the line from the nearest larger
+        prediction of it to the closest point with a smaller one or none; None without both.
 
         Voltages that fall to 0 as summits begin to touch are small in a thin layer that no point hits.
         """
