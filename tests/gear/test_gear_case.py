@@ -157,3 +157,49 @@ def test_usual_drawings_run(drawing, law):
     assert mean <= high * (1.0 + 1e-12)
     assert answer["mesh"]["capacitance_low"] <= answer["mesh"]["capacitance"]
     assert answer["points"]["C"]["slide_to_roll_ratio"] == pytest.approx(0.0, abs=1e-9)
+
+
+LISTS = {
+    "gear.flank_ra": (("0.05 um +- 30 %", "0.06 um to 0.08 um"), ((3.5e-8, 6.5e-8), (6e-8, 8e-8))),
+    "gear.tip_relief": (("8 um +- 2 um", "8 um +- 25 %"), ((6e-6, 10e-6), (6e-6, 10e-6))),
+    "gear.tip_diameter": (("82.46 mm +- 10 um", "118.36 mm"), ((82.45e-3, 82.47e-3), None)),
+    "gear.profile_shift": (("0.1817 +- 0.01", "0.1715"), ((0.1717, 0.1917), None)),
+    "gear.summit_height": ("2 +- 0.5", (1.5, 2.5)),
+}
+
+
+@pytest.mark.parametrize("key", LISTS)
+def test_numbers_of_each_gear_have_their_uncertainty_where_the_file_has_them(key):
+    text, expected = LISTS[key]
+    texts, ends = (text, expected) if isinstance(text, tuple) else ((text,), (expected,))
+    tables, leaf = case_of(tip_relief_length="1.5 mm", tip_relief="8 um").to_dict(), key.rpartition(".")[2]
+    bare = [float(each) if key == "gear.profile_shift" and "+-" not in each else each for each in texts]
+    tables["gear"][leaf] = bare if isinstance(text, tuple) else text
+    case = GearCase.from_dict(tables)
+    names = [f"{key}.{place}" for place in range(1, len(texts) + 1)] if isinstance(text, tuple) else [key]
+    found = {entry.key: (entry.low, entry.high) for entry in case.ranges}
+    wanted = {name: span for name, span in zip(names, ends, strict=True) if span is not None}
+    assert found.keys() == wanted.keys()
+    for name, span in wanted.items():
+        assert found[name] == pytest.approx(span, rel=1e-9)
+    assert GearCase.from_dict(case.to_dict()) == case
+    # The table of ranges has the same keys, and a new list removes the ranges of its numbers.
+    spans = {name: [*span] for name, span in found.items()}
+    assert case.replace({key: case.to_dict()["gear"][leaf]}, ranges=spans).ranges == case.ranges
+    assert case.replace({key: case.to_dict()["gear"][leaf]}).ranges is None
+
+
+@pytest.mark.parametrize("place", ["0", "3", "first"])
+def test_a_place_that_a_list_does_not_have_is_refused(place):
+    with pytest.raises(InputError, match=r"place from 1 to 2|unknown key"):
+        case_of().replace({f"gear.flank_ra.{place}": 1e-7})
+
+
+def test_a_roughness_with_a_range_is_not_asked_for():
+    case = GearCase.from_toml(EXAMPLES / "gear_pair.toml")
+    asked = "composite roughness"
+    assert asked in str(ehlectric.solve_gear(case).verdict)
+    given = case.replace(ranges={"gear.flank_ra.1": ["0.04 um", "0.06 um"]})
+    result = ehlectric.solve_gear(given)
+    assert asked not in str(result.verdict)
+    assert "gear.flank_ra.1" in [each.key for each in result.uncertainty.inputs]

@@ -7,6 +7,7 @@ from ehlectric import InputError, evaluate
 from ehlectric.cases.gear_case import GearCase, changed_pair
 from ehlectric.cases.table_edits import flattened
 from ehlectric.gear import solve_gear
+from ehlectric.quantities.results import GEAR_KEYS
 from tests.gear.pairs import FZG_C_CASE, case_of
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
@@ -133,3 +134,23 @@ def test_a_wrong_pair_has_the_error_of_the_replaced_case(changes):
     with pytest.raises(InputError) as changed:
         changed_pair(case_of(), changes)
     assert str(changed.value) == str(replaced.value)
+
+
+def test_values_of_each_gear_are_lists_or_keys_of_their_numbers():
+    """Both spellings, and the command for each point alone, have the same numbers."""
+    case, pairs = GearCase.from_toml(EXAMPLES / "gear_pair.toml"), [[5e-8, 5e-8], [3e-8, 6e-8], [6e-8, 3e-8]]
+    lists = evaluate(case, {"gear.flank_ra": pairs})
+    keys = evaluate(case, {f"gear.flank_ra.{n + 1}": [pair[n] for pair in pairs] for n in range(2)})
+    alone = [solve_gear(case.replace({"gear.flank_ra": pair})).summary()["mesh"]["margin"] for pair in pairs]
+    for found in (lists, keys):
+        assert found["mesh.margin"].values == pytest.approx(alone, rel=1e-8)
+
+
+@each("torque", ["30 N m", "1e-6 N m"])
+@each("flank_ra", [5e-8, 1e-6])
+def test_the_keys_do_not_depend_on_the_values(torque, flank_ra):
+    """All keys of the book are there, with films, with touching flanks, and where points are refused."""
+    case = GearCase.from_toml(EXAMPLES / "gear_pair.toml").replace({"gear.flank_ra": flank_ra})
+    found = evaluate(case, {"gear.operation.pinion_torque": [torque]})
+    known = {key for key in GEAR_KEYS if key.partition(".")[0] in ("gear", "mesh", "points")}
+    assert {*found} == known | {"converged", "reason", "warning_codes"}

@@ -23,6 +23,7 @@ from ehlectric.cases.library.estimated_bearings import (
     is_estimated,
     series,
 )
+from ehlectric.cases.table_edits import given_value
 from ehlectric.discharge.breakdown_rule import STRENGTH_UNKNOWN
 from ehlectric.lubricant.data_sheet import GRADE_WIDTH
 from ehlectric.quantities.rows import value_at
@@ -171,7 +172,7 @@ def temperature_change(key: str, value: float) -> Change:
 
 def stated_change(table: Mapping[str, Any], entry: InputRange) -> Change:
     """Change of an input of a case with the given tables to the ends of its range in the file."""
-    value = float(value_at(table, entry.key))
+    value = float(given_value(table, entry.key))
     return Change(entry.key, label_of(entry.key), value, (entry.low, entry.high))
 
 

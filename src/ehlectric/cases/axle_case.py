@@ -43,6 +43,7 @@ from ehlectric.cases.input_ranges import (
     check_range,
     field_of_values,
     flat_changes,
+    is_changed,
     ranges_of,
     table_of_ranges,
 )
@@ -52,12 +53,11 @@ from ehlectric.cases.oil_inputs import displace_oil
 from ehlectric.cases.roughness_inputs import find_files
 from ehlectric.cases.stated_ranges import with_stated_ranges
 from ehlectric.cases.table import CaseFile, Table, Title, number_of
-from ehlectric.cases.table_edits import displace, nested, set_keys
+from ehlectric.cases.table_edits import displace, given_value, nested, set_keys
 from ehlectric.errors import InputError, shown, within
 from ehlectric.quantities.alternatives import ALTERNATIVES
 from ehlectric.quantities.formats import amount, operating_point, speed_text
 from ehlectric.quantities.inputs import end_and_key
-from ehlectric.quantities.rows import value_at
 from ehlectric.runtime.display import headline, is_number
 
 # Relative difference of speeds along two paths that is rounding.
@@ -416,7 +416,7 @@ class AxleCase(CaseFile, book="axle_file"):
                 tables = {"bearing": self.tables_of_bearings[number].model_dump(mode="json")}
             elif kind == "mesh":
                 tables = table["pair"]
-        return value_at(tables, inner)
+        return given_value(tables, inner)
 
     def _check_measured(self) -> None:
         """Check that measured values belong to elements and shafts of the axle."""
@@ -641,7 +641,8 @@ class AxleCase(CaseFile, book="axle_file"):
         inner = {key: value for key, value in flat.items() if "." in key and key.split(".")[0] in lists}
         set_keys(table, {key: value for key, value in flat.items() if key not in inner})
         if "ranges" in table and "ranges" not in flat:
-            table["ranges"] = {key: ends for key, ends in table["ranges"].items() if key not in flat}
+            ranges = table["ranges"].items()
+            table["ranges"] = {key: ends for key, ends in ranges if not is_changed(key, flat)}
         for key, value in inner.items():
             name, _, rest = (*key.split(".", 2), "", "")[:3]
             lists[name](table, key, {rest: value})

@@ -194,7 +194,7 @@ def _with_numbers(table: _Numbers, start: str, changes: Mapping[str, Any], *, pa
         values = {}
         for key, value in changes.items():
             name = key.removeprefix(start)
-            values[name] = value
+            values[name] = tuple(value) if isinstance(value, list) else value
             if not parsed:
                 with within(name):
                     values[name] = _NUMBERS[start][key].parse(value)

@@ -18,6 +18,7 @@ from ehlectric.cases.table import (
     advice_for,
     annotation_of,
     any_of,
+    item_of,
     meant,
     name_key,
     nearest,
@@ -188,7 +189,7 @@ def input_field(key: str) -> FieldInfo:
     field: FieldInfo | None = None
     inner: Any = model
     for name in names:
-        field = None if inner is None else inner.known_keys().get(name)
+        field = item_of(field, name) if inner is None else inner.known_keys().get(name)
         if field is None:
             if advice := advice_for(leaf, model):
                 raise InputError.worded(key, f"unknown key; {advice}")

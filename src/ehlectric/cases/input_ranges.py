@@ -9,10 +9,9 @@ from typing import Any
 from pydantic.fields import FieldInfo
 
 from ehlectric.cases.amounts import Amount
-from ehlectric.cases.table import Table, field_within, nearest_key, number_of, parser_of, table_of
-from ehlectric.cases.table_edits import flattened
+from ehlectric.cases.table import Table, field_within, leaf_of, nearest_key, number_of, parser_of, table_of
+from ehlectric.cases.table_edits import flattened, given_value
 from ehlectric.errors import InputError, shown
-from ehlectric.quantities.rows import value_at
 from ehlectric.runtime.display import is_number
 
 # Relative error by which a value that is rounded may lie outside of its range.
@@ -64,7 +63,7 @@ def _flat(tables: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, An
 
 
 def _range(key: str, value: Any, field: FieldInfo) -> InputRange:
-    parse, leaf = parser_of(field, key), key.rpartition(".")[2]
+    parse, leaf = parser_of(field, key), leaf_of(key)
     if isinstance(value, str) or not isinstance(value, Sequence) or len(value) != 2:
         raise InputError(key, got=shown(value), takes="a list of two values, the smaller one first")
     ends = []
@@ -111,8 +110,13 @@ def drop_ranges(table: dict[str, Any], changes: Mapping[str, Any]) -> None:
         table["ranges"] = {
             key: ends
             for key, ends in table["ranges"].items()
-            if key not in changes and is_number(value_at(table, key))
+            if not is_changed(key, changes) and is_number(given_value(table, key))
         }
+
+
+def is_changed(key: str, changes: Mapping[str, Any]) -> bool:
+    """Whether the number of a range, or the list that contains it, is changed."""
+    return key in changes or key.rpartition(".")[0] in changes
 
 
 def table_of_ranges(ranges: Sequence[InputRange] | None) -> dict[str, list[int | float]] | None:
@@ -124,12 +128,15 @@ def check_ranges(ranges: Sequence[InputRange] | None, tables: Callable[[], Mappi
     """Check that each range is one of a number of the file with these tables, and contains it."""
     table = tables() if ranges else {}
     for span in ranges or ():
-        check_range(span, value_at(table, span.key))
+        check_range(span, given_value(table, span.key))
 
 
 def check_range(span: InputRange, value: Any) -> None:
     """Check that a range contains the number of the file."""
     key = f"ranges.{span.key}"
+    if isinstance(value, list | tuple):
+        takes = " and ".join(f"{span.key}.{place}" for place in range(1, len(value) + 1))
+        raise InputError(key, got="one range of a list", takes=f"ranges of its numbers, {takes}")
     if not is_number(value):
         raise InputError(key, got="a range", takes=f"a number for {span.key} in the file too")
     if not span.low - _ROUNDING * abs(span.low) <= value <= span.high + _ROUNDING * abs(span.high):

@@ -55,6 +55,8 @@ def _texts(tables: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, s
     for name, value in tables.items():
         if isinstance(value, Mapping) and name != "ranges":
             yield from _texts(value, f"{prefix}{name}.")
+        elif isinstance(value, list | tuple):
+            yield from _texts({str(place): item for place, item in enumerate(value, 1)}, f"{prefix}{name}.")
         elif isinstance(value, str) and (_AROUND.fullmatch(value) or _BETWEEN.fullmatch(value)):
             yield prefix + str(name), value
 
@@ -66,6 +68,9 @@ def _changed(tables: Mapping[str, Any], values: Mapping[str, Any], prefix: str =
         key = f"{prefix}{name}"
         if isinstance(value, Mapping) and name != "ranges":
             changed[name] = _changed(value, values, f"{key}.")
+        elif isinstance(value, list | tuple):
+            numbered = {str(place): item for place, item in enumerate(value, 1)}
+            changed[name] = [*_changed(numbered, values, f"{key}.").values()]
         else:
             changed[name] = values.get(key, value)
     return changed
@@ -171,7 +176,9 @@ def _number(text: str) -> float | None:
 
 
 def _parsed(key: str, quantity: Amount, entry: object) -> float:
-    """Value of an entry in SI units."""
+    """Value of an entry in SI units; the text of a number without a unit is this number."""
+    if not quantity.unit and isinstance(entry, str) and (number := _number(entry)) is not None:
+        entry = number
     try:
         return quantity.parse(entry, written=isinstance(entry, str))
     except InputError as error:

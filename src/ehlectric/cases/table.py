@@ -617,13 +617,24 @@ def fields_within(model: type[Table], prefix: str = "") -> dict[str, FieldInfo]:
 
 
 def field_within(model: type[Table], key: str) -> FieldInfo | None:
-    """Field of a dotted key of a table or of the tables in it; None for an unknown key."""
+    """Field of a dotted key of a table or of the tables in it; None for an unknown key.
+
+    Numbers of a list have its key with their place from 1, as ``gear.flank_ra.1``.
+    """
     inner: type[Table] | None = model
     field: FieldInfo | None = None
     for name in key.split("."):
-        field = None if inner is None else inner.known_keys().get(name)
+        field = item_of(field, name) if inner is None else inner.known_keys().get(name)
         inner = None if field is None else table_of(field.annotation)
     return field
+
+
+def item_of(field: FieldInfo | None, place: str) -> FieldInfo | None:
+    """Field of a number of a list at a place, as "1" for the first; None where the field is no such list."""
+    annotation = None if field is None else annotation_of(field)
+    if not isinstance(annotation, Amounts) or not place.isdecimal() or int(place) == 0:
+        return None
+    return FieldInfo.from_annotation(Annotated[float, annotation.each])  # type: ignore[arg-type]
 
 
 def name_key(key: str, model: type[Table]) -> str:
@@ -688,17 +699,31 @@ def _kind(key: str, model: type[Table]) -> str:
 def parser_of(field: FieldInfo, key: str) -> Callable[..., Table]:
     """Function that makes a table of one value by the rules of a field, under the last part of its key."""
     annotation = Annotated[field.annotation, *field.metadata] if field.metadata else field.annotation
-    keys: Any = {key.rpartition(".")[2]: (annotation, ...)}
+    keys: Any = {leaf_of(key): (annotation, ...)}
     model: type[Table] = create_model("Value", __base__=Table, **keys)
     return partial(_parsed, model, key)
 
 
 def _parsed(model: type[Table], key: str, value: object, *, written: bool = False) -> Table:
-    table, _, leaf = key.rpartition(".")
+    table, leaf = key.rpartition(".")[0], leaf_of(key)
     try:
         return model.from_written({leaf: value}) if written else model.from_dict({leaf: value})
     except InputError as error:
+        if not key.endswith(leaf):
+            raise error.with_text(key, error.text) from None
         raise error.under(table) if table else error from None
+
+
+def leaf_of(key: str) -> str:
+    """Last part of a dotted key, or a name for the place of a number in a list.
+
+    Examples
+    --------
+    >>> leaf_of("gear.helix_angle"), leaf_of("gear.flank_ra.1")
+    ('helix_angle', 'number')
+    """
+    leaf = key.rpartition(".")[2]
+    return "number" if leaf.isdecimal() else leaf
 
 
 def table_of(annotation: Any) -> type[Table] | None:

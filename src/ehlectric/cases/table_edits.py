@@ -10,11 +10,13 @@ from pydantic import BaseModel
 from ehlectric.cases.oil_inputs import displace_oil
 from ehlectric.errors import InputError, shown
 from ehlectric.quantities.alternatives import ALTERNATIVES, CONTACT_ALTERNATIVES, GRID_OF_ANY, ONLY, Rows
+from ehlectric.quantities.rows import value_at
+from ehlectric.runtime.display import is_number
 
 
 def set_keys(table: dict[str, Any], flat: Mapping[str, Any]) -> None:
-    """Set values of nested tables by dotted key; a table in a list is named by its number, from 1. Raises
-    InputError if a part of a key is not the name of a table, or not the number of a table in a list.
+    """Set values of nested tables by dotted key; a table or a number in a list is named by its place, from 1.
+    Raises InputError if a part of a key is not the name of a table, or not a place in a list.
 
     Examples
     --------
@@ -26,13 +28,38 @@ def set_keys(table: dict[str, Any], flat: Mapping[str, Any]) -> None:
     for key, value in flat.items():
         *parents, leaf = key.split(".")
         target: Any = table
-        for parent in parents:
+        for place, parent in enumerate(parents, 1):
+            if leaf.isdecimal() and place == len(parents) and is_number(target.get(parent)):
+                # One number that holds for both gears.
+                target[parent] = [target[parent]] * 2
             target = _part(target, parent, key)
+        if isinstance(target, list) and target and all(map(is_number, target)):
+            if not (leaf.isdecimal() and 1 <= int(leaf) <= len(target)):
+                raise InputError(key, got=shown(leaf), takes=f"a place from 1 to {len(target)} in the list")
+            target[int(leaf) - 1] = value
+            continue
         if isinstance(target, list):
             raise InputError(key, "is a table", takes=f"one of its keys, as {key}.surface")
         # An empty value adds a missing table, but does not change an existing table.
         if not (isinstance(value, dict) and not value and isinstance(target.get(leaf), dict)):
             target[leaf] = value
+
+
+def given_value(table: Mapping[str, Any], key: str) -> Any:
+    """Value at the dotted key of an input, in which places in lists count from 1; None where there is none.
+
+    Examples
+    --------
+    >>> given_value({"gear": {"flank_ra": [5e-8, 1e-7]}}, "gear.flank_ra.2")
+    1e-07
+    """
+    above, _, leaf = key.rpartition(".")
+    if not (above and leaf.isdecimal()):
+        return value_at(table, key)
+    values = value_at(table, above)
+    if isinstance(values, list | tuple):
+        return values[int(leaf) - 1] if 1 <= int(leaf) <= len(values) else None
+    return values  # one number for both
 
 
 def _part(table: Any, name: str, key: str) -> Any:

@@ -175,6 +175,10 @@ def _operating_point(solution: GearSolution) -> Statement:
     )
 
 
+# Keys whose ranges are those of the roughness.
+_ROUGHNESS = ("gear.flank_ra", "gear.composite_rq")
+
+
 def _assumptions(solution: GearSolution) -> Iterator[Statement]:
     """Clauses on what is assumed."""
     operation = solution.case.gear.operation
@@ -184,7 +188,7 @@ def _assumptions(solution: GearSolution) -> Iterator[Statement]:
     has_strength = solution.case.discharge.has_strength
     if has_strength and not touching and state_of(solution) != CONDUCTS:
         yield strength_clause(solution.case.discharge, stated.get("discharge.dielectric_strength"))
-    if (has_strength or touching) and not {"gear.flank_ra", "gear.composite_rq"} & stated.keys():
+    if (has_strength or touching) and not any(key.startswith(_ROUGHNESS) for key in stated):
         yield Statement.of("exact-roughness", rq=solution.rq)
     if isinstance(operation.bulk_temperature, str):
         yield Statement.of("mesh-bulk", temperature=solution.bulk_temperature)

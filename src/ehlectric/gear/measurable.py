@@ -12,6 +12,7 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.bearing import FILMS, MARGIN, OF_TABLE, Change, Names, at_point
 from ehlectric.cases.gear_case import GearCase
+from ehlectric.cases.table_edits import given_value
 from ehlectric.discharge.breakdown_rule import Chance
 from ehlectric.gear.gear_verdict import gear_verdict
 from ehlectric.gear.solving import solve_gear_pair
@@ -132,5 +133,5 @@ def _at_point(
 ) -> dict[str, Any]:
     """Changes of the case at an operating point."""
     both = changes.keys() & point.keys()
-    deviating = {key: at_point(key, point[key], changes[key], float(value_at(table, key))) for key in both}
+    deviating = {key: at_point(key, point[key], changes[key], float(given_value(table, key))) for key in both}
     return {**changes, **point, **deviating}

@@ -47,6 +47,23 @@ def is_text_of_points(key: str) -> bool:
     return key in TEXTS_OF_POINTS or (key.startswith("elements.") and key.endswith(".state"))
 
 
+# Results that are no number, and no text that differs between points: tables, and ends of dotted keys.
+_WORDS = ("laws",)
+_ENDS_OF_WORDS = ("_source", "_limits", ".contact_model", ".contacts", ".name", ".element", ".shaft")
+
+
+def is_number_of_points(key: str) -> bool:
+    """Whether a result of a dotted key is a number, also where no point has one.
+
+    Examples
+    --------
+    >>> is_number_of_points("bearing.first_break"), is_number_of_points("life.static_rating_source")
+    (True, False)
+    """
+    words = any(part in key.split(".") for part in _WORDS) or key.endswith(_ENDS_OF_WORDS)
+    return not (words or is_text_of_points(key))
+
+
 # Statistics of the discharges of a bearing, by the ends of their keys.
 STATISTICS = {"mean": "mean", "median": "median", "high": "95th percentile", "largest": "maximum"}
 

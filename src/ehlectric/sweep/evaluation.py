@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ehlectric.arrays import IntArray
+from ehlectric.arrays import Array, IntArray
 from ehlectric.bearing import Columns, columns_of, many_of, required_quick_case
 from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.bearing_case import BearingCase
@@ -17,8 +18,8 @@ from ehlectric.cases.input_keys import is_quantity, key_of_names
 from ehlectric.contact import case_with_laws
 from ehlectric.errors import InputError, shown
 from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED, end_and_replaced
-from ehlectric.quantities.results import is_text_of_points
-from ehlectric.sweep.axis_labels import label_of
+from ehlectric.quantities.results import is_number_of_points, is_text_of_points
+from ehlectric.sweep.axis_labels import label_of, result_keys
 from ehlectric.sweep.points_of_cases import axle_columns, gear_columns
 from ehlectric.version import __version__
 
@@ -186,6 +187,28 @@ def _groups(given: Mapping[str, Any], number: int) -> Iterator[tuple[IntArray, d
 _NAMES = {BearingCase: "Bearing", GearCase: "Gear pair", AxleCase: "Axle"}
 
 
+# Tables of the numbers of points.
+_TABLES = {
+    BearingCase: ("bearing", "lubricant", "mechanics", "life"),
+    GearCase: ("gear", "mesh", "points"),
+    AxleCase: ("edge", "first", "elements", "shafts"),
+}
+_ROWS = ("elements", "shafts")
+
+
+def _missing(case: BearingCase | GearCase | AxleCase, number: int) -> Iterator[tuple[str, Array]]:
+    """Columns without a value, NaN or empty texts, of all results of a kind of case."""
+    for key in result_keys(case):
+        table, *rest = key.split(".")
+        # Rows of an axle have the name of their element or shaft.
+        if table not in _TABLES[type(case)] or (table in _ROWS and len(rest) < 2):
+            continue
+        if is_text_of_points(key):
+            yield key, np.full(number, "", dtype=object)
+        elif is_number_of_points(key):
+            yield key, np.full(number, math.nan)
+
+
 def _dataset(
     case: BearingCase | GearCase | AxleCase, columns: Columns, inputs: Mapping[str, Any]
 ) -> xr.Dataset:
@@ -204,7 +227,9 @@ def _dataset(
     reasons = np.array([columns.reasons.get(k, "") for k in range(columns.size)], dtype=object)
     codes = np.array(["; ".join(about) for about in columns.codes_of()], dtype=object)
     about = {"converged": ("point", solved), "reason": ("point", reasons), "warning_codes": ("point", codes)}
-    results = {key: entry(key, values) for key, values in columns.values.items() if key not in inputs}
+    # What no point has is NaN or empty, so that the variables do not depend on the values.
+    values = dict(_missing(case, columns.size)) | columns.values
+    results = {key: entry(key, column) for key, column in values.items() if key not in inputs}
     return xr.Dataset(
         about | results,
         coords={key: entry(key, values) for key, values in inputs.items()},

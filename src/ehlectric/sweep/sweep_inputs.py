@@ -31,6 +31,7 @@ from ehlectric.cases.table import (
     advice_for,
     annotation_of,
     any_of,
+    leaf_of,
     meant,
     nearest_key,
     number_of,
@@ -651,7 +652,7 @@ def _stored_amount(key: str, amount: Amount | AmountOrWord, parse: Callable[...,
 
     def stored(entry: Any, *, written: bool) -> Any:
         if entry is None:
-            return parse(entry, written=written).model_dump(mode="json")[key.rpartition(".")[2]]
+            return parse(entry, written=written).model_dump(mode="json")[leaf_of(key)]
         with within(key):
             return amount.parse(entry, written=written)
 
@@ -664,7 +665,7 @@ def _stored_entry(key: str, field: FieldInfo) -> Callable[..., Any]:
 
     def stored(entry: Any, *, written: bool) -> Any:
         value = entry.item() if isinstance(entry, np.generic) else entry
-        parsed = parse(value, written=written).model_dump(mode="json")[key.rpartition(".")[2]]
+        parsed = parse(value, written=written).model_dump(mode="json")[leaf_of(key)]
         return math.inf if number is not None and parsed == INFINITE else parsed
 
     return stored
