@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from functools import partial
 
 import numpy as np
 import pandas as pd
@@ -17,6 +18,7 @@ from ehlectric.calibration.models import model_of
 from ehlectric.calibration.range_update import _Compared, _quantiles, given_values
 from ehlectric.cases.measured_inputs import Measured, measured_points
 from ehlectric.cases.measurements import BEARING_POINTS, CALIBRATED
+from ehlectric.runs.preview import preview_of
 
 POINTS = pd.DataFrame(
     {
@@ -492,3 +494,33 @@ def test_quantiles_of_even_values_are_the_ends_of_nine_tenths():
     values = np.concatenate([np.arange(101.0), [np.nan, 1e6]])
     weights = np.concatenate([np.ones(102), [0.0]])
     assert _quantiles(values, weights) == pytest.approx((5.0, 50.0, 95.0), abs=0.6)
+
+
+CERAMIC = {"bearing.element_material": "silicon-nitride"}
+REFUSED = [
+    ({"capacitance": "250 pF +- 5 %"}, CERAMIC),
+    ({"first_breakdown_voltage": "4 V +- 5 %"}, CERAMIC | {"bearing.element_capacitance": "5 pF"}),
+    ({"shaft_voltage": "5 V +- 5 %"}, CERAMIC),
+    ({"shaft_voltage_rms": "1 V +- 5 %"}, {}),
+]
+ACCEPTED = [
+    ({"capacitance": "250 pF +- 5 %"}, {}),
+    ({"conducting_share": "0.1 +- 0.05"}, CERAMIC),
+    ({"shaft_voltage": "5 V +- 5 %"}, CERAMIC | {"bearing.element_capacitance": "5 pF"}),
+]
+
+
+@pytest.mark.parametrize(("measured", "changes"), [*REFUSED, *ACCEPTED])
+def test_check_accepts_what_calibrate_accepts(measured, changes):
+    """What a bearing with ceramic elements has no number for is refused before a calibration, in its words."""
+    case = BearingCase.from_toml(EXAMPLES / "bearing_6208.toml").replace(changes, measured=measured)
+    refused = (measured, changes) in REFUSED
+    texts = []
+    for answer in (preview_of, partial(ehlectric.calibrate, samples=64)):
+        try:
+            answer(case)
+        except InputError as error:
+            texts.append(str(error))
+    assert len({*texts}) == refused
+    assert len(texts) == 2 * refused
+    assert all(text.startswith(f"measured.{next(iter(measured))}: ") for text in texts)

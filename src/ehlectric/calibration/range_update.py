@@ -63,6 +63,9 @@ if TYPE_CHECKING:
 # Points of the design, of the posterior as a verdict takes it, and of polynomials.
 _SAMPLES, _DRAWN, _DENSE = 512, 512, 8192
 
+# Points at which the measured values of a file are checked.
+_CHECKED = 8
+
 # Number of operating points above which half of the design is computed, if polynomials need no more points.
 _FEW_POINTS = 32
 
@@ -164,6 +167,21 @@ def calibrate(
         sparing=len(given.points) > _FEW_POINTS,
     )
     return compared.calibration(case, posterior)
+
+
+def check_measured(case: Any) -> None:
+    """Check the table ``measured`` of a case as ``calibrate`` does, at few points and without simulation.
+
+    Raises InputError as ``calibrate``, where the table has a value that the model does not compute.
+    """
+    model = model_of(case)
+    given = given_points(case, quantities=model.quantities)
+    _check(model, given)
+    quick = replace(
+        given, values=tuple(value for value in given.values if value.quantity in model.candidates)
+    )
+    if quick.values:
+        _Compared(model, quick, SEED, silent).predict(sobol_points(len(model.names()), _CHECKED, SEED))
 
 
 def given_points(
@@ -468,12 +486,13 @@ class _Compared:
 
 
 # What a case needs for its quantities.
+_CONDUCTING = "and elements that conduct or have bearing.element_capacitance"
 _NEEDS = {
-    "first_breakdown_voltage": "a case with discharge.dielectric_strength",
-    "breakdown_voltage": "a case with discharge.dielectric_strength",
-    "shaft_voltage": "a case with [motor]",
-    "bearing_voltage_ratio": "a case with [motor]",
-    "capacitance": "films without asperity contact, and elements that conduct",
+    "first_breakdown_voltage": "a case with discharge.dielectric_strength, and elements that conduct",
+    "breakdown_voltage": "a case with discharge.dielectric_strength, and elements that conduct",
+    "shaft_voltage": f"a case with [motor], {_CONDUCTING}",
+    "bearing_voltage_ratio": f"a case with [motor], {_CONDUCTING}",
+    "capacitance": f"films without asperity contact, {_CONDUCTING}",
 }
 
 

@@ -66,6 +66,10 @@ def preview_of(case: Case | BearingCase | DriveCase | GearCase | AxleCase | Swee
     >>> round(preview.summary["hertz"]["max_pressure"] / 1e9, 3)
     0.791
     """
+    if getattr(case, "measured", None) is not None:
+        from ehlectric.calibration import check_measured
+
+        check_measured(case)
     for base in type(case).__mro__:
         if base.__name__ in _MODULES:
             preview: Preview = import_module(f"ehlectric.runs.{_MODULES[base.__name__]}").preview(case)
