@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import reprlib
 import unicodedata
+import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any, Self
@@ -153,6 +154,11 @@ class InputError(ValueError):
     def with_text(self, key: str | None, text: str) -> Self:
         """Return a copy of the error with another key and text, and with its ``got`` and ``takes``."""
         return self.worded(key, text, got=self.got, takes=self.takes)
+
+    def retold(self, key: str | None, text: str) -> Self:
+        """Return ``with_text``; deprecated."""
+        warnings.warn("retold is deprecated; use with_text", DeprecationWarning, stacklevel=2)
+        return self.with_text(key, text)
 
     @classmethod
     def together(cls, errors: Sequence[InputError]) -> InputError:

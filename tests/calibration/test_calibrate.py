@@ -512,7 +512,7 @@ ACCEPTED = [
 
 @pytest.mark.parametrize(("measured", "changes"), [*REFUSED, *ACCEPTED])
 def test_check_accepts_what_calibrate_accepts(measured, changes):
-    """What a bearing with ceramic elements has no number for is refused before a calibration, in its words."""
+    """Values for which a bearing has no number are refused before a calibration, in its words."""
     case = BearingCase.from_toml(EXAMPLES / "bearing_6208.toml").replace(changes, measured=measured)
     refused = (measured, changes) in REFUSED
     texts = []

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -15,6 +16,7 @@ from ehlectric.quantities.verdict_texts import (
     bound_words,
     first_words,
     heading,
+    is_code,
     lines_of,
     statement_text,
 )
@@ -64,6 +66,11 @@ class Verdict:
     reasons: tuple[Statement, ...] = ()
     assumptions: tuple[Statement, ...] = ()
     bound: Bound = ""
+
+    def __post_init__(self) -> None:
+        if not is_code(self.code):
+            text = "Verdict(level, text) is deprecated; use Verdict(level, code)"
+            warnings.warn(text, DeprecationWarning, stacklevel=3)
 
     @property
     def margin(self) -> float | None:

@@ -104,14 +104,22 @@ def statement_text(statement: Statement, at: str = "", form: str = "text") -> st
     return _Ways().vformat(template, (), {"at": at, **values})
 
 
+def is_code(code: str) -> bool:
+    """Whether a code of a verdict has first words."""
+    return code in _texts()["leads"]
+
+
 def first_words(code: str, answer: Statement | None) -> str:
     """First words of a verdict by its code, which may name values of its answer."""
+    if not is_code(code):
+        return code.removesuffix(".")
     return _Ways().vformat(_texts()["leads"][code]["text"], (), {} if answer is None else answer.values)
 
 
 def heading(code: str, answer: Statement | None, level: Level, bound: Bound) -> str:
     """Heading of a verdict: its first words or other ones, and whether the film is an ideal one."""
-    words = str(_texts()["leads"][code].get("heading") or first_words(code, answer))
+    known = _texts()["leads"].get(code, {})
+    words = str(known.get("heading") or first_words(code, answer))
     return words + _texts()["ideal"][level] if bound == "upper" else words
 
 
