@@ -1,11 +1,13 @@
 """Pages that list parts of the program: each list is complete."""
 
+import inspect
 import re
 import tomllib
 from pathlib import Path
 
 import pytest
 
+import ehlectric
 from ehlectric.app.pages import PAGES
 from ehlectric.figures.figure_names import BEARING_FIGURE_FILES, SPEED_FIGURE_FILES
 from tests.helpers.places import ROOT
@@ -61,3 +63,19 @@ def test_figures_of_a_bearing_are_named():
     text = "".join(file.read_text("utf-8") for file in (ROOT / "docs").glob("*/*.md"))
     stems = [Path(name).stem for name in (*BEARING_FIGURE_FILES, *SPEED_FIGURE_FILES)]
     assert [stem for stem in stems if stem not in text] == []
+
+
+@pytest.mark.parametrize("name", [name for name in ehlectric.__all__ if callable(getattr(ehlectric, name))])
+def test_a_public_name_has_an_example_that_the_tests_run(name):
+    assert "\n>>> " in inspect.getdoc(getattr(ehlectric, name))
+
+
+def test_former_names_work_with_a_warning():
+    """Public names are kept for one minor version."""
+    with pytest.deprecated_call(match="use with_text"):
+        error = ehlectric.InputError("a", got=1, takes="2").retold("b", "wrong")
+    assert (str(error), error.takes) == ("b: wrong", "2")
+    with pytest.deprecated_call(match="is deprecated; use"):
+        verdict = ehlectric.Verdict("green", "No breakdown expected: 5 V.")
+    assert verdict.text == "No breakdown expected: 5 V."
+    assert [*verdict.lines()] == [("", "No breakdown expected: 5 V")]

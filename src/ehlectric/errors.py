@@ -259,11 +259,25 @@ class UnreadableError(WriteError):
 
 
 class LostError(RuntimeError):
-    """Error of a solution that lost its worker processes, its cluster or its memory."""
+    """Error of a solution that lost its worker processes, its cluster or its memory.
+
+    Examples
+    --------
+    >>> error = LostError("the process of the case was killed")
+    >>> str(error), isinstance(error, RuntimeError)
+    ('the process of the case was killed', True)
+    """
 
 
 class ConvergenceError(RuntimeError):
-    """Error of an iteration that did not converge, where only a converged solution is of use."""
+    """Error of an iteration that did not converge, where only a converged solution is of use.
+
+    Examples
+    --------
+    >>> error = ConvergenceError("the film did not converge")
+    >>> str(error), isinstance(error, RuntimeError)
+    ('the film did not converge', True)
+    """
 
 
 def shown(value: object) -> str:

@@ -270,6 +270,16 @@ def write_axle_netlist(
     InputError
         If a bearing or a mesh cannot be solved, an arc would go out above a breakdown voltage, or a file
         cannot be written.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> import ehlectric
+    >>> case = ehlectric.AxleCase.from_toml(ehlectric.example("e_axle.toml")).replace(remedies=[])
+    >>> with TemporaryDirectory() as folder:
+    ...     files = ehlectric.write_axle_netlist(case, Path(folder) / "axle.lib")
+    >>> [file.name for file in files]
+    ['axle.lib']
     """
     path, bench = Path(path), None if bench is None else Path(bench)
     check_targets(path, bench)

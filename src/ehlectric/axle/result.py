@@ -57,6 +57,14 @@ class AxleResult(Shown):
         Result of the duty cycle that was stored with the solution.
     simulated : tuple of AxleDischarges, optional
         Discharges over time of the solution and of each remedy; empty where they are not simulated yet.
+
+    Examples
+    --------
+    >>> import ehlectric
+    >>> case = ehlectric.AxleCase.from_toml(ehlectric.example("e_axle.toml")).replace(remedies=[])
+    >>> result = ehlectric.solve_axle(case)
+    >>> result.solution.ranking()[0][0], result.solution.breakdown_voltages.keys() >= {"bearing 1 of rotor"}
+    ('mesh of rotor and intermediate', True)
     """
 
     result_kind: ClassVar[ResultKind] = "axle"
@@ -287,6 +295,14 @@ def solve_axle(
     InputError
         If a bearing cannot carry its load, gears cannot run together, the oil has no value at its
         temperature, or the file of a duty cycle cannot be used.
+
+    Examples
+    --------
+    >>> import ehlectric
+    >>> case = ehlectric.AxleCase.from_toml(ehlectric.example("e_axle.toml")).replace(remedies=[])
+    >>> solution = ehlectric.solve_axle(case).solution
+    >>> {shaft: round(voltage, 1) for shaft, voltage in solution.potentials().items()}
+    {'rotor': 13.6, 'intermediate': 2.7, 'output': 2.7}
     """
     check_axle_duty(case)
     start = time.perf_counter()

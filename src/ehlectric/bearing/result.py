@@ -366,6 +366,14 @@ def solve_bearing(
         Where the process of a contact was killed four times, as by a system out of memory.
     ConvergenceError
         Where the film that ``film_factor`` "solved" needs does not converge.
+
+    Examples
+    --------
+    >>> import ehlectric
+    >>> case = ehlectric.BearingCase.from_toml(ehlectric.example("bearing_6208.toml"))
+    >>> result = ehlectric.solve_bearing(case.replace(contacts="atlas"))
+    >>> round(1e12 * result.summary()["bearing"]["capacitance"]), result.converged
+    (234, True)
     """
     return BearingResult(solution_of(case, progress=progress, workers=workers))
 

@@ -132,6 +132,15 @@ class Calibration(Shown):
         Verdict with the updated probability.
     warnings : tuple of ResultWarning
         Warnings about the measurement and the points.
+
+    Examples
+    --------
+    >>> import ehlectric
+    >>> case = ehlectric.BearingCase.from_toml(ehlectric.example("bearing_6208.toml"))
+    >>> case = case.replace({"measured.capacitance": "250 pF +- 8 %"})
+    >>> calibration = ehlectric.calibrate(case, samples=64)
+    >>> calibration.explained, [row.quantity for row in calibration.rows]
+    (True, ['capacitance'])
     """
 
     result_kind: ClassVar[ResultKind] = "calibration"

@@ -130,6 +130,13 @@ class AxleCase(CaseFile, book="axle_file"):
         Duty cycle: the path of its ``file``.
     measured : mapping, optional
         Measured values that correct the ranges of uncertain inputs.
+
+    Examples
+    --------
+    >>> import ehlectric
+    >>> case = ehlectric.AxleCase.from_toml(ehlectric.example("e_axle.toml"))
+    >>> [shaft.name for shaft in case.shaft], case.replace({"drive.torque": "50 N m"}).drive.torque
+    (['rotor', 'intermediate', 'output'], 50.0)
     """
 
     if TYPE_CHECKING:

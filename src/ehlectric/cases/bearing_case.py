@@ -179,6 +179,13 @@ class BearingCase(CaseFile, book="bearing_file"):
         "solved", "atlas" for contacts from the atlas of films, or "formula" for film-thickness formulas.
     discharge, motor, solver, ranges, duty, measured : mapping, optional
         Further tables, as in a bearing file.
+
+    Examples
+    --------
+    >>> import ehlectric
+    >>> case = ehlectric.BearingCase.from_toml(ehlectric.example("bearing_6208.toml"))
+    >>> case.bearing.elements, case.replace({"bearing.radial_load": "2 kN"}).bearing.radial_load
+    (9, 2000.0)
     """
 
     if TYPE_CHECKING:

@@ -88,6 +88,15 @@ class Case(CaseFile, book="case_file"):
         Tables of the rough surfaces.
     film, electric, discharge, meter, inlet, motion, grid, solver : mapping, optional
         Further tables, as in a case file.
+
+    Examples
+    --------
+    >>> from ehlectric import Case
+    >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa"}
+    >>> contact |= {"max_hertz_pressure": "1 GPa", "entrainment_speed": "4 m/s"}
+    >>> case = Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}})
+    >>> case.replace({"contact.entrainment_speed": "2 m/s"}).contact.entrainment_speed
+    2.0
     """
 
     if TYPE_CHECKING:
@@ -347,7 +356,18 @@ class Case(CaseFile, book="case_file"):
 
 
 class LineCase(Case):
-    """Case of a stationary line contact, as ``Case.line`` makes it; ``solve`` returns a ``Result``."""
+    """Case of a stationary line contact, as ``Case.line`` makes it; ``solve`` returns a ``Result``.
+
+    Examples
+    --------
+    >>> from ehlectric import Case, LineCase
+    >>> case = Case.line(
+    ...     reduced_radius="14.1 mm", reduced_modulus="226 GPa", max_hertz_pressure="1 GPa",
+    ...     entrainment_speed="4 m/s", lubricant="paper",
+    ... )
+    >>> isinstance(case, LineCase)
+    True
+    """
 
     @model_validator(mode="after")
     def _check_kind(self) -> Self:
@@ -355,7 +375,15 @@ class LineCase(Case):
 
 
 class PointCase(Case):
-    """Case of a stationary point contact, as ``Case.point`` makes it; ``solve`` returns a ``PointResult``."""
+    """Case of a stationary point contact, as ``Case.point`` makes it; ``solve`` returns a ``PointResult``.
+
+    Examples
+    --------
+    >>> from ehlectric import Case, PointCase
+    >>> ball = {"radius_x": "10 mm", "radius_y": "10 mm", "reduced_modulus": "226 GPa", "load": "20 N"}
+    >>> isinstance(Case.point(**ball, entrainment_speed="1 m/s", lubricant="paper"), PointCase)
+    True
+    """
 
     @model_validator(mode="after")
     def _check_kind(self) -> Self:

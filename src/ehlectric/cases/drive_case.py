@@ -85,6 +85,14 @@ class DriveCase(CaseFile, book="drive_file"):
         Duty cycle over which discharges are expected.
     measured : mapping, optional
         Measured values that correct the ranges of uncertain inputs.
+
+    Examples
+    --------
+    >>> import ehlectric
+    >>> case = ehlectric.DriveCase.from_toml(ehlectric.example("drive.toml"))
+    >>> longer = case.replace({"drive.duration": "1 s"})
+    >>> longer.drive.duration, case.circuit.winding_rotor_capacitance
+    (1.0, 5e-11)
     """
 
     if TYPE_CHECKING:

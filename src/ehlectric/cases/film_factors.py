@@ -232,6 +232,16 @@ class FilmFactors(Shown):
         Slope d ln(factor)/d ln(speed) and its standard uncertainty; None for fewer than three speeds.
     warnings : tuple of ResultWarning
         Warnings about the measurement and about the computed films.
+
+    Examples
+    --------
+    >>> import ehlectric, pandas as pd
+    >>> ball = {"radius_x": "10 mm", "radius_y": "10 mm", "reduced_modulus": "226 GPa", "load": "20 N"}
+    >>> case = ehlectric.Case.point(**ball, entrainment_speed="1 m/s", lubricant="paper")
+    >>> log = pd.DataFrame({"entrainment speed [m/s]": [0.5, 1.0], "film [nm]": [151.0, 241.0]})
+    >>> factors = ehlectric.film_factors(case, log, contacts="formula", uncertainty="3 %")
+    >>> factors.mean.rows, round(factors.mean.value, 2)
+    (2, 0.9)
     """
 
     result_kind: ClassVar[ResultKind] = "measurement"

@@ -65,6 +65,13 @@ class GearCase(CaseFile, book="gear_file"):
         ``file``, the file of a duty cycle.
     measured : mapping, optional
         Measured values that correct the ranges of uncertain inputs.
+
+    Examples
+    --------
+    >>> import ehlectric
+    >>> case = ehlectric.GearCase.from_toml(ehlectric.example("gear_pair.toml"))
+    >>> case.gear.teeth, case.replace({"gear.flank_ra.1": "0.1 um"}).gear.flank_ra
+    ((23, 67), (1e-07, 5e-08))
     """
 
     if TYPE_CHECKING:

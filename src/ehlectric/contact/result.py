@@ -119,6 +119,16 @@ class Result(ContactResult[Conditions, Film, Field]):
         Time taken by the solvers of the film and of the field [s].
     version, date : str
         Version of the program, and date of the solution (ISO 8601).
+
+    Examples
+    --------
+    >>> from ehlectric import Case, solve
+    >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa"}
+    >>> contact |= {"max_hertz_pressure": "1 GPa", "entrainment_speed": "4 m/s"}
+    >>> case = Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}, "grid": {"nodes": 401}})
+    >>> result = solve(case)
+    >>> result.converged, result.film.pressure.shape
+    (True, (401,))
     """
 
 
@@ -148,6 +158,15 @@ class PointResult(ContactResult[PointConditions, PointFilm, PointField]):
         Time taken by the solvers of the film and of the field [s].
     version, date : str
         Version of the program, and date of the solution (ISO 8601).
+
+    Examples
+    --------
+    >>> from ehlectric import Case, solve
+    >>> ball = {"radius_x": "10 mm", "radius_y": "10 mm", "reduced_modulus": "226 GPa", "load": "20 N"}
+    >>> case = Case.point(**ball, entrainment_speed="1 m/s", lubricant="paper")
+    >>> result = solve(case.replace({"grid.nodes": 65}))
+    >>> result.converged, result.film.pressure.ndim
+    (True, 2)
     """
 
     @property

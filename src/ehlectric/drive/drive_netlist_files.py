@@ -144,6 +144,17 @@ def write_drive_netlist(
     InputError
         If a bearing cannot be solved or lacks an input of its arc, the source cannot be read, or a file
         cannot be written.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> import ehlectric
+    >>> case = ehlectric.DriveCase.from_toml(ehlectric.example("drive.toml"))
+    >>> case = case.replace({"drive.duration": "1 ms"}, remedies=[])
+    >>> with TemporaryDirectory() as folder:
+    ...     files = ehlectric.write_drive_netlist(case, Path(folder) / "drive.lib")
+    >>> [file.name for file in files]
+    ['drive.lib']
     """
     path, bench = Path(path), None if bench is None else Path(bench)
     check_targets(path, bench)

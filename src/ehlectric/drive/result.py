@@ -55,6 +55,15 @@ class DriveResult(Shown):
         Computing time [s].
     version : str
         Version of ehlectric that solved it.
+
+    Examples
+    --------
+    >>> import ehlectric
+    >>> case = ehlectric.DriveCase.from_toml(ehlectric.example("drive.toml"))
+    >>> case = case.replace({"drive.duration": "1 ms"}, remedies=[])
+    >>> result = ehlectric.solve_drive(case)
+    >>> result.summary()["drive_end"]["events"] > 0
+    True
     """
 
     result_kind: ClassVar[ResultKind] = "drive"
@@ -233,6 +242,15 @@ def solve_drive(
     InputError
         Where a bearing cannot be solved, or lacks a value that discharges need; where a remedy changes a
         key that does not exist; or where the duty cycle cannot be used.
+
+    Examples
+    --------
+    >>> import ehlectric
+    >>> case = ehlectric.DriveCase.from_toml(ehlectric.example("drive.toml"))
+    >>> case = case.replace({"drive.duration": "1 ms"}, remedies=[])
+    >>> summary = ehlectric.solve_drive(case).summary()
+    >>> summary["drive_end"]["peak_voltage"] > summary["drive_end"]["breakdown_voltage"]
+    True
     """
     # Loads the compiler of the simulation, which stored results do not need.
     from ehlectric.drive.solver import solve

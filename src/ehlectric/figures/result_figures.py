@@ -123,6 +123,15 @@ def figure_names(result: AnyResult) -> list[str]:
     -------
     list of str
         Names for ``figure``, without the ending of a file.
+
+    Examples
+    --------
+    >>> from ehlectric import Case, figure_names, solve
+    >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa"}
+    >>> contact |= {"max_hertz_pressure": "1 GPa", "entrainment_speed": "4 m/s"}
+    >>> case = Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}, "grid": {"nodes": 401}})
+    >>> "film" in figure_names(solve(case))
+    True
     """
     draws = _draws_of(result)
     opened = draws.opened(result)
@@ -175,6 +184,18 @@ def save_figures(
     ------
     InputError
         Where there is no such format or style, the folder cannot be used, or another command draws into it.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> from ehlectric import Case, save_figures, solve
+    >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa"}
+    >>> contact |= {"max_hertz_pressure": "1 GPa", "entrainment_speed": "4 m/s"}
+    >>> case = Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}, "grid": {"nodes": 401}})
+    >>> with TemporaryDirectory() as folder:
+    ...     files = save_figures(solve(case), folder)
+    >>> "film.png" in [file.name for file in files]
+    True
     """
     return list(draw_figures(result, folder, formats, style).files)
 

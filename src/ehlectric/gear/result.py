@@ -50,6 +50,14 @@ class GearResult(Shown):
         Result of the duty cycle that was stored with the solution.
     stored_spread : Spread, optional
         Distribution of the margin that was stored with the solution.
+
+    Examples
+    --------
+    >>> import ehlectric
+    >>> case = ehlectric.GearCase.from_toml(ehlectric.example("gear_pair.toml"))
+    >>> result = ehlectric.solve_gear(case)
+    >>> result.margin > 0.0, result.summary()["mesh"]["state"]
+    (True, 'insulates')
     """
 
     result_kind: ClassVar[ResultKind] = "gear"
@@ -211,6 +219,14 @@ def solve_gear(case: GearCase, *, probable: bool = True) -> GearResult:
     InputError
         If the gears cannot run together, the oil has no value at the temperature of the flanks,
         or the file of a duty cycle cannot be used.
+
+    Examples
+    --------
+    >>> import ehlectric
+    >>> case = ehlectric.GearCase.from_toml(ehlectric.example("gear_pair.toml"))
+    >>> mesh = ehlectric.solve_gear(case).summary()["mesh"]
+    >>> round(mesh["margin"], 2)
+    0.14
     """
     check_mesh_duty(case)
     start = time.perf_counter()

@@ -31,6 +31,15 @@ class MotionResult(Shown, MotionRun):
         Case of the run.
     conditions : Conditions or PointConditions
         Operating conditions of the case.
+
+    Examples
+    --------
+    >>> import ehlectric
+    >>> case = ehlectric.Case.from_toml(ehlectric.example("moving_roughness.toml"))
+    >>> case = case.replace({"grid.nodes": 401, "motion.passes": 0.05, "motion.steps": 4, "motion.record": 4})
+    >>> result = ehlectric.solve_motion(case)
+    >>> result.dataset["thickness"].dims
+    ('frame', 'x')
     """
 
     @property

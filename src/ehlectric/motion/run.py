@@ -103,6 +103,17 @@ def run_motion(case: Case, folder: str | Path, *, again: bool = True, progress: 
         recorded steps of another case, or a stopped run without motion.sqlite.
     ConvergenceError
         If a time step does not converge; motion.nc contains the recorded instants before this step.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> import ehlectric
+    >>> case = ehlectric.Case.from_toml(ehlectric.example("moving_roughness.toml"))
+    >>> case = case.replace({"grid.nodes": 401, "motion.passes": 0.05, "motion.steps": 4, "motion.record": 4})
+    >>> with TemporaryDirectory() as folder:
+    ...     file = ehlectric.run_motion(case, folder)
+    >>> file.name
+    'motion.nc'
     """
     prepared = prepare(case)
     contact = TransientContact.of(case, prepared.rough)

@@ -156,6 +156,17 @@ def read_motion(path: str | Path) -> xr.Dataset:
         If the file cannot be read, has no transient run, or is of a later version.
     DamagedError
         If it is damaged.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> import ehlectric
+    >>> case = ehlectric.Case.from_toml(ehlectric.example("moving_roughness.toml"))
+    >>> case = case.replace({"grid.nodes": 401, "motion.passes": 0.05, "motion.steps": 4, "motion.record": 4})
+    >>> with TemporaryDirectory() as folder:
+    ...     run = ehlectric.read_motion(ehlectric.run_motion(case, folder)).load()
+    >>> run.sizes["x"]
+    401
     """
     path = Path(path)
     path = path / MOTION if path.is_dir() else path

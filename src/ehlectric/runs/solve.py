@@ -146,6 +146,18 @@ def save(result: SolvedResult, folder: str | Path) -> list[Path]:
         for a result of ``solve_motion``, which ``run_motion`` writes while it is solved.
     UnreadableError
         If ``load`` would refuse the file, for a reason in the message. All files are written.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> from ehlectric import Case, save, solve
+    >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa"}
+    >>> contact |= {"max_hertz_pressure": "1 GPa", "entrainment_speed": "4 m/s"}
+    >>> case = Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}, "grid": {"nodes": 401}})
+    >>> with TemporaryDirectory() as folder:
+    ...     files = save(solve(case), folder)
+    >>> "summary.json" in [file.name for file in files]
+    True
     """
     if isinstance(result, BearingResult):
         return bearing.save(result, folder)
@@ -427,6 +439,15 @@ def solve_motion(case: Case, *, progress: Progress = silent) -> MotionResult:
         If the case has no motion or cannot be solved.
     ConvergenceError
         If the film before the motion did not converge.
+
+    Examples
+    --------
+    >>> import ehlectric
+    >>> case = ehlectric.Case.from_toml(ehlectric.example("moving_roughness.toml"))
+    >>> case = case.replace({"grid.nodes": 401, "motion.passes": 0.05, "motion.steps": 4, "motion.record": 4})
+    >>> result = ehlectric.solve_motion(case)
+    >>> result.complete, result.dataset.sizes["step"]
+    (True, 5)
     """
     if case.motion is None:
         raise InputError("motion", "missing;", takes="it, or solve for a stationary contact")
@@ -460,6 +481,16 @@ class Solved(NamedTuple, Generic[R]):
         Result of the case, which may not be converged; None if there is an error.
     error : Exception or None
         Error that ``solve`` would have raised, or a ``LostError`` if the process of the case was killed.
+
+    Examples
+    --------
+    >>> from ehlectric import Case, solve_many
+    >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa"}
+    >>> contact |= {"max_hertz_pressure": "1 GPa", "entrainment_speed": "4 m/s"}
+    >>> case = Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}, "grid": {"nodes": 401}})
+    >>> (solved,) = solve_many([case], workers=1)
+    >>> solved.number, solved.result.converged, solved.error
+    (0, True, None)
     """
 
     number: int

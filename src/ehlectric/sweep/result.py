@@ -202,6 +202,19 @@ class SweepResults(Shown, SweepPoints):
         Title of the sweep, for figures.
     uncertainty_samples : int
         Samples of the probability of breakdown at each point; 0 where it is not computed.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> import ehlectric
+    >>> case = ehlectric.BearingCase.from_toml(ehlectric.example("bearing_6208.toml"))
+    >>> vary = {"bearing.inner_speed": ["1000 rpm", "3000 rpm"]}
+    >>> sweep = ehlectric.Sweep.from_dict({"case": case.replace(contacts="atlas"), "vary": vary})
+    >>> with TemporaryDirectory() as folder:
+    ...     results = ehlectric.run_sweep(sweep, folder, workers=1)
+    >>> slow, fast = results.numbers["bearing.capacitance"]
+    >>> slow > fast
+    True
     """
 
     result_kind: ClassVar[ResultKind] = "sweep"

@@ -76,6 +76,18 @@ def run_sweep(
     -----
     Each point is saved as it finishes. A point that the folder has is not solved again, unless its process
     was killed or ran out of memory.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> import ehlectric
+    >>> case = ehlectric.BearingCase.from_toml(ehlectric.example("bearing_6208.toml"))
+    >>> vary = {"bearing.inner_speed": ["1000 rpm", "3000 rpm"]}
+    >>> sweep = ehlectric.Sweep.from_dict({"case": case.replace(contacts="atlas"), "vary": vary})
+    >>> with TemporaryDirectory() as folder:
+    ...     results = ehlectric.run_sweep(sweep, folder, workers=1)
+    >>> [point.status for point in results.points]
+    ['solved', 'solved']
     """
     given, report = _with_laws(_sweep_of(sweep), laws), progress_or_silent(progress)
     return solve_to_folder(given, folder, report, solvers=crew(executor, workers)).result

@@ -487,6 +487,18 @@ def read_sweep(folder: str | Path) -> SweepResults:
         If the folder has no sweep, or its file cannot be read.
     DamagedError
         If its file is damaged.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> import ehlectric
+    >>> case = ehlectric.BearingCase.from_toml(ehlectric.example("bearing_6208.toml"))
+    >>> vary = {"bearing.inner_speed": ["1000 rpm", "3000 rpm"]}
+    >>> sweep = ehlectric.Sweep.from_dict({"case": case.replace(contacts="atlas"), "vary": vary})
+    >>> with TemporaryDirectory() as folder:
+    ...     results = ehlectric.run_sweep(sweep, folder, workers=1)
+    ...     ehlectric.read_sweep(folder).numbers == results.numbers
+    True
     """
     with reading(Path(folder) / NAME, _FORM, checked=True) as file:
         results = results_of(file)
