@@ -254,3 +254,13 @@ def test_a_count_falls_and_does_not_rise(tmp_path):
     lint_prose.renew(tmp_path, places)
     assert lint_prose.allowed(tmp_path)["C1"] == {"README": 1}
     assert lint_prose.allowed(tmp_path)["C4"] == {"docs": 1}
+
+
+def test_texts_in_the_code_and_texts_outside_of_the_pages_are_read(tmp_path):
+    code = '"""Module."""\n\nTEXT = "the voltage, that of the ring"\n'
+    code += "CLASS = '<div class=\"that of x\">'\nKEY = 'that of'\n"
+    pages = texts(
+        tmp_path, {"src/a.py": code, "changes/+a.fixed.md": "that of x\n", "SECURITY.md": "that of x\n"}
+    )
+    found = {(place.texts, place.line) for place in lint_prose.RULES["C1"].places(pages)}
+    assert found == {("strings", 3), ("changes", 1), ("SECURITY", 1)}

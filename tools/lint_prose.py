@@ -43,6 +43,9 @@ TEXT_FILES = (
     "parameters.toml",
     "netlist_texts.toml",
 )
+# Files and folders of texts.
+FILES = ("README", "CHANGELOG", "CONTRIBUTING", "SECURITY")
+FOLDERS = ("changes", "open_benchmark")
 # Directives whose body is prose.
 PROSE_DIRECTIVES = ("figure", "image", "glossary", "note", "warning", "tip", "admonition")
 
@@ -86,7 +89,8 @@ class Place(NamedTuple):
 class Texts:
     """Read the texts of a repository in groups.
 
-    The groups are README, CHANGELOG, CONTRIBUTING, docs, docstrings, comments and data, the data files.
+    The groups are README, CHANGELOG, CONTRIBUTING, SECURITY, changes, open_benchmark, docs, docstrings,
+    comments, strings, which are texts in the code, and data, the data files.
     """
 
     def __init__(self, root: Path) -> None:
@@ -103,7 +107,8 @@ class Texts:
     @cached_property
     def groups(self) -> dict[str, list[Line]]:
         """Return the lines of prose of each group of texts."""
-        pages = {name: [self.root / f"{name}.md"] for name in ("README", "CHANGELOG", "CONTRIBUTING")}
+        pages = {name: [self.root / f"{name}.md"] for name in FILES}
+        pages |= {name: sorted((self.root / name).rglob("*.md")) for name in FOLDERS}
         pages["docs"] = self.pages
         groups = {
             name: [line for file in files for line in self._markdown(file)] for name, files in pages.items()
@@ -112,6 +117,7 @@ class Texts:
             line for docstring in self.docstrings for line in _lines_of_docstring(docstring)
         ]
         groups["comments"] = [line for name, text in self._modules for line in _comments(name, text)]
+        groups["strings"] = [line for name, text in self._modules for line in _strings(name, text)]
         groups["data"] = [line for file in self._data_files() for line in self._data(file)]
         return groups
 
@@ -216,6 +222,20 @@ def _comments(name: str, text: str) -> Iterator[Line]:
         for token in tokenize.generate_tokens(io.StringIO(text).readline):
             if token.type == tokenize.COMMENT:
                 yield Line(name, token.start[0], token.string[1:])
+
+
+def _strings(name: str, text: str) -> Iterator[Line]:
+    """Yield the texts in the code of a module: strings of three words or more that are no docstrings.
+
+    Parts of one text follow each other in one string; attributes of HTML are no words.
+    """
+    tree = ast.parse(text)
+    docstrings = {node.value for node in ast.walk(tree) if isinstance(node, ast.Expr)}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and node not in docstrings:
+            words = re.sub(r"<[^>]*>?|[\w-]+=[\"\'][^\"\']*[\"\']", "", node.value)
+            if len(re.findall(r"[A-Za-z]{2,}", words)) > 2:
+                yield Line(name, node.lineno, re.sub(r"``?[^`]*``?", "K", words))
 
 
 def _texts_of_data(line: str) -> Iterator[str]:
@@ -344,7 +364,7 @@ def long_meanings(texts: Texts) -> Iterator[Place]:
 
 def long_sentences(texts: Texts) -> Iterator[Place]:
     """Yield sentences of pages with too many words."""
-    for group in ("README", "CHANGELOG", "CONTRIBUTING", "docs"):
+    for group in (*FILES, *FOLDERS, "docs"):
         for sentence in _sentences(texts.groups[group]):
             count = len(sentence.text.split())
             if count > MOST_WORDS_OF_A_SENTENCE:
@@ -353,7 +373,7 @@ def long_sentences(texts: Texts) -> Iterator[Place]:
 
 def rows_of_of(texts: Texts) -> Iterator[Place]:
     """Yield sentences of pages, and first sentences of docstrings, with the word "of" too often."""
-    for group in ("README", "CHANGELOG", "CONTRIBUTING", "docs"):
+    for group in (*FILES, *FOLDERS, "docs"):
         for sentence in _sentences(texts.groups[group]):
             if len(re.findall(r"\bof\b", sentence.text)) > MOST_OF:
                 yield Place(group, *sentence)

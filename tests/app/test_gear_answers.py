@@ -220,7 +220,7 @@ def test_the_caption_of_the_flank_names_one_colour_only_if_films_have_it():
 def test_the_probability_follows_and_is_that_of_the_result(example):
     assert not example.whole
     assert ("probability of breakdown", PENDING) in example.deciding.facts
-    assert ("margin, within what is uncertain", PENDING) in example.deciding.facts
+    assert ("margin, within the ranges of the inputs", PENDING) in example.deciding.facts
     assert example.deciding.gauge.interval is None
     whole = whole_answer(dict(GEAR.changed({"gear.contact.voltage": "0.7 V"}).table))
     case = GearCase.from_written(GEAR.table).replace({"gear.contact.voltage": "0.7 V"})

@@ -337,7 +337,7 @@ def test_the_appendix_follows_in_the_order_of_the_question(pages):
     whole = report_of(folder)
     assert [section.title for section in whole.sections] == [
         "Summary", "What was asked", "Result", "Key numbers", "Figures", "Contacts", "Warnings",
-        "What it rests on", "Inputs", "What the model leaves out", "Sources", "How it was computed",
+        "What it rests on", "Inputs", "What the model neglects", "Sources", "How it was computed",
         "Input file",
     ]  # fmt: skip
     first = [block for block in whole.sections[0].blocks if not isinstance(block, Picture)]

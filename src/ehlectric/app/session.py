@@ -146,7 +146,7 @@ class Session:
         return self._names.get(file, shown_name(file))
 
     def named(self, text: str) -> str:
-        """Text in which uploaded files have the names that their users know.
+        """Text with the names that users know instead of paths of uploaded files.
 
         Errors name a file by its path, warnings without the folders of the machine.
         """
@@ -156,7 +156,7 @@ class Session:
         roots = "|".join(re.escape(f"{root}{os.sep}") for root in (self._folder, self._folder.resolve()))
         stored = "|".join(map(re.escape, names))
         pattern = rf"(?<![\w./\\-])(?:(?:{roots})?{SURFACES}[/\\])?({stored})(?![\w-])"
-        return re.sub(pattern, lambda found: names[found[1]], text)
+        return re.sub(pattern, lambda match: names[match[1]], text)
 
     def named_error(self, error: Exception) -> Exception:
         """Error in which paths of uploaded files are the names that their users know."""

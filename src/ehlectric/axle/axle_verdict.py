@@ -84,7 +84,7 @@ def axle_verdict(
         return no_verdict(Statement.of("axle-none"))
     (first, ratio), limits = ranking[0], solution.breakdown_voltages
     if without := solution.without_bounds:
-        # The voltages are between those of both axles.
+        # The voltages lie between both axles.
         others = without.discharging() or [(first, 0.0)]
         ratios = sorted((ratio, others[0][1]))
         levels = {level_of(*strength_interval(1.0 / each)) if each else "green" for each in ratios}

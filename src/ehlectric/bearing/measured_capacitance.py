@@ -74,8 +74,8 @@ def film_factor_of(capacitance: Callable[[float], float], target: float, guess: 
     0.689419
     >>> film_factor_of(lambda factor: 2e-10 * factor**-0.6, 1e-11)
     Traceback (most recent call last):
-    ehlectric.bearing.measured_capacitance.NoFactorError: below 103.5 pF, that of a film 3 times as thick as \
-    computed for isothermal, fully flooded oil
+    ehlectric.bearing.measured_capacitance.NoFactorError: below 103.5 pF, the capacitance of a film 3 \
+    times as thick as computed for isothermal, fully flooded oil
     """
     least, most = math.log(LEAST), math.log(MOST)
 
@@ -138,10 +138,13 @@ def _computed(capacitance: Callable[[float], float], x: float) -> float:
 def _out_of_reach(end: float, x: float) -> str:
     if x > 0.0:
         return (
-            f"below {amount(end, 'F')}, that of a film {MOST:g} times as thick as computed for isothermal, "
-            "fully flooded oil"
+            f"below {amount(end, 'F')}, the capacitance of a film {MOST:g} times as thick as computed for "
+            "isothermal, fully flooded oil"
         )
-    return f"above {amount(end, 'F')}, that of a film of {LEAST:g} of the isothermal, fully flooded one"
+    return (
+        f"above {amount(end, 'F')}, the capacitance of a film of {LEAST:g} of the isothermal, fully "
+        "flooded one"
+    )
 
 
 @dataclass(frozen=True)
@@ -463,7 +466,11 @@ def _row(
     with suppress(InputError):
         yield "computed", capacitance(1.0)
     if not target > 0.0:
-        why = "its phase is not that of a capacitor" if np.isnan(target) else "it is not above the background"
+        why = (
+            "its phase is not the phase of a capacitor"
+            if np.isnan(target)
+            else "it is not above the background"
+        )
         raise NoFactorError(why)
     factor = film_factor_of(capacitance, target, guess)
     slope = slope_at(capacitance, factor)

@@ -57,9 +57,9 @@ _OF_GRADE = "limits of the viscosity grade, ISO 3448"
 _OF_CLASS = "limits of the clearance class, ISO 5753-1"
 _OF_CLEARANCE = _JUDGED + "fits and warm rings change the clearance"
 _OF_ANGLE = _JUDGED + "makers state nominal contact angles"
-_OF_LOAD = _JUDGED + "loads in operation differ from those of the design"
+_OF_LOAD = _JUDGED + "loads in operation differ from the design"
 _OF_SUMMITS = "contact of run-in surfaces is said to begin at lambda ratios from 1 to 3; measured at 2"
-_OF_ESTIMATE = "estimated from load ratings: error of leaving out known bearings"
+_OF_ESTIMATE = "estimated from load ratings: error if known bearings are omitted"
 _OF_MOTOR = _JUDGED + "data sheets do not have it, and few measure it"
 
 
@@ -194,7 +194,7 @@ def _temperature(bearing: Bearing) -> Change:
     """Change of the temperature of the oil, and by the same step of all other parts that have their own."""
     known = {f"bearing.{name}": value for name, value in bearing.all_temperatures().items()}
     change = temperature_change(*next(iter(known.items())))
-    label = change.label + (" (of all other parts by the same)" if len(known) > 1 else "")
+    label = change.label + (" (of all other parts by the same step)" if len(known) > 1 else "")
     return replace(change, label=label, shifted=known)
 
 

@@ -392,9 +392,9 @@ class _Measured:
                     break
                 now = following
         for j in np.flatnonzero(np.abs(prediction - self.values) > _FAR * self.uncertainties).tolist():
-            found = self._between(at, predictions, chi2, j)
-            if found is not None and found[2] < least:
-                point, prediction, least = found
+            nearer = self._between(at, predictions, chi2, j)
+            if nearer is not None and nearer[2] < least:
+                point, prediction, least = nearer
         return Nearest(point, prediction, least, self._freedom(emulator, point, prediction))
 
     def _between(
@@ -417,9 +417,9 @@ class _Measured:
             larger = np.flatnonzero(known[:, j] > self.values[j])
             last = int(larger[0]) if larger.size else len(line) - 1
             low, high = line[max(last - 1, 0)], line[last]
-        found = chi_squares(known, self.values, self.uncertainties)
-        best = int(np.argmin(np.where(np.isfinite(found), found, np.inf)))
-        return line[best], known[best], float(found[best])
+        distances = chi_squares(known, self.values, self.uncertainties)
+        best = int(np.argmin(np.where(np.isfinite(distances), distances, np.inf)))
+        return line[best], known[best], float(distances[best])
 
     def _least_squares(self, emulator: Emulator, now: Array, known: Array) -> Array:
         """Inputs at which shifted polynomials are nearest to the measured values, shape (k,)."""

@@ -172,7 +172,7 @@ def calibrate(
 def check_measured(case: Any) -> None:
     """Check the table ``measured`` of a case as ``calibrate`` does, at few points and without simulation.
 
-    Raises InputError as ``calibrate``, where the table has a value that the model does not compute.
+    Raises InputError as ``calibrate``, for a value that the model does not compute.
     """
     model = model_of(case)
     given = given_points(case, quantities=model.quantities)

@@ -220,7 +220,7 @@ class BearingCase(CaseFile, book="bearing_file"):
     def missing_table_hint(cls, key: str, given: Mapping[str, Any]) -> str:
         """Return the text with the key by which a file without the table of its bearing is a bearing file."""
         sign = bearing_key(given) if key == "bearing" else None
-        return "" if sign is None else f", [bearing], as the file looks like that of a bearing: it has {sign}"
+        return "" if sign is None else f", [bearing], as the file looks like a bearing file: it has {sign}"
 
     @model_validator(mode="before")
     @classmethod

@@ -614,7 +614,7 @@ class Bearing(Table, book="bearing", named_by="base"):
         """A temperature is given; the oil needs one if both rings have their own."""
         given = len(self.temperatures())
         if self.temperature is None and given != 1:
-            other = "; those of both rings do not tell it" if given else ""
+            other = "; the temperatures of both rings do not give it" if given else ""
             raise InputError.missing("temperature", f"the temperature of the oil{other}")
 
     def _check_fits(self, fits: Fits) -> None:

@@ -61,10 +61,8 @@ class Coating(Table, book="bearing.coating", named_by="base"):
     def _check(self) -> Self:
         self.check_alternatives(("strength", "breakdown_voltage"), "one of the two")
         if self.over_moulded and (self.ring != "outer" or self.area is not None):
-            got = "true beside area" if self.area is not None else "true with ring 'inner'"
-            takes = (
-                "ring 'outer' without area: bearing.outer_diameter and bearing.width are those of the steel"
-            )
+            got = "true with area" if self.area is not None else "true with ring 'inner'"
+            takes = "ring 'outer' without area: outer_diameter and width are dimensions of the steel"
             raise InputError("over_moulded", got=got, takes=takes)
         return self
 

@@ -55,7 +55,7 @@ class Inlet(Table, book="inlet"):
             raise InputError(
                 "inlet",
                 got="[inlet] with surfaces that move in opposite directions",
-                takes="a slide-to-roll ratio from -2 to 2: one of the surfaces carries its oil away",
+                takes="a slide-to-roll ratio from -2 to 2: one surface moves the oil away from the contact",
             )
         if self.layer_table is not None and contact.geometry == "line":
             raise InputError("inlet.layer_table", got="a line contact", takes="inlet.oil_layer")

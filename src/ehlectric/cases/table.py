@@ -330,7 +330,9 @@ class CaseFile(Tabled, Table):
         """Return all values that a file can contain as nested tables, in SI units."""
         if arrays := self.arrays():
             raise InputError(
-                next(iter(arrays)), got="an array", takes="a number; single(index) has those of a point"
+                next(iter(arrays)),
+                got="an array",
+                takes="a number; single(index) gives the values of a point",
             )
         return self.model_dump(mode="json", exclude_none=True)
 

@@ -80,7 +80,7 @@ def bearing_warnings(bearings: tuple[BearingResult, BearingResult]) -> Iterator[
 
 
 def _of_bearing(result: BearingResult) -> Iterator[ResultWarning]:
-    """Warnings of a bearing; those of touching surfaces and ceramic elements in words about a drive."""
+    """Warnings of a bearing; on touching surfaces and ceramic elements in words about a drive."""
     for warning in result.warnings:
         if warning.code == "touching" and conducts(result.solution):
             yield ResultWarning.of("touching", "drive", ratio=lambda_text(result.solution))

@@ -370,11 +370,11 @@ def lacking(result: BearingResult, file: str) -> str | None:
     if file not in (*FIGURES, *SPEED_FIGURES):
         return None
     if file == DUTY_FIGURE:
-        return "that of a duty cycle needs [duty], which the case does not have"
+        return "the figure of a duty cycle needs [duty], which is missing in the case"
     if result.solution.conditions.ceramic:
-        return "the others need elements that conduct, and those of this bearing are ceramic"
+        return "the others need elements that conduct, and this bearing has ceramic ones"
     if not result.case.discharge.has_strength:
-        return "those of breakdown need discharge.dielectric_strength, which the case does not give"
+        return "figures of breakdown need discharge.dielectric_strength, which the case does not give"
     return "this bearing has nothing to show in the others"
 
 

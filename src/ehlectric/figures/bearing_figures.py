@@ -483,7 +483,7 @@ def _over_frequency(result: BearingResult, ax: Axes) -> None:
     ax.axvspan(*INVERTER, color=ORANGE, alpha=0.08, lw=0.0, zorder=0.0)
     if impedance.corner > _NOTED:
         ax.axvline(impedance.corner, color=GREY, lw=0.9, ls="--")
-        text = f" corner of the oil alone,\n $1/(2\\pi\\tau)$ = {prefixed(impedance.corner, 'Hz')}"
+        text = f" corner of the oil only,\n $1/(2\\pi\\tau)$ = {prefixed(impedance.corner, 'Hz')}"
         note(ax, impedance.corner, 0.04, text, data_axis="x", color=GREY)
     _mark_period(result, ax)
     ax.set(xlabel="frequency $f$ [Hz]", xlim=(_low(impedance), frequency[-1]))

@@ -224,7 +224,9 @@ def _check_options(result: AnyResult, draws: _Draws, options: Mapping[str, Any])
     _, _, *known = inspect.signature(draws.figure).parameters
     for option in options:
         if option not in known:
-            takes = f"one of {', '.join(known)}" if known else f"none but style for a {type(result).__name__}"
+            takes = (
+                f"one of {', '.join(known)}" if known else f"none except style for a {type(result).__name__}"
+            )
             raise InputError(option, "is no option of this figure", takes=takes)
 
 

@@ -89,7 +89,7 @@ def flank_oils(lubricant: Lubricant, temperatures: Array) -> FlankOils:
     if not np.any(oil.alpha):
         raise InputError(
             "lubricant.viscosity_law",
-            got=f"{oil.laws['viscosity']!r} with gears, whose films are those of piezoviscous oils;",
+            got=f"{oil.laws['viscosity']!r} with gears, whose films are computed for piezoviscous oils;",
             takes="another law",
         )
     groups = OilGroups.of(oil.log_viscosity, oil.density_ratio, oil.alpha_star)

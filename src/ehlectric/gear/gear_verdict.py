@@ -175,7 +175,7 @@ def _operating_point(solution: GearSolution) -> Statement:
     )
 
 
-# Keys whose ranges are those of the roughness.
+# Keys of the roughness.
 _ROUGHNESS = ("gear.flank_ra", "gear.composite_rq")
 
 

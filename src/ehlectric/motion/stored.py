@@ -92,7 +92,7 @@ _TOUCHED = "part of the Hertzian zone in which asperities are in contact"
 _SPOTS = "number of contact spots"
 _MENISCUS = "position on the centre line from which oil fills the gap, NaN if flooded"
 _FILLED = "part of the gap that oil fills"
-_WARM = "largest temperature at mid-film above that of the oil in the inlet"
+_WARM = "largest temperature rise at mid-film above the oil in the inlet"
 _ERROR = "estimated relative error of the maximum field strength, NaN if unknown"
 _HEIGHTS = "roughness of surface {}, out of the body"
 

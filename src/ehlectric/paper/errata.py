@@ -174,7 +174,7 @@ SLIPS = (
     Slip("Table 1: eta0 = 4e-4 Pa s", "0.04 Pa s", _viscosity),
     Slip("Table 2: one load, 1.57e6 N/m, for both pressures", "1 GPa takes 3.925e5 N/m", _load),
     Slip(
-        "Eq. (6) and its boundary conditions alone",
+        "Eq. (6) and its boundary conditions only",
         "P >= p_atm/p_h, and P = p_atm/p_h where the film cavitates",
         _cavitation,
     ),
@@ -194,10 +194,10 @@ SLIPS = (
     Slip("Section 3.1: 0.8 A m^-2", "0.8 A mm^-2", _current_density),
     Slip(
         "Stationary roughness under rolling surfaces called 'pure rolling'",
-        "the stationary problem is that of a rough surface at rest, the other sliding over it",
+        "the stationary problem describes a rough surface at rest, the other sliding over it",
         lambda _: (
             "roughness of a rolling surface travels with it, and eq. (6) then needs the squeeze term "
-            "d(rho H)/dT; the rough films here are stationary too, and say so"
+            "d(rho H)/dT; the rough films here are stationary as well, and state it"
         ),
     ),
     Slip("Mid-film 'as defined by half of the average film thickness'", "the line s = 1/2", _readings),

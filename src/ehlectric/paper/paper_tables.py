@@ -271,7 +271,7 @@ def methods_table(study: Study) -> PaperTable:
         ("capacitance, difference", ".0e"),
         ("E_max, difference", ".0e"),
     ]
-    return _table("The paper's own methods beside ours", columns, rows)
+    return _table("The paper's own methods next to ours", columns, rows)
 
 
 TABLES: dict[str, tuple[Callable[[Study], PaperTable], tuple[str, ...]]] = {

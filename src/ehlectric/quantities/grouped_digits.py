@@ -154,7 +154,7 @@ def doubt(text: str, bounds: Bounds, factor: Callable[[str], float]) -> str | No
         return None
     first, second = readings(whole, part, unit)
     if _is_whole(unit) or abs(decimal) < low or not bounds.allow(decimal):
-        return f"the separator may be that of thousands: write '{first}' or '{second}'"
+        return f"the separator may separate thousands: write '{first}' or '{second}'"
     if unit.lower() in _BOTH:
         import warnings
 

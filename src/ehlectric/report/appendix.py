@@ -303,7 +303,7 @@ def worded(text: str) -> str:
     Examples
     --------
     >>> worded("in place of bearing.inner_speed, within V/h_min of events.csv")
-    'in place of speed of the inner ring, within V/h_min of events.csv'
+    'instead of the speed of the inner ring, within V/h_min of events.csv'
     >>> worded("summits of 2 times composite_rq")
     'summits of 2 times composite roughness Rq'
     """
@@ -414,7 +414,7 @@ def limit_section(case: SolvedCase) -> Section:
     """Section of what the models behind a result neglect."""
     rows = tuple((limit.topic, limit.text) for limit in limits_of(case))
     return Section(
-        "What the model leaves out",
+        "What the model neglects",
         (Table("Limits of the model", ("part", "limit"), rows, shares=(0.2, 0.8)),),
     )
 

@@ -309,7 +309,9 @@ def machine_of(case: BearingCase | DriveCase, summary: Mapping[str, Any]) -> str
             )
         sentence = f"{source}, {_motor(*motor)}; {both}"
     if "duty" in summary:
-        sentence += f"; beside this operation a duty cycle of {readable(summary['duty']['duration'], 6)} s"
+        sentence += (
+            f"; in addition to this operation a duty cycle of {readable(summary['duty']['duration'], 6)} s"
+        )
     return with_units_kept(f"{capital(sentence)}.")
 
 

@@ -156,7 +156,7 @@ def density_tables(densities: Mapping[str, float | None]) -> Iterator[Table]:
     places = (f"{place}, {readable(1e-6 * density)} A/mm²" for place, density in known.items())
     heads = ("published limit", *places, "what is published", "source")
     shares = (0.11, *(0.3 / len(known) for _ in known), 0.3, 0.29)
-    yield Table("Current density beside its published limits", heads, rows, shares=shares)
+    yield Table("Current density next to its published limits", heads, rows, shares=shares)
 
 
 def warning_block(warnings: Sequence[ResultWarning]) -> Warnings | Text:

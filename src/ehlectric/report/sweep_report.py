@@ -82,9 +82,7 @@ def _failure(results: SweepResults, count: Mapping[str, Any]) -> str:
         solved = f"of {count['points']} points, {count['solved']} are solved, {', '.join(missing)}"
         sentences.append(f"NOT COMPLETE: {solved}.")
     if doubtful:
-        sentences.append(
-            f"{doubtful} of {count['solved']} solved points must not be used; they are left out."
-        )
+        sentences.append(f"{doubtful} of {count['solved']} solved points must not be used; they are omitted.")
     return " ".join(sentences)
 
 

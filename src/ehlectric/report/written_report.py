@@ -38,7 +38,7 @@ def anchor(title: str) -> str:
 
     Examples
     --------
-    >>> anchor("What the model leaves out")
+    >>> anchor("What the model neglects")
     'what-the-model-leaves-out'
     """
     return re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-")

@@ -70,7 +70,7 @@ def least_limit() -> str:
     limits = {
         "the memory of this machine": physical_memory(),
         "what ulimit leaves to this process": left_of_process(),
-        "what its control group, as that of a container, leaves to this process": left_of_groups(),
+        "what its control group, as in a container, leaves to this process": left_of_groups(),
     }
     return min(limits, key=lambda name: limits[name])
 

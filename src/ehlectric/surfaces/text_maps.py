@@ -122,7 +122,7 @@ def _column(path: Path, layout: Layout, text: str, scale: Scale) -> TextSurface:
     """Profile of heights in a single column, whose spacing is given."""
     if scale.spacing is None:
         got = "contains one column of numbers"
-        raise NoTableError(path, got, takes="two, position and height, or spacing with heights alone")
+        raise NoTableError(path, got, takes="two, position and height, or spacing with only heights")
     (z,) = layout.numbers(path, layout.columns, layout.below(text), layout.first + 1, voids=layout.columns)
     # Instruments such as Mitutoyo's write the number of heights, and perhaps their spacing, above them.
     z = next((z[above:] for above in (1, 2) if z.size > above and z.size - above in z[:above]), z)
@@ -294,7 +294,7 @@ def _refuse_positions(path: Path, z: Array) -> None:
             raise InputError(
                 path,
                 f"its first {name} increases in equal steps, as positions or numbers of points do",
-                takes=f"heights alone; remove the {name} if it contains positions",
+                takes=f"heights only; remove the {name} if it contains positions",
             )
 
 

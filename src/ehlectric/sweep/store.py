@@ -243,7 +243,7 @@ def _check_design(results: SweepResults) -> None:
         # A grid may have far more points than the file: no list of them is made.
         pairs = zip_longest(planned, (point.inputs for point in points))
         if any(expected != stored for expected, stored in pairs):
-            raise UnfitError("its points are not those of the design")
+            raise UnfitError("its points differ from the design")
         return
     if results.samples < 1 or len(points) != results.samples * (len(ranges) + 2):
         raise UnfitError(f"it has {len(points)} points, which its design has not")

@@ -219,7 +219,7 @@ def _inlet(case: object) -> str:
 
 def _temperature(summary: Summary) -> str | None:
     thermal = summary["film"].get("thermal")
-    return None if thermal is None else "computed" if thermal else "that of the inlet"
+    return None if thermal is None else "computed" if thermal else "temperature of the inlet"
 
 
 def _reached(summary: Summary) -> str:

@@ -151,7 +151,11 @@ def factor_rows(factors: FilmFactors) -> Iterator[Row]:
 def _film_error_note(factors: FilmFactors) -> str:
     """Note on the error of films that are not solved, which is not in the interval."""
     error = factors.formula_error
-    return "" if error is None else f", beside up to {readable(100.0 * error, 2)} % of the {factors.contacts}"
+    return (
+        ""
+        if error is None
+        else f", in addition to up to {readable(100.0 * error, 2)} % of the {factors.contacts}"
+    )
 
 
 def _counted(factors: FilmFactors) -> str:

@@ -109,7 +109,7 @@ def cycle_figure(result: DriveResult, duty: DriveDuty) -> Figure:
         "Discharges over the duty cycle",
         f"Speed, lambda ratio and discharges per second over the time. {findings.duty_cycle(result)}.",
         cycle_plot(time_axis_of_cycle(duty.rows), drive_duty_panels(duty)),
-        Table("Worst stretches, that with the most discharges first", heads, rows),
+        Table("Worst stretches, most discharges first", heads, rows),
         f"{findings.duty_cycle(result)}. {duty.points} rows are simulated, the others interpolated.",
     )
 

@@ -92,8 +92,8 @@ def film_surface(result: PointResult) -> Figure:
         f"Surface of the film thickness in {film_unit}, coloured by the maximum field in {unit}. "
         f"It can be rotated. {main_numbers(result)}",
         plot([surface, *_pins(result, lengths)], height=470, **_scene(result, lengths, film_unit)),
-        caption=f"Drag to rotate, scroll to come nearer. Drawn: {some} {nodes} of the field, with those of "
-        "the smallest film and of the largest field; each value is a node's own.",
+        caption=f"Drag to rotate, scroll to come nearer. Drawn: {some} {nodes} of the field, with "
+        "the smallest film and the largest field; each value is a node's own.",
     )
 
 

@@ -508,7 +508,7 @@ def _gaps(result: BearingResult) -> str:
     texts = [f"{name} ring up to {amount(gap, 'm')}" for name, gap in gaps.items() if gap is not None]
     if not texts:
         return "All elements are loaded by both rings."
-    return f"Elements without load have a gap in place of a film, not drawn: {', '.join(texts)}."
+    return f"Elements without load have a gap instead of a film, not drawn: {', '.join(texts)}."
 
 
 def _speed_figures(over: OverSpeed, *, bound: bool) -> dict[str, Figure]:

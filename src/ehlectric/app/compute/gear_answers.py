@@ -212,7 +212,7 @@ def deciding(summary: Summary, verdict: Verdict, *, probable: bool) -> Deciding:
         facts.append((row.name, row.amount))
     if interval is not None:
         within = " to ".join(map(ratio_text, interval))
-    facts.append(("margin, within what is uncertain", within))
+    facts.append(("margin, within the ranges of the inputs", within))
     gauge = Gauge(gauge_text(margin, facts), margin, interval)
     return Deciding("mesh.margin", tuple(facts), gauge, "film", _SAID)
 

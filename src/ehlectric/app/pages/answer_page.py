@@ -118,7 +118,7 @@ class AnswerPage(Generic[A]):
         """Build the form and the places of the answer; with the error of a wrong address."""
         self._strip = Strip()
         Toolbar(self.session, self.path, self.shown_again)
-        text = f"{error}. The example is shown in place of the inputs of the address."
+        text = f"{error}. The example is shown instead of the inputs of the address."
         self._address = ui.label("" if error is None else text).classes("notice wrong")
         self._address.props('role="alert" data-testid="error-address"').set_visibility(error is not None)
         with ui.element("div").classes("columns"):
@@ -273,7 +273,7 @@ class AnswerPage(Generic[A]):
         self._answer_shown = None
         self._strip.show("grey", "No answer", [words])
         self.solving.show(None, error)
-        earlier = " The answer below is that of earlier inputs." if self.view.shown else ""
+        earlier = " The answer below belongs to earlier inputs." if self.view.shown else ""
         mark(self._notice, "wrong", on=not is_to_type(error))
         say(self._notice, f"{capital(words)}.{earlier}")
         self._again.set_visibility(isinstance(error, LostError))

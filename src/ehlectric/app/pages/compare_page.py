@@ -169,8 +169,8 @@ _START = Inputs(
 # Time for which the page waits for its first answer before it is sent without one [s].
 _FIRST = 0.4
 
-_LATE = "contacts not solved; the critical speeds took too long and are left out"
-_EARLIER = "A case has no answer: the effects below, if any, are those of earlier inputs."
+_LATE = "contacts not solved; the critical speeds took too long and are omitted"
+_EARLIER = "A case has no answer: the effects below, if any, belong to earlier inputs."
 
 # Kinds of files that have an answer here.
 _COMPARED = ("bearing", "axle", "contact", "motion")
@@ -212,7 +212,7 @@ class SideBox:
                 self._error = ui.label().classes("wrong").props(f'role="alert" data-testid="error-{name}"')
             self._title = ui.label("").props(f'data-testid="title-{name}"')
             self._panel = Panel((), "")
-            self._link = ui.link("Open this case alone", "/")
+            self._link = ui.link("Open only this case", "/")
 
     async def _open(self, uploaded: Uploaded) -> None:
         """Take up a file that has an answer here."""

@@ -152,7 +152,7 @@ class Downloads:
         elif isinstance(job.result, Written):
             self._made = (self._requested, job.result)
             if job.result.failure:
-                self._tell(error=f"{job.result.failure}; the files say so, do not use these values")
+                self._tell(error=f"{job.result.failure}; the files state this, do not use these values")
             if self._then is not None:
                 await self._then(Path(job.result.folder))
         else:

@@ -23,8 +23,8 @@ from ehlectric.runtime.memory import MOST_MEASURED
 DUTY_FILE, _EXAMPLE = "duty.file", "measurements/wltc_class_3b_motor.csv"
 
 _COLUMNS = (
-    "The file has the column time [s], and any of speed [rpm] or vehicle speed [km/h], {columns}. "
-    "What has no column is as above."
+    "The file contains the column time [s], and any of speed [rpm] or vehicle speed [km/h], {columns}. "
+    "Values without a column are as above."
 )
 _OF_BEARINGS = "radial load [N], axial load [N], temperature [degC] and common-mode voltage [V]"
 _OF_GEARS = "torque [N m], temperature [degC], flank temperature [degC] and voltage [V]"
@@ -32,7 +32,7 @@ _OF_GEARS = "torque [N m], temperature [degC], flank temperature [degC] and volt
 # What a cycle gives, by the kind of the page, and where its result is.
 _GIVES = {
     "bearing": "The bearing over time.",
-    "drive": "Discharges over time, with the simulation; loads are those of both bearings.",
+    "drive": "Discharges over time, with the simulation; both bearings have the loads of their files.",
     "gear": "The mesh over time.",
 }
 _PLACES = {"bearing": "duty", "drive": "figure-duty", "gear": "duty"}

@@ -260,7 +260,7 @@ class OpenFile:
             return
         self._missing = uploaded.missing
         if uploaded.missing:
-            self._report(f"{uploaded.name} names {', '.join(uploaded.missing)}: open it, too.")
+            self._report(f"{uploaded.name} names {', '.join(uploaded.missing)}: open it as well.")
             return
         self._pending = {}
         await self._opened(uploaded)

@@ -97,7 +97,7 @@ class MovieBox:
                 ).classes("hint")
                 return
             self._keys = Keys("motion", MOTION_KEYS, table, self._set)
-            ui.label("The values at first are those of an example: assumptions.").classes("hint")
+            ui.label("The first values come from an example: assumptions.").classes("hint")
 
     async def _switched(self, event: Any) -> None:
         on = bool(event.value)

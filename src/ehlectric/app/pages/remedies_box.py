@@ -22,8 +22,8 @@ from ehlectric.errors import InputError
 _OIL = "Other oil"
 
 _SECOND = (
-    "The drive has this bearing at both ends, in place of the given capacitance of the second bearing: its "
-    "shaft voltage differs."
+    "The drive has this bearing at both ends, instead of the given capacitance of the second bearing: "
+    "its shaft voltage differs."
 )
 
 # Bearing, and its drive with the remedy.

@@ -669,7 +669,7 @@ class SweepPage:
         self._allow(valid=False)
         self.plan.text = str(error)
         if isinstance(error, InputError):
-            self.plan.text = "The inputs cannot be run; see what is wrong beside them."
+            self.plan.text = "The inputs cannot be run; see what is wrong next to them."
             self.form.tell(error)
 
     async def _show(self, key: str) -> None:

@@ -90,7 +90,7 @@ def _usual(examples: Sequence[str]) -> str:
     named = ", ".join(map(repr, examples))
     return (
         f"a bearing of the library or a designation of the usual series, as a string, such as {named} "
-        "(list: ehlectric bearings); or leave base out and give kind, elements, element_diameter, "
+        "(list: ehlectric bearings); or omit base and give kind, elements, element_diameter, "
         "pitch_diameter and the other keys of the bearing"
     )
 

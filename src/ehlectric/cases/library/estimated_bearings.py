@@ -298,7 +298,7 @@ def _no_elements(bearing: SeriesBearing) -> InputError:
         "life.static_rating",
         f"no elements that fit into a {bearing.name.upper()} have these load ratings, "
         f"for which ISO 76 and ISO 281 are solved",
-        takes=f"ratings near those of the series, {dynamic:.4g} N and {static:.4g} N",
+        takes=f"ratings near the ratings of the series, {dynamic:.4g} N and {static:.4g} N",
     )
 
 

@@ -75,7 +75,7 @@ def choice_of(path: Path, labels: Labels, keys: Keys, peek: Callable[[int], Arra
     value = _named(path, "column", keys.column, heads) if keys.column is not None else _single(path, channels)
     if value in times:
         raise InputError(
-            "column", got=shown(keys.column), takes="a column of voltages, not that of the times"
+            "column", got=shown(keys.column), takes="a column of voltages, not the column of times"
         )
     _refuse_envelope(path, value, heads)
     # Some programs write times before every channel.
