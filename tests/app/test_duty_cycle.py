@@ -67,7 +67,7 @@ def test_a_cycle_is_uploaded_and_its_result_follows_the_inputs(page, tmp_path):
     assert "operating point of the form" in page.get_by_test_id("operating-point").inner_text()
     note = page.get_by_test_id("duty-warnings")
     note.locator("summary").click()
-    assert "my <i>cycle.csv: ignored gear" in note.inner_text()
+    assert "my <i>cycle.csv: not used: gear" in note.inner_text()
     assert page.get_by_test_id("duty-stretches").locator("tbody tr").count() > 0
     assert seen(page, "figure-duty").locator(".js-plotly-plot .yaxislayer-above").count() > 0
     with zipfile.ZipFile(downloaded(page, "download-all", tmp_path)) as archive:

@@ -10,7 +10,7 @@ from tests.helpers.each import each
 
 # A verdict whose one line is longer than a terminal is wide.
 REASON = Statement.of("neglected", reason="words " * 30 + "end")
-TEXT = "No breakdown expected\n  but          Words " + "words " * 29 + "end.\n"
+TEXT = "No breakdown expected\n  caution      Words " + "words " * 29 + "end.\n"
 
 
 @each("level", ["green", "yellow", "red", "grey"])

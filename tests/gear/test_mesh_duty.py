@@ -171,6 +171,14 @@ def test_files_of_a_cycle(case, tmp_path):
     assert heads.endswith(",mesh_state")
     assert [line.rpartition(",")[2] for line in lines[:2]] == ["standstill", "conducts"]
     assert len(lines) == 7
+    # Summits that touch have no breakdown voltage, in the file as in the table.
+    column = [line.split(",")[heads.split(",").index("breakdown_voltage [V]")] for line in lines]
+    touching = (result.duty.rows.breakdown_voltage == 0.0).tolist()
+    assert any(touching)
+    assert [text == "" for text, touches in zip(column, touching, strict=True) if touches] == [True] * sum(
+        touching
+    )
+    assert all(float(text) > 0.0 for text in column if text)
     table = json.loads((tmp_path / "summary.json").read_text("utf-8"))["duty"]
     assert table["rows"] == 7
 

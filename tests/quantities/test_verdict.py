@@ -116,7 +116,7 @@ def test_lines_have_the_numbers_of_the_sentences():
         ("", "Breakdown likely at 3000 rpm, 70 °C"),
         ("voltages", f"shaft 4.04 V, first breakdown 3.9 V, margin 0.97; {interval}"),
         ("probability", "53 % (sampling error 4.3 %)"),
-        ("but", "The pressure-viscosity coefficient is estimated from the base oil."),
+        ("caution", "The pressure-viscosity coefficient is estimated from the base oil."),
         ("measure", "winding-rotor capacitance first (45 % of the spread of the margin)"),
         ("model", "best estimate: fully flooded, rough film"),
     ]

@@ -230,7 +230,7 @@ def test_a_sweep_of_a_drive_is_checked_without_a_simulation():
     meaning = preview_of(over({SPEED: ["1500 rpm", "3000 rpm"]}))
     assert meaning.summary["sweep"]["points"] == 2
     assert meaning.summary["first_point"]["drive_end"]["breakdown_voltage"] > 0.0
-    assert any("2 times ehlectric drive" in str(row.note) for row in meaning.rows)
+    assert any("2 times one ehlectric drive" in str(row.note) for row in meaning.rows)
 
 
 @pytest.mark.slow

@@ -126,11 +126,19 @@ class AxleDuty:
 
     @property
     def statement(self) -> Statement | None:
-        """Statement on the share of time that each element is the first; None if no element ever is."""
+        """Statement on the share of time that each element is the first, and of all other times; None if no
+        element ever is.
+        """
         shares = {name: self.share(self.first == number) for number, name in enumerate(self.names)}
         listed = sorted((name for name in shares if shares[name] > 0.0), key=lambda name: -shares[name])
-        texts = tuple(f"{name} {readable(100.0 * shares[name], 2)} %" for name in listed)
-        return Statement.of("axle-duty", elements=texts) if texts else None
+        rest = {
+            "no element": self.share(self.known & (self.first < 0)),
+            "standstill": self.share(self.standing),
+            "not computed": self.share(~self.standing & ~self.known),
+        }
+        known = [(name, shares[name]) for name in listed] + [each for each in rest.items() if each[1] > 0.0]
+        texts = tuple(f"{name} {readable(100.0 * share, 2)} %" for name, share in known)
+        return Statement.of("axle-duty", elements=texts) if listed else None
 
     def columns(self) -> dict[str, tuple[str | None, Array]]:
         """Columns of duty.csv with their units, None for texts."""

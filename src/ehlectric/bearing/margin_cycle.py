@@ -362,7 +362,7 @@ class _Causes:
         """
         name = column.replace("_", " ").replace("common mode", "common-mode")
         unit = self.book.columns[column].unit
-        return f"{name} {_text(unit, value)}; {raised} at the mean of {_text(unit, mean)}"
+        return f"at {name} {_text(unit, value)} ({raised} at the mean of {_text(unit, mean)})"
 
 
 def _raised(value: float, without: str) -> str:

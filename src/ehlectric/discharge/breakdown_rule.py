@@ -125,8 +125,8 @@ def share_interval(share: float, number: int) -> tuple[float, float]:
     return max(0.0, middle - error), min(1.0, middle + error)
 
 
-# Sampling error of the margin above which a statement contains no interval, as part of the margin.
-_ROUGH = 0.2
+# Sampling errors of the margin, as part of it, above which a statement contains no interval, and no number.
+_ROUGH, _VAGUE = 0.2, 0.5
 
 
 def _margin_error(*quantiles: tuple[Array, float]) -> float:
@@ -203,7 +203,7 @@ class Chance:
         (False, True)
         """
         low, high = (share_interval(bound, self.samples) for bound in self.bounds)
-        limits = [(low, EVEN)] if touching else [(high, UNLIKELY), (low, CERTAIN)]
+        limits = [(low, CERTAIN)] if touching else [(high, UNLIKELY), (low, CERTAIN)]
         return all(limit < least or limit > most for (least, most), limit in limits)
 
     @property
@@ -261,22 +261,29 @@ class Chance:
             about = {"failed": self.failed, "samples": self.samples}
         # The margin is 0 where surfaces touch.
         touch = not self.failed and self.high == 0.0
-        rough = self.margin_error > _ROUGH
         return (
             Statement.of("probability-of-touching", probability=self.stated)
             if touch
-            else Statement.of(
-                "probability-between" if self.failed else "probability-rough" if rough else "probability",
-                probability=self.stated,
-                doubts=without,
-                **about,
-            ),
+            else Statement.of(self._code, probability=self.stated, doubts=without, **about),
             Statement.of(
                 "measure-first-at-others" if self.failed else "measure-first",
                 first=self.first,
                 share=self.share,
             ),
         )
+
+    @property
+    def _code(self) -> str:
+        """Code of the statement on the probability, with an interval or a bound of the margin, or without."""
+        if self.failed:
+            return "probability-between"
+        # An infinite margin is no number: nothing breaks down there.
+        finite = self.low < math.inf if math.isinf(self.high) else True
+        if not finite or self.margin_error > _VAGUE or (self.low == 0.0 and math.isinf(self.high)):
+            return "probability-only"
+        if math.isinf(self.high):
+            return "probability-above"
+        return "probability-rough" if self.margin_error > _ROUGH else "probability"
 
 
 def bounds_of(share: float, samples: int, failed: int) -> tuple[float, float]:
@@ -294,9 +301,9 @@ def bounds_of(share: float, samples: int, failed: int) -> tuple[float, float]:
 def touching_rule(chance: Chance | None, *, driven: bool) -> tuple[Level, str]:
     """Level and code of a verdict on surfaces that touch, for which no voltage is computed.
 
-    Contacts that open discharge at any voltage: such a verdict is red as soon as breakdown is likely.
-    ``chance``, probability of breakdown, which counts touching surfaces; None without one: then the verdict
-    is red if the bearing is ``driven`` by a motor.
+    Contacts that open discharge at any voltage. ``chance``, probability of breakdown, which counts touching
+    surfaces; with the limits of all verdicts. None without one: then the verdict is red if the bearing
+    is ``driven`` by a motor.
 
     Examples
     --------
@@ -308,4 +315,4 @@ def touching_rule(chance: Chance | None, *, driven: bool) -> tuple[Level, str]:
     least, _ = chance.bounds
     if least <= EVEN:
         return "yellow", TOUCHING_AT_TIMES
-    return "red", TOUCHING_EXPECTED if least > CERTAIN else TOUCHING
+    return ("red", TOUCHING_EXPECTED) if least > CERTAIN else ("yellow", TOUCHING)

@@ -155,8 +155,13 @@ class MeshDuty(MarginCycle[MeshRows]):
         }
 
     def columns(self) -> dict[str, Written]:
-        """Columns of the rows with their units, the state of the mesh as a text."""
-        return super().columns() | {"mesh_state": (None, mesh_states(self.rows))}
+        """Columns of the rows with their units, the state of the mesh as a text; summits that touch have no
+        breakdown voltage.
+        """
+        columns = super().columns()
+        if "breakdown_voltage" in columns:
+            columns["breakdown_voltage"] = "V", _positive(self.rows.breakdown_voltage)
+        return columns | {"mesh_state": (None, mesh_states(self.rows))}
 
 
 def mesh_states(rows: MeshRows) -> Array:

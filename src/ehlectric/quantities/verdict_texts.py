@@ -31,6 +31,9 @@ def _three_digits(unit: str) -> Callable[[float], str]:
 _WAYS: Mapping[str, Callable[[Any], str]] = {
     "number": readable,
     "number2": lambda value: readable(value, 2),
+    "scaled": lambda divisor: (
+        f"divided by {readable(divisor)}" if divisor >= 1.0 else f"multiplied by {readable(1.0 / divisor)}"
+    ),
     ".1": lambda value: f"{value:.1f}",
     "ratio": ratio_text,
     "V": lambda value: f"{readable(value)} V",
@@ -154,7 +157,7 @@ def _labelled(statement: Statement, at: str) -> Iterator[tuple[str, str]]:
     """Labels and texts of a statement; one without lines is a sentence under its default label."""
     entry = _texts()["statements"][statement.code]
     if "lines" not in entry:
-        yield entry.get("line", "but"), statement_text(statement, at, "brief")
+        yield entry.get("line", "caution"), statement_text(statement, at, "brief")
         return
     values = {name: _rendered(value, at, "brief") for name, value in statement.values.items()}
     for label, template in entry["lines"].items():

@@ -96,7 +96,7 @@ def _sweep_rows(sweep: Sweep, described: Mapping[str, Any], seconds: float) -> I
         )
     else:
         command = _COMMANDS.get(type(sweep.case), "run")
-        note = f"that of {sweep.size} times ehlectric {command}, divided by {cores()} cores"
+        note = f"about {sweep.size} times one ehlectric {command}, on {cores()} cores"
         yield Row("time", note=note)
 
 

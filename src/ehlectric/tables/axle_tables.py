@@ -267,7 +267,7 @@ def _rough_shares(table: Mapping[str, Any], key: str) -> Iterator[Row]:
     predicted = table.get(key)
     if predicted is not None and predicted < _PREDICTED:
         text = f"{readable(100.0 * max(predicted, 0.0), 2)} % of the spread"
-        yield Row("predicted by these inputs", text, note=", shares are rough", key=f"uncertainty.{key}")
+        yield Row("explained by the fit", text, note=", shares are approximate", key=f"uncertainty.{key}")
 
 
 def axle_rows(summary: Summary) -> Iterator[Row]:

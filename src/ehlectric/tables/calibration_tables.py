@@ -38,7 +38,7 @@ def input_cells(result: Calibration) -> Iterator[tuple[str, ...]]:
     for place, entry in enumerate(result.inputs):
         if entry.posterior is None or entry.reduction is None:
             continue
-        removed = f"{_part(max(entry.reduction, 0.0))} +- {_part(entry.reduction_error or 0.0)} %"
+        removed = f"{_part(max(entry.reduction, 0.0))} ± {_part(entry.reduction_error or 0.0)} %"
         before = range_text(entry, entry.prior)
         after = range_text(entry, entry.posterior) if entry.updated else "as before"
         yield entry.label.partition(" (")[0], before, after, removed, _correlated(result, place)
@@ -110,10 +110,10 @@ def _row(row: Compared, labels: dict[str, str]) -> tuple[str, ...]:
 def _with_uncertainty(row: Compared) -> str:
     """Measured value with its uncertainty, which is a difference."""
     if row.unit == "K":
-        return f"{amount_text(row.measured, row.unit)} +- {readable(row.uncertainty, 2)} K"
+        return f"{amount_text(row.measured, row.unit)} ± {readable(row.uncertainty, 2)} K"
     factor, unit = suited(row.measured, row.unit)
     value, error = readable(factor * row.measured, 4), readable(factor * row.uncertainty, 2)
-    return f"{value} +- {error} {unit}".rstrip()
+    return f"{value} ± {error} {unit}".rstrip()
 
 
 def _signed(residual: float) -> str:

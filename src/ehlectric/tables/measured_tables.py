@@ -100,7 +100,7 @@ def rows_table(factors: FilmFactors) -> Table:
     electric = factors.quantity == "capacitance"
     measured, unit, scale = ("capacitance", "pF", 1e12) if electric else ("film", "nm", 1e9)
     speed = "speed\n[rpm]" if electric else "u\n[m/s]"
-    heads = ("line", speed, f"measured\n[{unit}]", f"computed\n[{unit}]", "film factor", "+-")
+    heads = ("line", speed, f"measured\n[{unit}]", f"computed\n[{unit}]", "film factor", "±")
     columns, rows = factors.columns, []
     for k in range(min(len(factors.reasons), _PRINTED)):
         at = float(columns[factors.speed_key][k])
@@ -127,7 +127,7 @@ def factor_rows(factors: FilmFactors) -> Iterator[Row]:
     mean = factors.mean
     yield Row("measurement", factors.source, note=_counted(factors))
     if factors.background is not None:
-        yield Row("background taken off", amount(factors.background, "F"))
+        yield Row("background subtracted", amount(factors.background, "F"))
     if mean is None:
         yield Row("mean film factor", "none", alarm=True)
     else:
@@ -138,12 +138,10 @@ def factor_rows(factors: FilmFactors) -> Iterator[Row]:
         if mean.systematic:
             yield Row("and of the ranges of the case", mean.systematic, "%", digits=".2g")
         elif mean.low is not None:
-            yield Row(
-                "inputs of the case", "taken as exact", note="; [ranges] of a bearing widens the interval"
-            )
+            yield Row("inputs of the case", "treated as exact", note="; add [ranges] for a wider interval")
     if factors.slope is not None:
         slope, error = factors.slope
-        yield Row("film factor over speed", f"speed^({readable(slope, 2)} +- {readable(error, 1)})")
+        yield Row("film factor over speed", f"speed^({readable(slope, 2)} ± {readable(error, 1)})")
     how = f"{factors.solves} solved" if factors.contacts == "solved" else HOW[factors.contacts]
     yield Row("contacts" if factors.quantity == "capacitance" else "films", how)
 
@@ -151,11 +149,7 @@ def factor_rows(factors: FilmFactors) -> Iterator[Row]:
 def _film_error_note(factors: FilmFactors) -> str:
     """Note on the error of films that are not solved, which is not in the interval."""
     error = factors.formula_error
-    return (
-        ""
-        if error is None
-        else f", in addition to up to {readable(100.0 * error, 2)} % of the {factors.contacts}"
-    )
+    return "" if error is None else f"; the {factors.contacts} adds up to {readable(100.0 * error, 2)} %"
 
 
 def _counted(factors: FilmFactors) -> str:
@@ -168,6 +162,6 @@ def _interval(mean: MeanFactor) -> str:
         return "none: one row without a stated uncertainty"
     from_rows = {
         SCATTER: ", from the scatter of the rows only",
-        RAISED: ", raised to the scatter of the rows",
+        RAISED: ", widened to the scatter of the rows",
     }
     return f"{mean.low:.3f} to {mean.high:.3f}{from_rows.get(mean.basis, '')}"

@@ -67,7 +67,7 @@ def shares_of_spread(summary: Summary) -> Iterator[Row]:
 def shares_above_all(shares: Sequence[float]) -> Iterator[Row]:
     """Row with the sum of the shares of all inputs, and why it exceeds 100 %; no row if it does not."""
     if sum(shares) >= _ABOVE_ALL:
-        note = ", more than 100 %: what inputs cause together is in the share of each of them"
+        note = ", joint effects count for each input"
         yield Row("sum of these shares", f"{readable(100.0 * sum(shares), 3)} %", note=note)
 
 

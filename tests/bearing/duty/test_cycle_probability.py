@@ -140,7 +140,7 @@ def test_the_reason_of_a_stretch_says_that_surfaces_touch_at_the_mean(tmp_path):
     duty = run_duty(with_cycle(tmp_path, rows, **{RQ: "0.05 um", TEMPERATURE: "60 degC"}))
     (stretch,) = duty.stretches
     assert np.isfinite(stretch.least_margin)
-    assert stretch.why.startswith("speed 6000 rpm; frequent asperity contact at the mean of ")
+    assert stretch.why.startswith("at speed 6000 rpm (frequent asperity contact at the mean of ")
 
 
 def test_each_driven_row_has_the_probability_of_its_margin(monkeypatch):

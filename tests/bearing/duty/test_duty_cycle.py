@@ -199,7 +199,7 @@ def test_a_stretch_lies_between_the_rows_around_it(tmp_path):
     assert (stretch.start, stretch.end, stretch.time) == (15.0, 45.0, 30.0)
     assert stretch.least_margin is None
     assert stretch.lambda_ratio == duty.rows.lambda_ratio.min() < 3.0
-    assert stretch.why.startswith("speed 700 rpm; ")
+    assert stretch.why.startswith("at speed 700 rpm (")
 
 
 @pytest.mark.slow

@@ -137,7 +137,7 @@ def test_the_accuracy_of_films_is_told_only_where_it_decides(balls, value, low, 
     rough = solved(motor__common_mode_voltage=voltage, bearing__composite_rq="0.1 um")
     found = judged(rough, low=low, high=high)
     assert found.level == "yellow", "the surfaces may touch"
-    assert ("solved contacts decide" in found.text) is told
+    assert ("confirm with solved contacts" in found.text) is told
 
 
 def test_a_stated_range_across_one_is_yellow(balls):
