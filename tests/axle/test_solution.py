@@ -9,12 +9,13 @@ from ehlectric import AxleCase, solve, solve_axle, solve_bearing
 from ehlectric.axle.axle_verdict import axle_verdict
 from ehlectric.axle.measurable import _Probable as Probable
 from ehlectric.axle.network import HOUSING, WINDING, Film, Network
-from ehlectric.axle.solution import AxleSolution, Element, solve_elements
+from ehlectric.axle.solution import AxleSolution, Element, named_warnings, solve_elements, thinnest_first
 from ehlectric.axle.summary import axle_summary, ratio_word
 from ehlectric.cases.drive_inputs import Breakdown, Circuit
 from ehlectric.discharge.breakdown_rule import Chance
 from ehlectric.drive.drive_bearings import bearing_element
 from ehlectric.drive.motor_circuit import capacitive_divider
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable
 from tests.axle.axles import ALONE, two_stages
 
@@ -240,3 +241,12 @@ def test_a_margin_of_zero_recommends_no_measurement():
         chance = Chance(0.99, 0.01, 0.0, 0.0, high, first="torque", share=0.4, samples=512)
         verdict = axle_verdict(by_hand(), Probable(chance))
         assert ("measure-first" in [reason.code for reason in verdict.reasons]) == recommended
+
+
+def test_a_warning_of_many_elements_has_the_numbers_of_the_thinnest_film():
+    elements = [replace(by_hand().elements[0], name=f"b{k}", lambda_ratio=float(k)) for k in (3, 1, 5, 2, 4)]
+    warnings = [(each.name, (ResultWarning("row-unloaded", f"number {each.name}."),)) for each in elements]
+    (text,) = (str(each) for each in named_warnings(thinnest_first(elements, warnings)))
+    assert text == "b1: number b1. The same holds for b2, b3 and 2 others, with other numbers."
+    (text,) = (str(each) for each in named_warnings(thinnest_first(elements, warnings[:3])))
+    assert text == "b1: number b1. The same holds for b3, b5, with other numbers."

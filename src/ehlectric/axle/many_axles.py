@@ -20,6 +20,7 @@ from ehlectric.axle.solution import (
     mesh_element,
     named_warnings,
     naming_torque,
+    thinnest_first,
 )
 from ehlectric.bearing import Detail, codes_of, is_quick, many_of, solve_bearing, solved_parts
 from ehlectric.cases.axle_case import AxleCase, Turning
@@ -138,7 +139,10 @@ def _together(axle: _Axle, solved: Sequence[_Solved]) -> Outcome:
     warnings = named_warnings(
         (
             *axle_warnings(axle.case, axle.turning, axle.loads),
-            *((element.name, of_element) for element, of_element in known),
+            *thinnest_first(
+                [element for element, _ in known],
+                [(element.name, of_element) for element, of_element in known],
+            ),
         )
     )
     return AxleSolution(axle.case, axle.turning, tuple(element for element, _ in known), tuple(warnings))

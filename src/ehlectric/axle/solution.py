@@ -422,15 +422,19 @@ def solve_elements(case: AxleCase, progress: Progress = silent) -> AxleSolution:
 def elements_of(films: SolvedFilms) -> AxleSolution:
     """Axle with the elements of its solved films."""
     case, elements = films.case, list[Element]()
-    warnings = [*axle_warnings(case, films.turning, films.loads)]
+    of_elements = list[tuple[str, tuple[ResultWarning, ...]]]()
     mounted = zip(case.names_of_bearings(), case.bearing, films.bearings, films.axial, strict=True)
     for name, bearing, result, axial in mounted:
-        warnings.append((name, tuple(each for each in result.warnings if each.code != "capacitance-bound")))
+        of_elements.append(
+            (name, tuple(each for each in result.warnings if each.code != "capacitance-bound"))
+        )
         elements += bearing_elements(result.solution, [(name, bearing.shaft, axial)])
     for name, mesh, gears in zip(case.names_of_meshes(), case.mesh, films.meshes, strict=True):
         elements.append(mesh_element(name, mesh.gears, gears))
-        warnings.append((name, tuple(gear_warnings(gears, in_axle=True))))
-    solution = AxleSolution(case, films.turning, tuple(elements), tuple(named_warnings(warnings)))
+        of_elements.append((name, tuple(gear_warnings(gears, in_axle=True))))
+    of_axle = axle_warnings(case, films.turning, films.loads)
+    warnings = named_warnings((*of_axle, *thinnest_first(elements, of_elements)))
+    solution = AxleSolution(case, films.turning, tuple(elements), tuple(warnings))
     return replace(solution, warnings=(*solution.warnings, *_bound_warning(solution)))
 
 
@@ -492,8 +496,22 @@ def axle_warnings(
                 yield names[number], (ResultWarning.of("row-unloaded"),)
 
 
+def thinnest_first(
+    elements: Sequence[Element], warnings: Iterable[tuple[str, tuple[ResultWarning, ...]]]
+) -> list[tuple[str, tuple[ResultWarning, ...]]]:
+    """Names of elements with their warnings, the smallest lambda ratio first."""
+    ratios = {element.name: element.lambda_ratio for element in elements}
+    return sorted(warnings, key=lambda row: ratios[row[0]])
+
+
+# Largest number of elements that a warning names.
+_MOST_NAMED = 4
+
+
 def named_warnings(warnings: Iterable[tuple[str, Iterable[ResultWarning]]]) -> Iterator[ResultWarning]:
-    """Warnings with the names of their elements: each code once, with the text of the first element."""
+    """Warnings with the names of their elements: each code once, with the text of the first element, which is
+    the one with the smallest lambda ratio.
+    """
     first: dict[str, ResultWarning] = {}
     names: dict[str, list[str]] = {}
     for name, of_element in warnings:
@@ -503,8 +521,15 @@ def named_warnings(warnings: Iterable[tuple[str, Iterable[ResultWarning]]]) -> I
                 names[warning.code].append(name)
     for code, warning in first.items():
         name, *others = names[code]
-        further = f" The same holds for {', '.join(others)}, with other numbers." if others else ""
+        further = f" The same holds for {_named(others)}, with other numbers." if others else ""
         yield ResultWarning(warning.code, f"{name}: {warning}{further}")
+
+
+def _named(names: Sequence[str]) -> str:
+    """Names of some elements, or the first of many and the number of the others."""
+    few = names if len(names) < _MOST_NAMED else names[: _MOST_NAMED - 2]
+    rest = len(names) - len(few)
+    return ", ".join(few) + (f" and {rest} others" if rest else "")
 
 
 def load_of(case: AxleCase, number: int, loads: Mapping[str, BearingLoads]) -> tuple[float, float]:
