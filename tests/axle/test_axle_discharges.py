@@ -162,3 +162,26 @@ def test_the_resistance_of_a_mesh_replaces_the_value_of_its_gear_file():
     again = AxleCase.from_dict(case.to_dict()).replace({"mesh.gear.contact.contact_resistance": "3 ohm"})
     contacts = [again.gear_case(number, again.turning()).gear.contact for number in range(2)]
     assert [contact.contact_resistance for contact in contacts] == [3.0, 3.0]
+
+
+@pytest.mark.slow
+def test_all_missing_values_of_an_axle_and_its_remedies_are_named_at_once():
+    """A mesh that insulates needs no resistance; a rougher one does, also if a remedy roughens it."""
+    case = two_stages()
+    tables = case.to_dict()
+    for mesh in tables["mesh"]:
+        mesh.pop("contact_resistance", None)
+    rough = [
+        {"title": f"Rough {n}", "changes": {f"mesh.{n}.gear.flank_ra": ra}}
+        for n, ra in ((1, 9e-8), (2, 1.2e-7))
+    ]
+    tables["drive"]["duration"] = 1e-4
+    tables["breakdown"] = {"arc_resistance": 10.0, "extinction_current": 0.01, "recovery_time": 1e-7}
+    alone = solve_axle(AxleCase.from_dict(tables | {"remedies": []}))
+    assert alone.discharges is not None
+    with pytest.raises(InputError) as caught:
+        solve_axle(AxleCase.from_dict(tables | {"remedies": rough}))
+    text = str(caught.value)
+    assert text.startswith("mesh.1.contact_resistance: missing")
+    assert "'Rough 1'" in text
+    assert "also missing: mesh.2.contact_resistance" in text

@@ -7,7 +7,7 @@ it has its mean values. A bearing has positions of its rolling elements, and a m
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -39,8 +39,9 @@ from ehlectric.drive import (
     event_rate,
     spread,
 )
-from ehlectric.errors import InputError, within
-from ehlectric.gear import GearSolution
+from ehlectric.errors import InputError, printable, within
+from ehlectric.gear import GearSolution, state_at
+from ehlectric.quantities.lubrication_states import INSULATES
 from ehlectric.runtime.progress import Progress, silent
 
 # Relative change over the positions below which an element has mean values.
@@ -169,8 +170,8 @@ def simulate_axle(
     with within("source"):
         running = given.at_speed(case.drive.speed)
     source = SourceInTime.of(running, given, breakdown, case.drive.duration)
-    conducting = {each.name for each in solution.films() if each.conducts}
-    timed = _films_in_time(solve_films(case) if films is None else films, breakdown, conducting)
+    solved = solve_films(case) if films is None else films
+    timed = _films_in_time(solved, breakdown, _conducting(solution))
     names = {each.name for each in timed}
     fixed = Network(network.shafts, tuple(each for each in network.elements if each.name not in names))
     axle = AxleInTime(fixed, tuple(timed), breakdown, source.ring_rate)
@@ -186,6 +187,49 @@ def simulate_axle(
         lambda text: progress(0, 100, text),
     )
     return AxleDischarges(tuple(each.name for each in axle.active), axle.floating, record)
+
+
+def simulate_axles(
+    solutions: Sequence[AxleSolution],
+    films: Sequence[SolvedFilms] | None = None,
+    progress: Progress = silent,
+) -> tuple[AxleDischarges | None, ...]:
+    """Discharges of a solved axle and of its remedies, in this order, as of ``simulate_axle``.
+
+    Values that are missing in several of them are named at once, before the first simulation.
+    """
+    films = [solve_films(solution.case) for solution in solutions] if films is None else films
+    case, breakdown, missing = solutions[0].case, solutions[0].case.breakdown, list[InputError]()
+    for number, (solution, solved) in enumerate(zip(solutions, films, strict=True)):
+        if breakdown is not None:
+            with _collecting(missing), _of_remedy(case, number):
+                _films_in_time(solved, breakdown, _conducting(solution))
+    if missing:
+        raise InputError.together(missing)
+    return tuple(
+        simulate_axle(solution, progress, films=solved)
+        for solution, solved in zip(solutions, films, strict=True)
+    )
+
+
+@contextmanager
+def _of_remedy(case: AxleCase, number: int) -> Iterator[None]:
+    """Context in which an error names the remedy with a number from 1; 0 is the axle itself."""
+    try:
+        yield
+    except InputError as error:
+        if not number:
+            raise
+        title = printable(case.remedies[number - 1].title)
+        text = "; ".join(
+            f"{each.text} (with the mitigation measure {title!r})" for each in error.several or (error,)
+        )
+        raise error.with_text(error.key, text) from None
+
+
+def _conducting(solution: AxleSolution) -> set[str]:
+    """Names of bearings and meshes that conduct for good."""
+    return {each.name for each in solution.films() if each.conducts}
 
 
 def _films_in_time(solved: SolvedFilms, breakdown: Breakdown, conducting: set[str]) -> list[TimedFilm]:
@@ -247,7 +291,7 @@ def mesh_film(gears: GearSolution, breakdown: Breakdown, mesh: str) -> BearingEl
     Under high summits it breaks down at the lowest voltage of an arc. Oil passes the Hertz zone in the time
     2 b_H/u_m, in which a contact stays closed, and other oil with another threshold arrives. Raises
     InputError without a dielectric strength, and without ``contact_resistance`` of a mesh that conducts at
-    times.
+    times. Without it, the short contacts of a mesh that insulates are neglected.
     """
     limits, gear, operation = gears.breakdown_voltage, gears.case.gear, gears.case.gear.operation
     if limits is None:
@@ -255,9 +299,11 @@ def mesh_film(gears: GearSolution, breakdown: Breakdown, mesh: str) -> BearingEl
     share = float(gears.loads.mean(gears.contact_time_share()))
     touching = share if gear.contact.conduction == "by-film" and share > _NEVER else 0.0
     if touching and gear.contact.contact_resistance is None:
-        raise InputError.missing(
-            f"{mesh}.contact_resistance", "the resistance of the mesh while it conducts, about 1 ohm"
-        )
+        if state_at(share, gear.contact.conduction) != INSULATES:
+            raise InputError.missing(
+                f"{mesh}.contact_resistance", "the resistance of the mesh while it conducts, about 1 ohm"
+            )
+        touching = 0.0
     phases = np.arange(_PHASES) * limits.size // _PHASES
     capacitance, tau = np.asarray(gears.capacitance)[phases], gears.relaxation_time
     width, speed = gears.films.half_width[gears.thinnest], gears.films.mean_speed[gears.thinnest]

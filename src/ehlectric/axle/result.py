@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from ehlectric.axle.axle_discharges import AxleDischarges, simulate_axle
+from ehlectric.axle.axle_discharges import AxleDischarges, simulate_axles
 from ehlectric.axle.axle_duty import AxleDuty, check_axle_duty, run_axle_duty
 from ehlectric.axle.axle_verdict import axle_verdict
 from ehlectric.axle.solution import AxleSolution, elements_of, solve_films
@@ -124,7 +124,7 @@ class AxleResult(Shown):
         """Discharges of the axle and with each remedy."""
         if self.case.drive.duration is None or not self.probable:
             return ()
-        return self.simulated or tuple(map(simulate_axle, (self.solution, *self.remedies)))
+        return self.simulated or simulate_axles((self.solution, *self.remedies))
 
     @read_only_property
     def verdict(self) -> Verdict:
@@ -310,10 +310,6 @@ def solve_axle(
     every = [solve_films(each, progress) for each in (case, *(variants if remedies else ()))]
     solution, *changed = map(elements_of, every)
     timed = probable and case.drive.duration is not None
-    simulated = tuple(
-        simulate_axle(axle, progress, films=films)
-        for axle, films in zip((solution, *changed), every, strict=True)
-        if timed
-    )
+    simulated = simulate_axles((solution, *changed), every, progress) if timed else ()
     seconds = time.perf_counter() - start
     return AxleResult(solution, tuple(changed), seconds=seconds, probable=probable, simulated=simulated)
