@@ -37,7 +37,7 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.gear_inputs import Conduction
 from ehlectric.errors import ConvergenceError, InputError, within
 from ehlectric.gear import GearSolution, drawing_of, gear_pair, gear_warnings, solve_gear_pair, state_at
-from ehlectric.quantities.formats import amount, speed_text
+from ehlectric.quantities.formats import CELSIUS, amount, speed_text
 from ehlectric.quantities.lubrication_states import CONDUCTS
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable
@@ -45,6 +45,9 @@ from ehlectric.runtime.progress import Progress, silent
 
 # Assumptions about the conduction of gear meshes.
 CONDUCTIONS: tuple[Conduction, ...] = ("by-film", "always", "never")
+
+# Difference of temperatures that counts as none [K].
+_SAME_TEMPERATURE = 0.5
 
 # Part of a capacitance that stands for none, so that each shaft keeps its path to the housing.
 _NO_CAPACITANCE = 1e-6
@@ -475,15 +478,8 @@ def axle_warnings(
     """Warnings about meshes that raise the speed, and about bearings that are adjusted against each other,
     with the names of meshes, shafts and bearings.
     """
-    names, order = case.names_of_bearings(), [*turning]
-    for name, mesh in zip(case.names_of_meshes(), case.mesh, strict=True):
-        driving, driven = sorted(mesh.gears, key=order.index)
-        slow, fast = (abs(turning[shaft].speed) for shaft in (driving, driven))
-        if fast > slow:
-            raised = ResultWarning.of(
-                "speed-raised", driven=driven, slow=speed_text(slow), fast=speed_text(fast)
-            )
-            yield name, (raised,)
+    names = case.names_of_bearings()
+    yield from _mesh_warnings(case, turning)
     for shaft in case.shaft:
         if shaft.name not in loads or loads[shaft.name].shares is None:
             continue
@@ -494,6 +490,30 @@ def axle_warnings(
         for number, unloaded in zip(case.bearings_of(shaft.name), loads[shaft.name].unloaded, strict=True):
             if unloaded:
                 yield names[number], (ResultWarning.of("row-unloaded"),)
+
+
+def _mesh_warnings(
+    case: AxleCase, turning: Mapping[str, Turning]
+) -> Iterator[tuple[str, tuple[ResultWarning, ...]]]:
+    """Notes of meshes whose oil temperature the axle replaces, and of meshes that raise the speed."""
+    order = [*turning]
+    for name, mesh in zip(case.names_of_meshes(), case.mesh, strict=True):
+        of_file, oil = mesh.pair.gear.operation, case.drive.temperature
+        if abs(of_file.oil_temperature - oil) > _SAME_TEMPERATURE:
+            flanks = f"{CELSIUS.text(oil)} and flanks "
+            if isinstance(of_file.bulk_temperature, str):
+                flanks += "by bulk_temperature 'iso'"
+            else:
+                flanks += f"of {CELSIUS.text(of_file.bulk_temperature + oil - of_file.oil_temperature)}"
+            given = CELSIUS.text(of_file.oil_temperature)
+            yield name, (ResultWarning.of("mesh-temperature", given=given, used=flanks),)
+        driving, driven = sorted(mesh.gears, key=order.index)
+        slow, fast = (abs(turning[shaft].speed) for shaft in (driving, driven))
+        if fast > slow:
+            raised = ResultWarning.of(
+                "speed-raised", driven=driven, slow=speed_text(slow), fast=speed_text(fast)
+            )
+            yield name, (raised,)
 
 
 def thinnest_first(

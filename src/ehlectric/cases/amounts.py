@@ -177,8 +177,12 @@ class Amount(Bounds):
         if self.unit == units.ROTATION:
             text = "a string with its unit, as '3000 rpm'"
         text += " or a string in percent" if self.fraction else ""
+        return text + self.bounds_text(self._bound_text)
+
+    def bounds_text(self, shown: Callable[[float], str]) -> str:
+        """End of ``takes``: the bounds as ``shown`` writes them, and their reason."""
         bounds = [
-            f"{word} {self._bound_text(bound)}"
+            f"{word} {shown(bound)}"
             for word, bound in (
                 ("above", self.above),
                 ("at least", self.least),
@@ -187,8 +191,7 @@ class Amount(Bounds):
             )
             if math.isfinite(bound)
         ]
-        if bounds:
-            text += ", " + " and ".join(bounds)
+        text = f", {' and '.join(bounds)}" if bounds else ""
         text += ", or 'inf' for a plane" if self.infinite else ""
         return text + (f": {self.reason}" if self.reason else "")
 

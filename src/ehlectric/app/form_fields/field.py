@@ -12,7 +12,9 @@ from typing import Any, Literal
 
 from ehlectric.app.catalogue import bearing
 from ehlectric.app.page_inputs import Inputs
+from ehlectric.cases.amounts import Amount
 from ehlectric.cases.bearing_kinds import KEYS_OF_KINDS, KINDS_OF_BEARINGS, KindOfBearing
+from ehlectric.cases.input_keys import kind_of as number_of_key
 from ehlectric.quantities.field_help import help_text
 from ehlectric.quantities.grouped_digits import certain
 from ehlectric.quantities.inputs import attributes, form, input_at, key_of_list
@@ -391,12 +393,6 @@ def about_group(title: str) -> dict[str, Any]:
 _MOST_DIGITS = 8
 
 _NUMBER = r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
-# Kinds of numbers that the checks describe, before their bounds in SI units.
-_TAKES = re.compile(
-    r"(?:a number in \S+ or a string with its unit|a string with its unit, as '[^']*')"
-    rf"(?P<bounds>(?:,? (?:and )?(?:above|at least|below|at most) {_NUMBER}(?: rad/s)?)*)"
-)
-_BOUND = re.compile(rf"({_NUMBER})(?: rad/s)?")
 
 
 def shown_text(field: Field, text: str) -> str:
@@ -437,24 +433,25 @@ def in_field_unit(field: Field, text: str) -> str:
 
     Examples
     --------
-    >>> field = Field("bearing.temperature", "Temperature", "degC", 20.0, 120.0)
-    >>> in_field_unit(field, "got '1 degC'; expected a number in K or a string with its unit, at least 200")
-    "got '1 degC'; expected a number, with or without its unit, such as 70 °C, at least -73.15 °C"
+    >>> angle = Field("gear.normal_pressure_angle", "Pressure angle", "deg", 15.0, 25.0)
+    >>> in_field_unit(angle, f"got '2 deg'; expected {number_of_key(angle.key).takes}")[13:107]
+    'expected a number, with or without its unit, such as 20 deg, above 4.5837 deg and below 45.837'
     """
     if not field.unit or field.unit == "%":
         return text
     si, unit = si_unit(field.unit), printed(field.unit)
 
-    def number(value: str) -> str:
+    def number(value: object) -> str:
         converted = in_unit(f"{value} {si}", field.unit)
         return f"{value} {si}" if converted is None else f"{rounded(converted, 5)} {unit}"
 
-    def takes(match: re.Match[str]) -> str:
-        example = f"{rounded(field.at(0.5))} {unit}"
-        bounds = _BOUND.sub(lambda bound: number(bound[1]), match["bounds"])
-        return f"a number, with or without its unit, such as {example}{bounds}"
-
     names = "|".join(sorted({re.escape(name) for name in (si, si.replace("^", "**"))}))
     elsewhere = re.compile(rf"(?<!['\d.e+-])({_NUMBER}) (?:{names})(?![\w*^/²³])")
-    text = _TAKES.sub(takes, text)
-    return text if si == field.unit else elsewhere.sub(lambda match: number(match[1]), text)
+    amount = number_of_key(field.key)
+    parts_of_text = text.split(amount.takes) if isinstance(amount, Amount) else [text]
+    if si != field.unit:
+        parts_of_text = [elsewhere.sub(lambda match: number(match[1]), part) for part in parts_of_text]
+    if not isinstance(amount, Amount):
+        return parts_of_text[0]
+    takes = f"a number, with or without its unit, such as {rounded(field.at(0.5))} {unit}"
+    return (takes + amount.bounds_text(lambda bound: number(repr(bound)))).join(parts_of_text)
