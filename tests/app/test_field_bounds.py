@@ -52,7 +52,9 @@ def test_every_bound_is_in_the_unit_of_its_field(page):
             assert (found is not None) == math.isfinite(bound), (field.key, words, text)
             if found is not None:
                 stated += 1
-                assert to_si(f"{found[1]} {field.unit}", amount.unit) == pytest.approx(bound, rel=1e-4, abs=1e-12)
+                assert to_si(f"{found[1]} {field.unit}", amount.unit) == pytest.approx(
+                    bound, rel=1e-4, abs=1e-12
+                )
         # A second error with other numbers does not change what is stated.
         twice = in_field_unit(field, f"{caught.value.text}; also other: {caught.value.text}")
         assert twice.count(text.partition("expected ")[2]) == 2

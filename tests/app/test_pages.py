@@ -52,3 +52,17 @@ def test_an_error_of_the_program_keeps_its_traceback():
         assert security._OneLine().filter(record)
         assert (record.exc_info is None) == ("engineio" in last)
         assert ("\n" in record.getMessage()) == ("engineio" not in last)
+
+
+@pytest.mark.parametrize("name", ["nicegui", "uvicorn.error", "asyncio"])
+def test_an_address_reaches_the_terminal_without_characters_that_control_it(name, caplog):
+    security.log_in_single_lines()
+    logger, path = logging.getLogger(name), "http://127.0.0.1/\x1b]0;PWN\x07\nuser: " + 500 * "x"
+    with caplog.at_level(logging.WARNING, logger=name):
+        logger.warning("%s not found", path)
+        logger.warning("an address of %s", "http://127.0.0.1/bearing")
+    first, second = caplog.messages
+    assert first.isprintable()
+    assert first.startswith(r"http://127.0.0.1/\x1b]0;PWN\x07\nuser: xx")
+    assert len(first) == 200
+    assert second == "an address of http://127.0.0.1/bearing"

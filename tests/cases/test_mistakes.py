@@ -180,3 +180,20 @@ def test_one_mistake_of_a_drive_is_told_once():
         DriveCase.from_dict(table)
     assert told.value.key == "drive_end.contacts"
     assert told.value.several == ()
+
+
+@pytest.mark.parametrize("table", ["", "bearing."])
+def test_many_unknown_keys_are_refused_without_a_search_for_each(monkeypatch, table):
+    """The first hundred are named, with the number of all."""
+    monkeypatch.setattr("ehlectric.cases.table.nearest_key", None)
+    unknown = {f"a{number}": 1 for number in range(5000)}
+    tables = BearingCase.from_toml(EXAMPLES / "bearing_6208.toml").to_dict()
+    tables = tables | unknown if not table else tables | {"bearing": tables["bearing"] | unknown}
+    with pytest.raises(InputError) as caught:
+        BearingCase.from_dict(tables)
+    text = str(caught.value)
+    assert text.startswith(
+        f"{table}a0: unknown key, one of 5000 in this file; the next are {table}a1, {table}a2, "
+    )
+    assert f"{table}a99" in text
+    assert f"{table}a100" not in text

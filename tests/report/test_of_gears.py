@@ -1,8 +1,10 @@
 """Report of a gear pair: its parts, and what they are taken from."""
 
+from pathlib import Path
+
 import pytest
 
-from ehlectric import save, solve_gear, write_report
+from ehlectric import InputError, save, solve_gear, write_report
 from ehlectric.report.build import report_of
 from ehlectric.report.report_content import Light, Numbers, Picture, Table
 from tests.helpers.gears import helical_case, spur_case
@@ -90,3 +92,11 @@ def test_files_are_written(folder, tmp_path):
     html = files[0].read_text(encoding="utf-8")
     assert "Does the film between these gears insulate" in html
     assert files[1].read_bytes().startswith(b"%PDF")
+
+
+@pytest.mark.parametrize("target", ["/proc/report.html", "/proc/report.pdf"])
+@pytest.mark.skipif(not Path("/proc/self").exists(), reason="a folder into which nobody may write")
+def test_a_folder_that_cannot_be_written_to_is_refused_before_the_report_is_made(folder, monkeypatch, target):
+    monkeypatch.setattr("ehlectric.report.build.report_of", None)
+    with pytest.raises(InputError, match=r"^/proc: cannot be written to"):
+        write_report(folder, target)

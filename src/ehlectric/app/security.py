@@ -164,17 +164,19 @@ def with_bounded_pages(inner: ASGIApp, number: Callable[[], int], most: int = MO
     return bounded
 
 
-# Loggers that report an error in a message, and packages that read messages.
-_LOGGERS = ("asyncio", "uvicorn.error", "engineio.server", "socketio.server")
+# Loggers of the server, which report requests and errors in messages, and packages that read messages.
+_LOGGERS = ("asyncio", "uvicorn.error", "engineio.server", "socketio.server", "nicegui", "ehlectric.app")
 _READERS = ("engineio", "socketio")
 _PROGRAM = __name__.partition(".")[0]
 
-# Longest text of an error that is logged, since it may quote the message [characters].
+# Longest text that is logged, since it may quote an address or a message [characters].
 _LONGEST = 200
 
 
 def log_in_single_lines() -> None:
-    """Make the loggers of the server report a message that cannot be read in one line."""
+    """Make the loggers of the server report a message that cannot be read in one line, and requests without
+    characters that control a terminal.
+    """
     for name in _LOGGERS:
         logger = logging.getLogger(name)
         if not any(isinstance(each, _OneLine) for each in logger.filters):
@@ -182,15 +184,21 @@ def log_in_single_lines() -> None:
 
 
 class _OneLine(logging.Filter):
-    """Filter that shortens records of errors in messages, and passes all records on."""
+    """Filter that shortens records of errors in messages and escapes all texts, and passes all records on."""
 
     def filter(self, record: logging.LogRecord) -> bool:
-        """Shorten a record where its error is one of a message."""
+        """Shorten a record where its error is one of a message, and escape its text."""
         error = record.exc_info[1] if record.exc_info else None
         if error is not None and _is_of_a_message(error.__traceback__):
             text = printable(" ".join(f"{type(error).__name__}: {error}".split()))[:_LONGEST]
             record.msg, record.args = "a message of a browser cannot be read: %s", (text,)
             record.exc_info = record.exc_text = None
+        else:
+            # An error of the program has its lines.
+            lines = record.getMessage().splitlines() if error is not None else [record.getMessage()]
+            text = "\n".join(map(printable, lines))
+            if text != record.getMessage():
+                record.msg, record.args = "%s", (text[:_LONGEST],)
         return True
 
 

@@ -440,6 +440,10 @@ def nearest(name: str, known: Iterable[str]) -> str:
     return difflib.get_close_matches(name[:100], list(known), n=1, cutoff=0.0)[0]
 
 
+# Largest number of unknown keys of a file that are named.
+_MOST_UNKNOWN = 100
+
+
 def first_error(error: ValidationError, model: type[Table], given: Mapping[str, Any]) -> InputError:
     """Convert a validation error of given tables to one InputError, with all that the user should correct.
 
@@ -448,6 +452,13 @@ def first_error(error: ValidationError, model: type[Table], given: Mapping[str, 
     # A default that is made from other keys says nothing in addition to the errors of these keys.
     details = [detail for detail in error.errors() if detail["type"] != "default_factory_not_called"]
     details.sort(key=lambda detail: detail["type"] != "extra_forbidden")
+    unknown = [detail["loc"] for detail in details if detail["type"] == "extra_forbidden"]
+    if len(unknown) > _MOST_UNKNOWN:
+        # The search for keys that were meant takes milliseconds for each.
+        first, *others = (".".join(map(str, loc)) for loc in unknown[:_MOST_UNKNOWN])
+        named = ", ".join(map(short, others))
+        text = f"unknown key, one of {len(unknown)} in this file; the next are {named}"
+        return InputError.worded(first, text)
     return InputError.together([_numbered(_error(detail, model, given), detail, model) for detail in details])
 
 

@@ -12,7 +12,7 @@ from ehlectric.bearing import BearingResult
 from ehlectric.cases.amounts import Amount
 from ehlectric.drive.netlist import SIGNATURE, Arc, Subcircuit, file_text, subcircuit_of
 from ehlectric.errors import InputError
-from ehlectric.runtime.files import reading, refuse_special, write
+from ehlectric.runtime.files import check_target, reading, write
 
 # Paths that a test bench can name: other characters mean something in a netlist, or are not ASCII.
 _NAMEABLE = re.compile(r"[\w ./+:-]+", re.ASCII)
@@ -119,9 +119,7 @@ def check_targets(path: Path, bench: Path | None) -> None:
             raise InputError(bench, "is the file of the subcircuit", takes="another file for the test bench")
         _relative(path, bench)
     for target in filter(None, (path, bench)):
-        if not target.parent.is_dir():
-            raise InputError(target, "cannot be written to, its folder does not exist")
-        refuse_special(target)
+        check_target(target)
         if target.exists():
             with reading(target), target.open("rb") as file:
                 start = file.read(len(SIGNATURE))

@@ -14,7 +14,7 @@ from jinja2 import Environment, StrictUndefined
 from ehlectric.errors import InputError, shown
 from ehlectric.quantities.result_warnings import SEVERITY_WORDS
 from ehlectric.report.report_content import Link, Named, Picture, Report, best_image
-from ehlectric.runtime.files import refuse_special, write
+from ehlectric.runtime.files import check_target, write
 
 
 def html_of(report: Report) -> str:
@@ -136,7 +136,5 @@ def _ending_of(target: Path) -> str:
     if ending not in FORMATS:
         takes = " or ".join(f".{name}" for name in FORMATS)
         raise InputError(target, f"ends in {shown(target.suffix)}", takes=f"a file that ends in {takes}")
-    if not target.parent.is_dir():
-        raise InputError(target, "cannot be written to, its folder does not exist")
-    refuse_special(target)
+    check_target(target)
     return ending

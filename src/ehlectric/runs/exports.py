@@ -20,7 +20,8 @@ from ehlectric.readable import readable
 from ehlectric.runs.result_folders import stored_result
 from ehlectric.runs.solve import AnyResult, load
 from ehlectric.runs.workbooks import workbook
-from ehlectric.runtime.files import refuse_special, write
+from ehlectric.runtime.files import check_target as check_file
+from ehlectric.runtime.files import write
 from ehlectric.runtime.netcdf import load_library
 from ehlectric.sweep import NAME as SWEEP
 from ehlectric.sweep import SweepResults, read_sweep
@@ -356,9 +357,7 @@ def check_target(path: str | Path) -> Path:
     if path.suffix.lower() not in WRITERS:
         takes = f"a name that ends in {', '.join(WRITERS)}"
         raise InputError(path, got=shown(path.suffix or "no ending"), takes=takes)
-    if not path.parent.is_dir():
-        raise InputError(path, "cannot be written to, its folder does not exist")
-    refuse_special(path)
+    check_file(path)
     return path
 
 

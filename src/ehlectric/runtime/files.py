@@ -103,6 +103,15 @@ def refuse_special(path: Path) -> None:
         raise InputError(path, "cannot be written to, it is no regular file")
 
 
+def check_target(path: Path) -> None:
+    """Check that a file can be written, before it is computed. Raises InputError where its folder does not
+    exist or cannot be written to, or where it is no regular file.
+    """
+    if not path.parent.is_dir():
+        raise InputError(path, "cannot be written to, its folder does not exist")
+    prepare(path.parent, [path.name])
+
+
 @contextmanager
 def reading(path: str | Path) -> Iterator[None]:
     """Context in which a file is read: an OSError becomes an InputError of one line. Raises InputError where
