@@ -11,7 +11,7 @@ from ehlectric.cases.bearing_case import BearingCase
 from tests.app.driving import complete, connected, field, loaded_again, number, type_into, wait_for_number
 from tests.helpers.app_server import kept_port
 from tests.helpers.places import EXAMPLES
-from tests.helpers.processes import alive, wait_until
+from tests.helpers.processes import alive, memory_of, wait_until
 
 pytestmark = pytest.mark.browser
 
@@ -147,3 +147,14 @@ def test_a_keyboard_is_enough(page):
     page.keyboard.type("900 N")
     page.keyboard.press("Tab")
     wait_for_number(page, "bearing.capacitance", capacitance("900 N"))
+
+
+@pytest.mark.slow
+def test_requests_without_a_browser_take_little_memory(own_server):
+    """A page has 3 MB, so that 80 of them would have 240 MB."""
+    server = own_server()
+    urlopen(server.address).read()
+    before = memory_of([server.process.pid])
+    for _ in range(80):
+        urlopen(server.address).read()
+    assert memory_of([server.process.pid]) - before < 150e6

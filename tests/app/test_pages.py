@@ -27,7 +27,21 @@ def pages(monkeypatch):
     return found
 
 
-def test_pages_without_a_browser_are_given_up_where_others_wait(pages):
+def test_of_many_pages_without_a_browser_the_oldest_are_given_up(pages):
+    """Requests by a program, one after the other: a few pages stay, and those of browsers."""
+    pages[0] = Page(pages, 0, 1000.0, connected=True)
+    pages[1] = Page(pages, 1, 1000.0, connected=False, away=True)
+    largest = 0
+    for number in range(2, 200):
+        pages[number] = Page(pages, number, 200.0 - number, connected=False)
+        largest = max(largest, server.open_pages())
+    assert largest <= server._MOST_UNSEEN + 1
+    assert {0, 1, 199} <= set(pages)
+    assert sorted(pages) == [0, 1, *range(202 - len(pages), 200)]
+
+
+def test_pages_without_a_browser_are_given_up_where_others_wait(pages, monkeypatch):
+    monkeypatch.setattr(server, "_MOST_UNSEEN", 2 * MOST_PAGES)
     old = server._UNSEEN + 1.0
     kept = [(old, True, False), (old, False, True), (0.0, False, False)]
     for number in range(MOST_PAGES - 1):

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 import signal
 import socket
+import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any
@@ -28,13 +30,20 @@ from ehlectric.app.security import (
 from ehlectric.app.session import keep_in_memory
 from ehlectric.app.work import Work
 from ehlectric.runtime.locks import not_ignored
+from ehlectric.runtime.memory import trim
 
 # Time in which a browser may come back, as after a computer slept, before its session ends [s].
 _RECONNECT = 20.0
 
-# Time in which a browser connects to a page, where others wait for one [s]. If none waits, NiceGUI gives a
-# page without a browser up after a minute.
+# Time in which a browser connects to a page, where others wait for one [s].
 _UNSEEN = 5.0
+
+# Pages without a browser above which the oldest are given up, and how many then remain. A page has some
+# thousand objects, 3 MB.
+_MOST_UNSEEN, _KEPT_UNSEEN = 24, 12
+
+# Time after which pages without a browser are given up, and the memory of closed pages is given back [s].
+_GIVEN_BACK = 30.0
 
 # Messages that a browser gets again when it comes back; figures are in them, so they are few.
 _MESSAGES = 100
@@ -95,6 +104,7 @@ class _Server(uvicorn.Server):
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         self._work.keep(self._answers)
         await super().startup(sockets)
+        self._giving_back = asyncio.create_task(_give_back())
         if self._answers:
             # The processes load after the first page, which needs none of them, has loaded.
             app.on_connect(self._work.warm)
@@ -137,9 +147,27 @@ def _application(guard: Guard, work: Work) -> ASGIApp:
 
 def open_pages() -> int:
     """Number of open pages; where they are many, those to which no browser has connected are given up."""
+    unseen = sorted(page.created for page in Client.instances.values() if not page.has_socket_connection)
+    if len(unseen) >= _MOST_UNSEEN:
+        # Not those whose browser is away and may come back.
+        Client.prune_instances(client_age_threshold=time.time() - unseen[-_KEPT_UNSEEN - 1])
+        # Elements of a page refer to each other, so that only the collector frees them.
+        gc.collect()
     if len(Client.instances) >= MOST_PAGES:
         Client.prune_instances(client_age_threshold=_UNSEEN)
     return len(Client.instances)
+
+
+async def _give_back() -> None:
+    """Give up pages without a browser from time to time, and free what closed pages leave."""
+    open_before = 0
+    while True:
+        await asyncio.sleep(_GIVEN_BACK)
+        Client.prune_instances(client_age_threshold=_GIVEN_BACK)
+        if len(Client.instances) < open_before:
+            gc.collect()
+            trim()
+        open_before = len(Client.instances)
 
 
 def _show_fault() -> None:
