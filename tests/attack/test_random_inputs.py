@@ -23,7 +23,7 @@ SOLVED = 0.25
 @pytest.mark.slow
 @pytest.mark.parametrize("kinds", [*([kind] for kind in MODELS), OF_DUTY], ids=[*MODELS, "duty"])
 def test_answers_are_numbers_or_reasons(kinds, tmp_path, monkeypatch):
-    monkeypatch.setattr(drive_cycle, "SIMULATED", 16)
+    monkeypatch.setattr(drive_cycle, "SIMULATED", 4)
     outcomes, wrong = [], {}
     for number in range(50 * FILES):
         kind = kinds[number % len(kinds)]

@@ -439,3 +439,17 @@ def test_suggestions_have_the_bore_of_the_designation(text, bore):
     takes = no_such_bearing(text).takes
     suggested = re.findall("such as ('.*?') \\(", takes)[0].replace("'", "").split(", ")
     assert [1e3 * series()[name].bore for name in suggested] == pytest.approx([bore] * 3)
+
+
+@each("designation", ["QJ 208", "NK 25/20", "RNA 4905"])
+def test_no_class_of_clearance_is_advised_that_no_table_has(designation):
+    """A class is advised for all others, of which the geometry is given here."""
+    with pytest.raises(InputError) as caught:
+        BearingCase.of(designation=designation, **REST, lubricant="fva-3")
+    assert "radial_clearance: missing" in str(caught.value)
+    assert "clearance_class" not in str(caught.value)
+    table = BearingCase.of(base="6208", radial_clearance="10 um", **REST, lubricant="fva-3").to_dict()
+    for key in ("base", "designation", "radial_clearance"):
+        table["bearing"].pop(key, None)
+    with pytest.raises(InputError, match="radial_clearance: missing.*clearance_class with bore"):
+        BearingCase.from_dict(table)

@@ -190,7 +190,7 @@ def uncovered(kind: str, walk: Walk) -> Iterator[str]:
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_input_acts(kind: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(drive_cycle, "SIMULATED", 16)
+    monkeypatch.setattr(drive_cycle, "SIMULATED", 4)
     walk = Walk(kind, tmp_path)
     walk.take()
     faults = [f"{key} {text}" for key, text in walk.failing.items() if not excepted(kind, key[0])]

@@ -27,6 +27,7 @@ from ehlectric.cases.library.bearing_catalogue import (
     ClearanceClass,
     clearance_range,
     has_class,
+    has_classes,
     with_class,
     with_clearance,
 )
@@ -592,9 +593,12 @@ class Bearing(Table, book="bearing", named_by="base"):
         kind = KINDS_OF_BEARINGS[self.kind]
         for key in kind.needed:
             if getattr(self, key) is None and not (key == "radial_clearance" and self.fits is not None):
-                choices = f": {_CHOICES[key]}" if key in _CHOICES else ""
-                text = f"missing; a bearing of kind {self.kind!r} needs it{choices}"
-                raise InputError.worded(key, text, takes=_CHOICES.get(key))
+                choice = _CHOICES.get(key)
+                # Without an inner ring the shaft decides the clearance.
+                if key == "radial_clearance" and (not has_classes(self.kind) or self.inner_ring is False):
+                    choice = "the operating clearance as a length: no table has a class for this bearing"
+                text = f"missing; a bearing of kind {self.kind!r} needs it"
+                raise InputError.worded(key, text if choice is None else f"{text}: {choice}", takes=choice)
         for key in (*KEYS_OF_KINDS, *_OF_CLEARANCE):
             if key in _not_of_kind(self.kind) and getattr(self, key) is not None:
                 raise InputError.worded(key, f"is not used by a bearing of kind {self.kind!r}")
