@@ -451,5 +451,5 @@ def test_no_class_of_clearance_is_advised_that_no_table_has(designation):
     table = BearingCase.of(base="6208", radial_clearance="10 um", **REST, lubricant="fva-3").to_dict()
     for key in ("base", "designation", "radial_clearance"):
         table["bearing"].pop(key, None)
-    with pytest.raises(InputError, match="radial_clearance: missing.*clearance_class with bore"):
+    with pytest.raises(InputError, match=r"radial_clearance: missing.*clearance_class with bore"):
         BearingCase.from_dict(table)

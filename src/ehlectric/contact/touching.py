@@ -8,6 +8,7 @@ Reynolds equation at these nodes is that oil.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass, field, fields, replace
 from typing import Any, Literal, TypeAlias
@@ -713,18 +714,39 @@ _SETTLED = 1e-6
 _LEAST_SHARE = 1e-4
 
 
+# Part of a share by which it falls from a coarser grid, above which it is a bound.
+_FALLING = 1.0 / 3.0
+
+
+def rounded_up(value: float) -> float:
+    """Value > 0, rounded up to two digits.
+
+    Examples
+    --------
+    >>> rounded_up(5.11), rounded_up(65.6), rounded_up(20.0)
+    (5.2, 66.0, 20.0)
+    """
+    step = 10.0 ** (math.floor(math.log10(value)) - 1)
+    return float(f"{math.ceil(value / step - 1e-9) * step:.2g}")
+
+
 def share_text(share: float, coarser: float | None) -> str:
     """Share in per cent, with no more digits than its change from a coarser grid leaves.
+
+    A share that falls from the coarser grid by more than a third of itself is a bound, because it falls
+    further on finer grids.
 
     Examples
     --------
     >>> share_text(0.2369, 0.2371), share_text(0.2369, 0.21), share_text(0.0511, 0.12), share_text(4e-7, 0.0)
-    ('23.7', '24', '5', '< 0.01')
+    ('23.7', '24', '< 5.2', '< 0.01')
     """
     if 0.0 < share < _LEAST_SHARE:
         return f"< {100.0 * _LEAST_SHARE:g}"
     error = share if coarser is None else abs(share - coarser)
     relative = error / share if share > 0.0 else 0.0
+    if coarser is not None and coarser > share and relative > _FALLING:
+        return f"< {rounded_up(100.0 * share):g}"
     digits = 3 if relative < 0.01 else 2 if relative < 0.2 else 1
     return f"{float(f'{100.0 * share:.{digits}g}'):g}"
 
