@@ -29,13 +29,13 @@ PLACEHOLDERS = (
     "By the capacitive divider, without a simulation.",
     "Films of the atlas, and voltages right after an edge.",
     "The effects stand here when both cases have an answer.",
-    "are those of earlier inputs",
-    "is that of earlier inputs",
+    "belong to earlier inputs",
+    "belongs to earlier inputs",
     "is of earlier inputs",
     "are of earlier inputs",
     "The values below belong to the present inputs.",
     "is not computed; its field says why.",
-    "the critical speeds took too long and are left out",
+    "the critical speeds took too long and are omitted",
     "No movie yet.",
 )
 

@@ -80,3 +80,18 @@ def test_an_address_reaches_the_terminal_without_characters_that_control_it(name
     assert first.startswith(r"http://127.0.0.1/\x1b]0;PWN\x07\nuser: xx")
     assert len(first) == 200
     assert second == "an address of http://127.0.0.1/bearing"
+
+
+def test_the_traceback_of_a_process_is_logged_whole_and_escaped(caplog):
+    security.log_in_single_lines()
+    trace = "Traceback\n" + 20 * "  File solution.py\n" + "ValueError: bad \x1b[31m path"
+    with caplog.at_level(logging.ERROR):
+        logging.getLogger("ehlectric.app").error("%s", trace)
+        try:
+            raise ValueError("bad \x1b[31m path")
+        except ValueError:
+            logging.getLogger("nicegui").exception("a fault")
+    first, second = caplog.records
+    assert first.getMessage() == trace.replace("\x1b", r"\x1b")
+    assert r"ValueError: bad \x1b[31m path" in caplog.handler.format(second)
+    assert "\x1b" not in caplog.text

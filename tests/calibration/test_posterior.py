@@ -190,3 +190,28 @@ def test_a_line_without_a_prediction_at_its_start_has_no_step():
     posterior = infer(lambda at: 2.0 * at, 1, np.array([3.0]), np.array([0.1]), samples=64)
     search = CauseSearch(model, (row,), predict, posterior, 1, silent)
     assert search._steps(0, [(posterior.nearest.at, 1.0), (posterior.nearest.at, -1.0)]) == []
+
+
+@pytest.mark.parametrize("second", [1.2, 1.9, 2.5])
+def test_a_small_voltage_and_a_second_value_are_explained_together(second):
+    """v = max(2 (a - b), 0) and c = 1 + d + a: b = a, and d follows from c."""
+
+    def predict(at):
+        return np.stack([np.maximum(2.0 * (at[:, 0] - at[:, 1]), 0.0), 1.0 + at[:, 2] + at[:, 0]], axis=-1)
+
+    posterior = infer(predict, 3, np.array([2.4e-3, second]), np.array([1.2e-4, 0.01]))
+    assert posterior.explained
+    assert np.max(np.abs(posterior.residuals)) < 3.0
+    assert posterior.effective >= 5.0
+    # The second value, which many points have, moves its mean of 2 before by more than a third of the way.
+    mean = posterior.weights @ (1.0 + posterior.at[:, 2] + posterior.at[:, 0])
+    assert abs(mean - second) < 2.0 / 3.0 * abs(2.0 - second) + 0.1
+
+
+def test_few_points_with_a_prediction_are_not_one_point():
+    """A film that is separated at 1 % of the points only."""
+    values, errors = np.array([0.01]), np.array([0.0005])
+    posterior = infer(lambda at: 2.0 * np.maximum(at[:, :1] - 0.99, 0.0), 1, values, errors)
+    assert posterior.explained
+    assert posterior.effective > 2.0
+    assert posterior.widened > 1.0

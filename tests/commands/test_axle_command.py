@@ -223,7 +223,7 @@ def simulated():
 def test_a_loaded_result_is_not_simulated_again(simulated, tmp_path, monkeypatch):
     """Its discharges are stored to the last digit, also with each remedy."""
     save(simulated, tmp_path)
-    monkeypatch.setattr("ehlectric.axle.result.simulate_axle", None)
+    monkeypatch.setattr("ehlectric.axle.result.simulate_axles", None)
     loaded = load(tmp_path)
     assert same(loaded.summary(), simulated.summary())
     assert loaded.discharges.events() == simulated.discharges.events()

@@ -273,10 +273,10 @@ def test_kinds_of_warnings_of_a_sweep_are_counted(ehlectric, files):
     done = ehlectric("sweep", "sweep.toml", "-o", "out", "--workers", 1)
     assert done.returncode == 0, done.stderr
     lines = done.stderr.splitlines()
-    assert [text for text in lines if text.startswith("note: 2 of 2 ") and "isothermal-film" in text]
+    assert [text for text in lines if text.startswith("note: isothermal-film at 2 of 2 ")]
     counted = [text for text in lines if "partial-film" in text]
     assert len(counted) == 1
-    assert counted[0].startswith("warning: 1 of 2 solved points have the warning partial-film: ")
+    assert counted[0].startswith("warning: partial-film at 1 of 2 solved points: ")
 
 
 @pytest.mark.slow

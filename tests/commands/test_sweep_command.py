@@ -64,11 +64,11 @@ def told_of(rows, doubtful):
     for code, count in sorted(counts.items(), key=lambda kind: (CODES[kind[0]].severity == "note", -kind[1])):
         kind = "note" if CODES[code].severity == "note" else "warning"
         meaning = CODES[code].meaning
-        text += f"{kind}: {count} of {len(solved)} solved points have the {kind} {code}: "
+        text += f"{kind}: {code} at {count} of {len(solved)} solved points: "
         action = "No action is needed." if kind == "note" else "Check the warnings of these points."
         text += f"{meaning[0].lower()}{meaning[1:]} {action}\n"
     if doubtful:
-        text += f"warning: {doubtful} of {len(solved)} solved points have a film that must not be used. "
+        text += f"warning: the film must not be used at {doubtful} of {len(solved)} solved points. "
         text += "Maps and lines omit these points. Check the warnings of these points.\n"
     return text
 
@@ -76,7 +76,7 @@ def told_of(rows, doubtful):
 def failures(stderr):
     """What is on stderr in addition to warnings of solved points, the note on their domains, and progress."""
     known = re.compile(
-        r" solved points have |^note: the inlet of the domain is at |^\d+ of \d+ points, .* left$"
+        r" of \d+ solved points[:.] |^note: the inlet of the domain is at |^\d+ of \d+ points, .* left$"
     )
     return "".join(line for line in stderr.splitlines(True) if not known.search(line.rstrip("\n")))
 

@@ -195,6 +195,29 @@ def test_a_place_that_a_list_does_not_have_is_refused(place):
         case_of().replace({f"gear.flank_ra.{place}": 1e-7})
 
 
+@pytest.mark.parametrize("flank_ra", ["0.1 um", 1e-7, ["0.1 um", "0.3 um"]])
+def test_keys_of_both_gears_change_a_list_in_any_form(flank_ra):
+    case = case_of().replace({"gear.flank_ra": flank_ra, "gear.flank_ra.2": "0.2 um"})
+    assert case.gear.flank_ra == (1e-7, 2e-7)
+    both = case_of().replace({"gear.flank_ra.1": "0.1 um", "gear.flank_ra.2": "0.2 um"})
+    assert both.gear.flank_ra == (1e-7, 2e-7)
+
+
+def test_only_numbers_of_gears_have_keys_of_their_own():
+    bearing = ehlectric.BearingCase.from_toml(EXAMPLES / "bearing_6208.toml")
+    contact = ehlectric.Case.from_toml(EXAMPLES / "rough_contact.toml")
+    table = {"temperature": ["20 degC", "80 degC"], "strength": ["15 V/um", "12 V/um"]}
+    aged = bearing.replace({"discharge.strength_table": table})
+    for case, changes in (
+        (contact, {"roughness.1.1": 3}),
+        (bearing, {"bearing.radial_load.1": "1 kN"}),
+        (case_of().replace({"gear.composite_rq": 1e-7}), {"gear.flank_ra.1": 1e-7}),
+        (aged, {"ranges": {"discharge.strength_table.strength.2": ["10 V/um", "14 V/um"]}}),
+    ):
+        with pytest.raises(InputError):
+            case.replace(changes)
+
+
 def test_a_roughness_with_a_range_is_not_asked_for():
     case = GearCase.from_toml(EXAMPLES / "gear_pair.toml")
     asked = "composite roughness"

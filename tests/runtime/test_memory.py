@@ -100,7 +100,7 @@ def test_the_least_of_all_counts(monkeypatch):
     monkeypatch.setattr(memory, "physical_memory", lambda: 64e9)
     assert available_memory() == 5.1e9
     assert out_of_memory(MemoryError()) == (
-        "out of memory; available are 5.1 GB, what its control group, as that of a container, "
+        "out of memory; available are 5.1 GB, what its control group, as in a container, "
         "leaves to this process"
     )
     monkeypatch.setattr(memory, "left_of_process", lambda: -3.0)

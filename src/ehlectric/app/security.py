@@ -15,6 +15,7 @@ import ipaddress
 import logging
 import re
 import secrets
+import traceback
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from html import escape
@@ -165,7 +166,8 @@ def with_bounded_pages(inner: ASGIApp, number: Callable[[], int], most: int = MO
 
 
 # Loggers of the server, which report requests and errors in messages, and packages that read messages.
-_LOGGERS = ("asyncio", "uvicorn.error", "engineio.server", "socketio.server", "nicegui", "ehlectric.app")
+_OWN = "ehlectric.app"
+_LOGGERS = ("asyncio", "uvicorn.error", "engineio.server", "socketio.server", "nicegui", _OWN)
 _READERS = ("engineio", "socketio")
 _PROGRAM = __name__.partition(".")[0]
 
@@ -193,13 +195,20 @@ class _OneLine(logging.Filter):
             text = printable(" ".join(f"{type(error).__name__}: {error}".split()))[:_LONGEST]
             record.msg, record.args = "a message of a browser cannot be read: %s", (text,)
             record.exc_info = record.exc_text = None
-        else:
-            # An error of the program has its lines.
-            lines = record.getMessage().splitlines() if error is not None else [record.getMessage()]
-            text = "\n".join(map(printable, lines))
-            if text != record.getMessage():
-                record.msg, record.args = "%s", (text[:_LONGEST],)
+            return True
+        # An error of the program has its lines, and what comes from outside is on one line.
+        text, of_program = record.getMessage(), record.name == _OWN or error is not None
+        escaped = _escaped(text) if of_program else printable(text)[:_LONGEST]
+        if escaped != text:
+            record.msg, record.args = "%s", (escaped,)
+        if error is not None:
+            record.exc_text = _escaped("".join(traceback.format_exception(error)).rstrip())
         return True
+
+
+def _escaped(text: str) -> str:
+    """Text whose lines have no characters that control a terminal."""
+    return "\n".join(map(printable, text.splitlines()))
 
 
 def _is_of_a_message(trace: TracebackType | None) -> bool:

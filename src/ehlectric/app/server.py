@@ -160,14 +160,14 @@ def open_pages() -> int:
 
 async def _give_back() -> None:
     """Give up pages without a browser from time to time, and free what closed pages leave."""
-    open_before = 0
+    known: set[str] = set()
     while True:
         await asyncio.sleep(_GIVEN_BACK)
         Client.prune_instances(client_age_threshold=_GIVEN_BACK)
-        if len(Client.instances) < open_before:
+        if not known <= Client.instances.keys():
             gc.collect()
             trim()
-        open_before = len(Client.instances)
+        known = set(Client.instances)
 
 
 def _show_fault() -> None:

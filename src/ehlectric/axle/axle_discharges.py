@@ -221,10 +221,12 @@ def _of_remedy(case: AxleCase, number: int) -> Iterator[None]:
         if not number:
             raise
         title = printable(case.remedies[number - 1].title)
-        text = "; ".join(
-            f"{each.text} (with the mitigation measure {title!r})" for each in error.several or (error,)
-        )
-        raise error.with_text(error.key, text) from None
+        raise InputError.together(
+            [
+                each.with_text(each.key, f"{each.text} (with the mitigation measure {title!r})")
+                for each in error.several or (error,)
+            ]
+        ) from None
 
 
 def _conducting(solution: AxleSolution) -> set[str]:

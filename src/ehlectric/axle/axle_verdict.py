@@ -7,7 +7,14 @@ from collections.abc import Iterator, Sequence
 from typing import Protocol
 
 from ehlectric.axle.solution import AxleSolution
-from ehlectric.discharge.breakdown_rule import Chance, code_of, level_of, strength_interval, touching_rule
+from ehlectric.discharge.breakdown_rule import (
+    Chance,
+    code_of,
+    doubted,
+    level_of,
+    strength_interval,
+    touching_rule,
+)
 from ehlectric.discharge.film_verdict import no_verdict, strength_clause, strength_doubt
 from ehlectric.quantities.formats import time_share_text
 from ehlectric.quantities.lubrication_states import AT_TIMES, CONDUCTS
@@ -83,18 +90,16 @@ def axle_verdict(
     if not ranking:
         return no_verdict(Statement.of("axle-none"))
     (first, ratio), limits = ranking[0], solution.breakdown_voltages
-    if without := solution.without_bounds:
-        # The voltages lie between both axles.
-        others = without.discharging() or [(first, 0.0)]
-        ratios = sorted((ratio, others[0][1]))
-        levels = {level_of(*strength_interval(1.0 / each)) if each else "green" for each in ratios}
-        if len(levels) > 1 or others[0][0] != first:
-            return no_verdict(
-                Statement.of("axle-ceramic", low=ratios[0], high=ratios[1], elements=solution.bounded)
-            )
+    lowest, largest = solution.first_ratios
+    if solution.bounded and _level_of(lowest) != _level_of(largest):
+        return no_verdict(
+            Statement.of("axle-ceramic", low=_ratio(lowest), high=_ratio(largest), elements=solution.bounded)
+        )
     margin, touching = 1.0 / ratio, first not in limits
     interval = None if touching else strength_interval(margin)
     level, code = _level(solution, margin, None if uncertainty is None else uncertainty.chance)
+    # The probability holds for capacitances that are upper bounds, with which the voltages are lower.
+    level, code = doubted(level, code, doubts=bool(solution.bounded) and _level_of(largest) != "green")
     doubts: tuple[Statement, ...] = tuple(strength_doubt(solution.case.discharge, margin))
     facts: tuple[Fact, ...] = () if touching else (Fact("first.breakdown_voltage", limits[first]),)
     if uncertainty is not None:
@@ -126,6 +131,16 @@ def axle_verdict(
         assumptions=(Statement.of("axle-model"), strength_clause(solution.case.discharge)),
         bound="best",
     )
+
+
+def _level_of(ratio: float) -> Level:
+    """Level of a ratio U/V_b without its probability."""
+    return level_of(*strength_interval(1.0 / ratio)) if ratio else "green"
+
+
+def _ratio(ratio: float) -> str:
+    """Ratio U/V_b as text."""
+    return readable(ratio, 2) if math.isfinite(ratio) else "touching summits"
 
 
 def _level(solution: AxleSolution, margin: float, chance: Chance | None) -> tuple[Level, str]:

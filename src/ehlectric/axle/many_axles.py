@@ -261,7 +261,11 @@ def _scaled(element: Element, scales: FilmScales | None) -> Element:
 
 def _alone(mounted: _Mounted) -> _Solved:
     """Element of a single bearing."""
-    of_bearing = mounted.case
+    try:
+        of_bearing = mounted.case
+    except InputError as error:
+        # Its load is beyond the bounds of a file; the error names the bearing.
+        return error
     try:
         with naming_torque(mounted.axle.case, mounted.number, of_bearing):
             result = solve_bearing(of_bearing, workers=1)

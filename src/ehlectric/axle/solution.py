@@ -13,6 +13,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import product
 from typing import Literal, cast
 
 import numpy as np
@@ -211,17 +212,32 @@ class AxleSolution:
         return tuple(name for name, bearing in tables if bearing.capacitance_is_bound)
 
     @cached_property
-    def without_bounds(self) -> AxleSolution | None:
-        """Axle with almost no capacitance instead of those that are upper bounds; None without such a one."""
-        if not self.bounded:
-            return None
-        elements = tuple(
-            replace(each, capacitance=_NO_CAPACITANCE * each.capacitance)
-            if each.name in self.bounded
-            else each
-            for each in self.elements
-        )
-        return replace(self, elements=elements)
+    def ends_of_bounds(self) -> tuple[AxleSolution, ...]:
+        """Axles with almost no capacitance instead of those that are upper bounds, on each set of shafts.
+
+        A voltage is a ratio of two linear functions of each capacitance, so that it is largest at one of
+        these ends or in the axle itself.
+        """
+        shafts = [*dict.fromkeys(each.first for each in self.elements if each.name in self.bounded)]
+        ends = []
+        for chosen in product((False, True), repeat=len(shafts)):
+            without = {shaft for shaft, none in zip(shafts, chosen, strict=True) if none}
+            elements = tuple(
+                replace(each, capacitance=_NO_CAPACITANCE * each.capacitance)
+                if each.name in self.bounded and each.first in without
+                else each
+                for each in self.elements
+            )
+            if without:
+                ends.append(replace(self, elements=elements))
+        return tuple(ends)
+
+    @cached_property
+    def first_ratios(self) -> tuple[float, float]:
+        """Smallest and largest U/V_b of the first element, over the capacitances that are upper bounds."""
+        firsts = [each.discharging()[:1] for each in (self, *self.ends_of_bounds)]
+        ratios = [rows[0][1] if rows else 0.0 for rows in firsts]
+        return min(ratios), max(ratios)
 
     @cached_property
     def changed_ranks(self) -> tuple[str, ...]:
@@ -446,22 +462,22 @@ def _bound_warning(solution: AxleSolution) -> Iterator[ResultWarning]:
 
     In a network with one source, a capacitance to the housing that falls raises the voltages of all shafts.
     """
-    without = solution.without_bounds
-    if without is None:
+    ends = solution.ends_of_bounds
+    if not ends:
         return
-    potentials = [each.potentials() for each in (solution, without)]
+    potentials = [each.potentials() for each in (solution, *ends)]
     voltages = ", ".join(
         f"{shaft.name} {_range([abs(each[shaft.name]) for each in potentials])} V"
         for shaft in solution.case.shaft
     )
-    (name, ratio), (other, highest) = (
-        each.discharging()[0] if each.discharging() else ("", math.inf) for each in (solution, without)
-    )
-    first = ""
-    if name != other:
-        first = f". With the bound, {name} breaks down first, and without capacitance {other}"
-    elif math.isfinite(ratio) and math.isfinite(highest):
-        first = f", and U/V_b of the first element, {name}, is {_range([ratio, highest])}"
+    names = dict.fromkeys(each.discharging()[0][0] for each in (solution, *ends) if each.discharging())
+    low, high = solution.first_ratios
+    if len(names) > 1:
+        first = f". Depending on them, the first element is {', '.join(names)}"
+    elif math.isfinite(high):
+        first = f", and U/V_b of the first element, {next(iter(names), 'none')}, is {_range([low, high])}"
+    else:
+        first = ""
     yield ResultWarning.of(
         "capacitance-bound", "axle", bearings=", ".join(solution.bounded), voltages=voltages, first=first
     )

@@ -64,8 +64,8 @@ UNEXPLAINED = float(2.0 * scipy.special.ndtr(-3.0))
 _SEARCH, _WIDENED = 6, 3
 
 # Standard uncertainties from which a value is searched on a line between smaller and larger predictions,
-# points on the line, and how often it is narrowed to two of them.
-_FAR, _ON_LINE, _NARROWED = 3.0, 33, 3
+# number of lines, points on a line, and how often it is narrowed to two of them.
+_FAR, _LINES, _ON_LINE, _NARROWED = 3.0, 4, 33, 3
 
 
 def chi_squares(predictions: Array, values: Array, uncertainties: Array) -> Array:
@@ -238,8 +238,14 @@ def infer(
         residuals=residuals,
         chain=False,
     )
-    if not posterior.explained or posterior.effective >= LEAST_EFFECTIVE or emulator is None:
+    if not posterior.explained or posterior.effective >= LEAST_EFFECTIVE:
         return posterior
+    if emulator is None:
+        return (
+            posterior
+            if posterior.effective >= _TOO_FEW
+            else _widely(posterior, predictions, values, uncertainties)
+        )
     best, box = posterior, emulator
     for number in range(_ROUNDS):
         points, drawn = model.drawn(box, nearest, len(at))
@@ -261,22 +267,51 @@ def infer(
         if smaller is None:
             break
         box = smaller
-    return best if best.effective >= _TOO_FEW else _widely(posterior, chi2)
+    return best if best.effective >= _TOO_FEW else _widely(posterior, predictions, values, uncertainties)
 
 
-def _widely(posterior: Posterior, chi2: Array) -> Posterior:
-    """Points of the design with uncertainties so much larger that enough of them have weight; ``chi2`` of the
-    points, shape (n,). The posterior itself if they have no such points.
+def _widely(posterior: Posterior, predictions: Array, values: Array, uncertainties: Array) -> Posterior:
+    """Points of the design with larger uncertainties, so that enough points have weight; the posterior itself
+    if there are no such points. The uncertainty of a value that few points have is enlarged most.
     """
+    each = np.square((predictions - values) / uncertainties)
+    known = int(np.count_nonzero(np.all(np.isfinite(each), axis=1)))
+    least, most = min(LEAST_EFFECTIVE, 0.5 * known), 0.5 * math.log(max(float(np.nanmax(each)), 1.0))
 
-    def weights(logarithm: float) -> Array:
-        return weights_of(chi2 / math.exp(2.0 * logarithm))
+    def weights(logarithms: Array) -> Array:
+        chi2 = np.sum(each / np.exp(2.0 * logarithms), axis=1)
+        return weights_of(np.where(np.isfinite(chi2), chi2, np.inf))
 
-    low, high = 0.0, 0.5 * math.log(max(float(np.max(chi2[np.isfinite(chi2)])), 1.0))
-    if effective_number(weights(high)) < LEAST_EFFECTIVE:
+    def needed(direction: Array) -> float:
+        """Length along a direction of the logarithms of all factors at which enough points have weight."""
+
+        def missing(length: float) -> float:
+            return effective_number(weights(length * direction)) - least
+
+        longest = 2.0 * most / float(np.max(direction))
+        if missing(0.0) >= 0.0 or missing(longest) < 0.0:
+            return 0.0 if missing(0.0) >= 0.0 else longest
+        return float(scipy.optimize.brentq(missing, 0.0, longest))
+
+    directions = np.array([_alone(column, least, most) for column in each.T])
+    if not known or not np.any(directions):
         return posterior
-    logarithm = scipy.optimize.brentq(lambda x: effective_number(weights(x)) - LEAST_EFFECTIVE, low, high)
-    return replace(posterior, weights=weights(logarithm), widened=math.exp(logarithm))
+    logarithms = needed(directions) * directions
+    if effective_number(weights(logarithms)) < 0.9 * least:
+        return posterior
+    return replace(posterior, weights=weights(logarithms), widened=math.exp(float(np.max(logarithms))))
+
+
+def _alone(squares: Array, least: float, most: float) -> float:
+    """Logarithm of the factor on the uncertainty of one value with which enough points have weight."""
+
+    def missing(logarithm: float) -> float:
+        chi2 = squares / math.exp(2.0 * logarithm)
+        return effective_number(weights_of(np.where(np.isfinite(chi2), chi2, np.inf))) - least
+
+    if missing(0.0) >= 0.0:
+        return 0.0
+    return most if missing(most) < 0.0 else float(scipy.optimize.brentq(missing, 0.0, most))
 
 
 @dataclass(frozen=True)
@@ -378,6 +413,8 @@ class _Measured:
         dense = sobol_points(at.shape[1], _DENSE, self.seed)
         start = dense[int(np.argmin(self.chi2_of(emulator, dense)))]
         starts = [point, start]
+        for j in np.flatnonzero(np.abs(prediction - self.values) > _FAR * self.uncertainties).tolist():
+            starts += self._between(at, predictions, j)
         for first in starts:
             now = first
             for _ in range(_SEARCH):
@@ -391,35 +428,39 @@ class _Measured:
                 if np.max(np.abs(following - now)) < 1e-6:
                     break
                 now = following
-        for j in np.flatnonzero(np.abs(prediction - self.values) > _FAR * self.uncertainties).tolist():
-            nearer = self._between(at, predictions, chi2, j)
-            if nearer is not None and nearer[2] < least:
-                point, prediction, least = nearer
         return Nearest(point, prediction, least, self._freedom(emulator, point, prediction))
 
-    def _between(
-        self, at: Array, predictions: Array, chi2: Array, j: int
-    ) -> tuple[Array, Array, float] | None:
-        """Point, prediction and chi2 where the value ``j`` is met on the line from the nearest larger
-        prediction of it to the closest point with a smaller one or none; None without both.
+    def _between(self, at: Array, predictions: Array, j: int) -> list[Array]:
+        """Points where the value ``j`` is met on lines from points with a larger prediction of it to points
+        with a smaller one or none; on both sides those at which the other values are nearest.
 
         Voltages that fall to 0 as summits begin to touch are small in a thin layer that no point hits.
         """
+        others = np.arange(self.values.size) != j
+        misfit = chi_squares(predictions[:, others], self.values[others], self.uncertainties[others])
         column = np.nan_to_num(predictions[:, j])
-        below, above = column <= self.values[j], column >= self.values[j]
-        if not (np.any(below) and np.any(above)):
-            return None
-        high = at[int(np.argmin(np.where(above, chi2, np.inf)))]
-        low = at[int(np.argmin(np.where(below, np.sum(np.square(at - high), axis=1), np.inf)))]
-        for _ in range(_NARROWED):
-            line = low + np.linspace(0.0, 1.0, _ON_LINE)[:, np.newaxis] * (high - low)
-            known = self.predict(line)
-            larger = np.flatnonzero(known[:, j] > self.values[j])
-            last = int(larger[0]) if larger.size else len(line) - 1
-            low, high = line[max(last - 1, 0)], line[last]
-        distances = chi_squares(known, self.values, self.uncertainties)
-        best = int(np.argmin(np.where(np.isfinite(distances), distances, np.inf)))
-        return line[best], known[best], float(distances[best])
+        above, below = (
+            np.flatnonzero(side & np.isfinite(misfit))
+            for side in (column >= self.values[j], column <= self.values[j])
+        )
+        if not (above.size and below.size):
+            return []
+        points = []
+        order = np.argsort(misfit[above] + np.square(column[above] / np.max(column)))
+        for place in above[order][:_LINES].tolist():
+            high = at[place]
+            apart = np.sum(np.square(at[below] - high), axis=1)
+            low = at[below[int(np.argmin(misfit[below] + apart))]]
+            for _ in range(_NARROWED):
+                line = low + np.linspace(0.0, 1.0, _ON_LINE)[:, np.newaxis] * (high - low)
+                known = self.predict(line)
+                larger = np.flatnonzero(known[:, j] > self.values[j])
+                last = int(larger[0]) if larger.size else len(line) - 1
+                low, high = line[max(last - 1, 0)], line[last]
+            distances = chi_squares(known, self.values, self.uncertainties)
+            if np.isfinite(distances).any():
+                points.append(line[int(np.argmin(np.where(np.isfinite(distances), distances, np.inf)))])
+        return points
 
     def _least_squares(self, emulator: Emulator, now: Array, known: Array) -> Array:
         """Inputs at which shifted polynomials are nearest to the measured values, shape (k,)."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -64,7 +64,7 @@ if TYPE_CHECKING:
 _SAMPLES, _DRAWN, _DENSE = 512, 512, 8192
 
 # Points at which the measured values of a file are checked.
-_CHECKED = 8
+_CHECKED = 64
 
 # Number of operating points above which half of the design is computed, if polynomials need no more points.
 _FEW_POINTS = 32
@@ -252,6 +252,7 @@ class _Compared:
     given: MeasuredPoints
     seed: int
     progress: Progress
+    checked: list[int] = field(default_factory=list)  # points of the design, once they are computed
 
     def errors(self, at: Array) -> Array:
         """Standard deviations of the predictions at inputs from 0 to 1, shape (n, k) -> (n, m)."""
@@ -265,7 +266,9 @@ class _Compared:
         names = tuple(dict.fromkeys(value.quantity for value in self.given.values))
         numbers = self.model.numbers(at, self.given.points, names)
         columns = [numbers[value.quantity][:, value.point] for value in self.given.values]
-        if len(at) > 1:
+        if not self.checked:
+            # The points of the design: a chain may be where nothing is computed.
+            self.checked.append(len(at))
             for value, column in zip(self.given.values, columns, strict=True):
                 if not np.any(np.isfinite(column)):
                     raise _without_prediction(value, self.given)

@@ -6,7 +6,7 @@ import math
 import numbers
 from collections.abc import Callable
 from dataclasses import dataclass, fields
-from typing import Any, TypeVar
+from typing import Any, ClassVar, TypeVar
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
 from pydantic_core import CoreSchema, core_schema
@@ -209,6 +209,7 @@ class Amounts:
     each: Amount
     least: int = 1
     single: bool = False  # whether a number that is in no list is allowed, too, and holds for all
+    numbered: ClassVar[bool] = False  # whether each number has a key, as ``gear.flank_ra.1``
 
     def __get_pydantic_core_schema__(self, _: Any, __: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.with_info_plain_validator_function(_with_context(self.parse))

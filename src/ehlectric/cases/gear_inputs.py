@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import BeforeValidator, GetJsonSchemaHandler, model_validator
 from pydantic_core import CoreSchema
@@ -29,6 +29,8 @@ class OfBothGears(Amounts):
     """Pydantic annotation for numbers of gear 1 and of gear 2, parsed to a tuple of one or two floats, or to
     a float that holds for both.
     """
+
+    numbered: ClassVar[bool] = True
 
     def __get_pydantic_json_schema__(self, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         both = {**super().__get_pydantic_json_schema__(core, handler), "maxItems": 2}

@@ -8,7 +8,7 @@ import unicodedata
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from inspect import Parameter, Signature
-from itertools import pairwise
+from itertools import islice, pairwise
 from pathlib import Path
 from types import MappingProxyType, UnionType
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, Union, get_args, get_origin
@@ -455,7 +455,8 @@ def first_error(error: ValidationError, model: type[Table], given: Mapping[str, 
     unknown = [detail["loc"] for detail in details if detail["type"] == "extra_forbidden"]
     if len(unknown) > _MOST_UNKNOWN:
         # The search for keys that were meant takes milliseconds for each.
-        first, *others = (".".join(map(str, loc)) for loc in unknown[:_MOST_UNKNOWN])
+        places = ([part + 1 if isinstance(part, int) else part for part in loc] for loc in unknown)
+        first, *others = (".".join(map(str, loc)) for loc in islice(places, _MOST_UNKNOWN))
         named = ", ".join(map(short, others))
         text = f"unknown key, one of {len(unknown)} in this file; the next are {named}"
         return InputError.worded(first, text)
@@ -643,9 +644,9 @@ def field_within(model: type[Table], key: str) -> FieldInfo | None:
 
 
 def item_of(field: FieldInfo | None, place: str) -> FieldInfo | None:
-    """Field of a number of a list at a place, as "1" for the first; None where the field is no such list."""
+    """Field of a number of both gears at a place, as "1" for gear 1; None where the field is no such list."""
     annotation = None if field is None else annotation_of(field)
-    if not isinstance(annotation, Amounts) or not place.isdecimal() or int(place) == 0:
+    if not isinstance(annotation, Amounts) or not annotation.numbered or place not in ("1", "2"):
         return None
     return FieldInfo.from_annotation(Annotated[float, annotation.each])  # type: ignore[arg-type]
 

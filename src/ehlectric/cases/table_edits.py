@@ -11,7 +11,6 @@ from ehlectric.cases.oil_inputs import displace_oil
 from ehlectric.errors import InputError, shown
 from ehlectric.quantities.alternatives import ALTERNATIVES, CONTACT_ALTERNATIVES, GRID_OF_ANY, ONLY, Rows
 from ehlectric.quantities.rows import value_at
-from ehlectric.runtime.display import is_number
 
 
 def set_keys(table: dict[str, Any], flat: Mapping[str, Any]) -> None:
@@ -29,11 +28,10 @@ def set_keys(table: dict[str, Any], flat: Mapping[str, Any]) -> None:
         *parents, leaf = key.split(".")
         target: Any = table
         for place, parent in enumerate(parents, 1):
-            if leaf.isdecimal() and place == len(parents) and is_number(target.get(parent)):
-                # One number that holds for both gears.
-                target[parent] = [target[parent]] * 2
+            if leaf.isdecimal() and place == len(parents) and parents[0] == _GEAR:
+                _make_pair(target, parent, key)
             target = _part(target, parent, key)
-        if isinstance(target, list) and target and all(map(is_number, target)):
+        if isinstance(target, list) and target and not any(isinstance(each, dict) for each in target):
             if not (leaf.isdecimal() and 1 <= int(leaf) <= len(target)):
                 raise InputError(key, got=shown(leaf), takes=f"a place from 1 to {len(target)} in the list")
             target[int(leaf) - 1] = value
@@ -43,6 +41,21 @@ def set_keys(table: dict[str, Any], flat: Mapping[str, Any]) -> None:
         # An empty value adds a missing table, but does not change an existing table.
         if not (isinstance(value, dict) and not value and isinstance(target.get(leaf), dict)):
             target[leaf] = value
+
+
+# Table whose numbers may be one for both gears, or a list.
+_GEAR = "gear"
+
+
+def _make_pair(table: Any, name: str, key: str) -> None:
+    """Make a list of one value that holds for both gears, of which a key changes one."""
+    value = table.get(name) if isinstance(table, dict) else {}
+    if value is None:
+        raise InputError(
+            key, got="one value", takes=f"{key.rpartition('.')[0]} with the values of both gears"
+        )
+    if not isinstance(value, dict | list):
+        table[name] = [value, value]
 
 
 def given_value(table: Mapping[str, Any], key: str) -> Any:

@@ -143,7 +143,7 @@ class Verdict:
         --------
         >>> reason = Statement.of("warning", code="tunnelling")
         >>> [label for label, _ in Verdict("yellow", "breakdown-unknown", reasons=(reason,)).lines()]
-        ['', 'but']
+        ['', 'caution']
         """
         yield "", " ".join(filter(None, (self.heading, self.where)))
         stated = [statement for statement in (self.answer, *self.reasons) if statement is not None]

@@ -302,8 +302,8 @@ def worded(text: str) -> str:
 
     Examples
     --------
-    >>> worded("in place of bearing.inner_speed, within V/h_min of events.csv")
-    'instead of the speed of the inner ring, within V/h_min of events.csv'
+    >>> worded("instead of bearing.inner_speed, within V/h_min of events.csv")
+    'instead of speed of the inner ring, within V/h_min of events.csv'
     >>> worded("summits of 2 times composite_rq")
     'summits of 2 times composite roughness Rq'
     """

@@ -39,7 +39,7 @@ def anchor(title: str) -> str:
     Examples
     --------
     >>> anchor("What the model neglects")
-    'what-the-model-leaves-out'
+    'what-the-model-neglects'
     """
     return re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-")
 

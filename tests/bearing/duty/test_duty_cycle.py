@@ -212,7 +212,7 @@ def test_the_reason_of_a_stretch_is_the_input_that_raises_the_margin(tmp_path):
     (stretch,) = run_duty(case).stretches
     assert (stretch.start, stretch.end) == (2.5, 3.5)
     assert stretch.least_margin < 1.0
-    assert stretch.why.startswith("common-mode voltage 600 V; ")
+    assert stretch.why.startswith("at common-mode voltage 600 V (")
 
 
 @pytest.mark.slow

@@ -12,9 +12,8 @@ from typing import Any, Literal
 
 from ehlectric.app.catalogue import bearing
 from ehlectric.app.page_inputs import Inputs
-from ehlectric.cases.amounts import Amount
+from ehlectric.cases.amounts import Amount, with_bounds
 from ehlectric.cases.bearing_kinds import KEYS_OF_KINDS, KINDS_OF_BEARINGS, KindOfBearing
-from ehlectric.cases.input_keys import kind_of as number_of_key
 from ehlectric.quantities.field_help import help_text
 from ehlectric.quantities.grouped_digits import certain
 from ehlectric.quantities.inputs import attributes, form, input_at, key_of_list
@@ -433,8 +432,9 @@ def in_field_unit(field: Field, text: str) -> str:
 
     Examples
     --------
+    >>> from ehlectric.cases.amounts import amount_at
     >>> angle = Field("gear.normal_pressure_angle", "Pressure angle", "deg", 15.0, 25.0)
-    >>> in_field_unit(angle, f"got '2 deg'; expected {number_of_key(angle.key).takes}")[13:107]
+    >>> in_field_unit(angle, f"got '2 deg'; expected {amount_at(angle.key).takes}")[13:107]
     'expected a number, with or without its unit, such as 20 deg, above 4.5837 deg and below 45.837'
     """
     if not field.unit or field.unit == "%":
@@ -447,11 +447,12 @@ def in_field_unit(field: Field, text: str) -> str:
 
     names = "|".join(sorted({re.escape(name) for name in (si, si.replace("^", "**"))}))
     elsewhere = re.compile(rf"(?<!['\d.e+-])({_NUMBER}) (?:{names})(?![\w*^/²³])")
-    amount = number_of_key(field.key)
-    parts_of_text = text.split(amount.takes) if isinstance(amount, Amount) else [text]
+    entry = input_at(field.key)
+    if entry is None:
+        return text if si == field.unit else elsewhere.sub(lambda match: number(match[1]), text)
+    amount = with_bounds(Amount, entry)
+    parts_of_text = text.split(amount.takes)
     if si != field.unit:
         parts_of_text = [elsewhere.sub(lambda match: number(match[1]), part) for part in parts_of_text]
-    if not isinstance(amount, Amount):
-        return parts_of_text[0]
     takes = f"a number, with or without its unit, such as {rounded(field.at(0.5))} {unit}"
     return (takes + amount.bounds_text(lambda bound: number(repr(bound)))).join(parts_of_text)
