@@ -9,7 +9,13 @@ from ehlectric.bearing import quick_case
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.discharge.breakdown_rule import STRENGTH_UNKNOWN
 from ehlectric.discharge.film_verdict import no_verdict
-from ehlectric.drive.verdict_rule import CODES_OF_LEVELS, SELDOM, most_by_law, weakest_part
+from ehlectric.drive.verdict_rule import (
+    CODES_OF_LEVELS,
+    SELDOM,
+    most_by_law,
+    voltages_doubted,
+    weakest_part,
+)
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.results import NAMES_OF_ENDS
 from ehlectric.quantities.statement import Fact, Level, Statement
@@ -66,6 +72,7 @@ def expected(case: DriveCase, summary: Mapping[str, Any]) -> Verdict:
     level = _level(about, case)
     scatter = level == "yellow" and margin >= 1.0 and about["weibull_shape"]
     doubts = [Statement.of("thresholds-scatter")] if scatter else []
+    doubts += voltages_doubted(case, summary)
     if case.source.overshoot:
         doubts.append(Statement.of("source-rings"))
     if touching:

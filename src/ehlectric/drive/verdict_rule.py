@@ -61,6 +61,8 @@ def drive_verdict(case: DriveCase, summary: Mapping[str, Any], warnings: Iterabl
     levels = [_level(end, summary["source"]["peak"], part) for end in ends]
     events, arcs = sum(end["events"] for end in ends), any(end["burning_time_share"] for end in ends)
     doubts = [] if events else [Statement.of("warning", code=code) for code in _DOUBTS if code in codes]
+    if not events:
+        doubts += voltages_doubted(case, summary)
     level: Level = max(levels, key=_ORDER.index)
     touching = "partial-film" in codes and not events
     level, code = doubted(level, CODES_OF_LEVELS[level], doubts=bool(doubts), touching=touching, drive=True)
@@ -75,6 +77,16 @@ def drive_verdict(case: DriveCase, summary: Mapping[str, Any], warnings: Iterabl
         assumed, bound = (), ""
     facts = (Fact("drive.events_per_second", summary["drive"]["events_per_second"]),)
     return Verdict(level, code, answer, None, facts, tuple(reasons), assumed, bound)
+
+
+def voltages_doubted(case: DriveCase, summary: Mapping[str, Any]) -> list[Statement]:
+    """Statement that voltages are lower bounds, because the capacitance of ceramic elements at one end is an
+    upper bound; none where no film breaks down.
+    """
+    bounded = any(bearing_case.bearing.capacitance_is_bound for bearing_case in case.bearings)
+    if not bounded or all(summary[end]["breakdown_voltage"] is None for end in ENDS):
+        return []
+    return [Statement.of("warning", code="capacitance-bound")]
 
 
 def weakest_part(case: DriveCase, *, formula: bool) -> float:
