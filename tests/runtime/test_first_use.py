@@ -13,7 +13,7 @@ from ehlectric import BearingCase, example
 from ehlectric.cases import oil_inputs
 from ehlectric.lubricant.data_sheet import viscosity_at_100
 from ehlectric.quantities import units
-from ehlectric.runtime.threads import own_filters
+from ehlectric.runtime.threads import local_filters
 
 _THREADS = """
 import sys, threading
@@ -90,14 +90,14 @@ def test_filters_of_warnings_are_those_of_before():
     before, inside, leave = list(warnings.filters), threading.Event(), threading.Event()
 
     def first():
-        with own_filters():
+        with local_filters():
             warnings.simplefilter("ignore")
             inside.set()
             leave.wait(10)
 
     def second():
         inside.wait(10)
-        with own_filters():
+        with local_filters():
             warnings.simplefilter("ignore")
 
     threads = [threading.Thread(target=each) for each in (first, second)]

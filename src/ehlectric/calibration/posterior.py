@@ -432,7 +432,7 @@ class _Measured:
 
     def _between(self, at: Array, predictions: Array, j: int) -> list[Array]:
         """Points where the value ``j`` is met on lines from points with a larger prediction of it to points
-        with a smaller one or none; on both sides those at which the other values are nearest.
+        with a smaller one or none; on both sides the points at which the other values are nearest.
 
         Voltages that fall to 0 as summits begin to touch are small in a thin layer that no point hits.
         """

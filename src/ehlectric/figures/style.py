@@ -46,7 +46,7 @@ from ehlectric.quantities.palette import BLACK, DARK, GREY, RED, WHITE, legible
 from ehlectric.quantities.units import unit_for
 from ehlectric.readable import readable
 from ehlectric.runtime.files import write
-from ehlectric.runtime.threads import Turn, own_filters
+from ehlectric.runtime.threads import Turn, local_filters
 from ehlectric.runtime.undrawn import drawing
 
 D = TypeVar("D")
@@ -127,7 +127,7 @@ def style(name: str | None = None) -> Iterator[None]:
     name = _style.get() if name is None else name
     if name not in _LOOKS:
         raise InputError("style", got=shown(name), takes=f"one of {', '.join(_LOOKS)}")
-    with _turn.taken(), mpl.rc_context(), own_filters():
+    with _turn.taken(), mpl.rc_context(), local_filters():
         _set_all(_LOOKS[name].settings)
         # A note names characters that no font has, see fallback_fonts.py.
         warnings.filterwarnings("ignore", message="Glyph .* missing")

@@ -19,7 +19,7 @@ from ehlectric.arrays import Array
 from ehlectric.errors import DamagedError, InputError, UnreadableError
 from ehlectric.runtime.hdf5_guard import file_class, refuse_damaged, seal_of
 from ehlectric.runtime.sizes import check_netcdf_values
-from ehlectric.runtime.threads import own_filters
+from ehlectric.runtime.threads import local_filters
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -44,7 +44,7 @@ def read_dataset(path: Path) -> xr.Dataset:
     import xarray as xr
 
     try:
-        with own_filters(), opened(path) as file:
+        with local_filters(), opened(path) as file:
             warnings.simplefilter("ignore")  # xarray warns about files that are refused below
             check_netcdf_values(path, file)
             dataset = xr.open_dataset(xr.backends.H5NetCDFStore(file)).load()

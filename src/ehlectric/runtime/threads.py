@@ -54,7 +54,7 @@ _turn, _filters = Turn(), Turn()
 
 
 @contextmanager
-def own_filters() -> Iterator[None]:
+def local_filters() -> Iterator[None]:
     """Context whose changes of the filters of warnings end with it.
 
     The filters belong to the process. One thread at a time is in such a context: the end of overlapping

@@ -49,7 +49,7 @@ from ehlectric.runtime.files import now
 from ehlectric.runtime.memory import is_out_of_memory
 from ehlectric.runtime.reading import regular
 from ehlectric.runtime.tasks import finished_tasks
-from ehlectric.runtime.threads import own_filters
+from ehlectric.runtime.threads import local_filters
 from ehlectric.runtime.worker_processes import Crew, packed_submit
 from ehlectric.sweep.points import Status
 from ehlectric.sweep.sweep_inputs import Sweep
@@ -361,7 +361,7 @@ def cluster(address: str) -> Iterator[Crew]:
             "scheduler", "needs the package distributed; install it with: pip install 'ehlectric[cluster]'"
         ) from None
     _silence()
-    with own_filters():
+    with local_filters():
         # Dask warns if versions differ. If the difference breaks something, an error follows.
         warnings.simplefilter("ignore")
         try:
