@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ehlectric import AxleCase, solve, solve_axle, solve_bearing
+from ehlectric import AxleCase, load, save, solve, solve_axle, solve_bearing
 from ehlectric.axle.axle_verdict import axle_verdict
 from ehlectric.axle.measurable import _Probable as Probable
 from ehlectric.axle.network import HOUSING, WINDING, Film, Network
@@ -17,6 +17,7 @@ from ehlectric.drive.drive_bearings import bearing_element
 from ehlectric.drive.motor_circuit import capacitive_divider
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable
+from ehlectric.tables.axle_tables import remedy_cells
 from tests.axle.axles import ALONE, two_stages
 
 NANO = 1e-9
@@ -191,6 +192,28 @@ def test_remedies_of_the_example():
     assert conducting == result.solution.potentials("always")
     rows = result.summary()["remedies"]
     assert [row["title"] for row in rows] == [remedy.title for remedy in result.case.remedies]
+
+
+def test_voltages_of_a_remedy_are_lower_bounds_where_it_gives_no_capacitance(tmp_path):
+    """Ceramic elements of a remedy without their capacitance: its shaft voltages are lower bounds, and the
+    axle as it is has none.
+    """
+    hybrid = {"title": "Hybrid", "changes": {"bearing.rotor.element_material": "silicon-nitride"}}
+    solved = solve_axle(two_stages(remedies=[hybrid]))
+    save(solved, tmp_path)
+    for result in (solved, load(tmp_path)):
+        heads, *rows = remedy_cells(result.summary())
+        assert heads == ("U/V_b", "as it is", "Hybrid")
+        voltages = {row[0]: row[1:] for row in rows if row[0].startswith("U of")}
+        assert len(voltages) == 3
+        for as_it_is, remedied in voltages.values():
+            assert not as_it_is.startswith("≥")
+            assert remedied.startswith("≥ ")
+        (warning,) = result.warnings_of_remedies
+        assert warning.code == "capacitance-bound"
+        assert warning.text.startswith(
+            "Hybrid: bearing 1 of rotor, bearing 2 of rotor: the elements are ceramic"
+        )
 
 
 def test_conduction_of_the_gear_file_is_kept():

@@ -90,6 +90,17 @@ class AxleResult(Shown):
         return (*self.solution.warnings, *unused_keys(self.case))
 
     @property
+    def warnings_of_remedies(self) -> tuple[ResultWarning, ...]:
+        """Warnings of remedies with codes that the axle itself lacks, each with the title of its remedy."""
+        codes = {warning.code for warning in self.solution.warnings}
+        return tuple(
+            replace(warning, text=f"{remedy.title}: {warning.text}")
+            for remedy, solution in zip(self.case.remedies, self.remedies, strict=False)
+            for warning in solution.warnings
+            if warning.code not in codes
+        )
+
+    @property
     def all_warnings(self) -> tuple[ResultWarning, ...]:
         """Warnings about the axle and its duty cycle."""
         return (*self.warnings, *(() if self.duty is None else self.duty.warnings))
@@ -171,7 +182,12 @@ class AxleResult(Shown):
         in_time = self.remedied_discharges or (None,) * len(self.remedies)
         for number, (solution, discharges) in enumerate(zip(self.remedies, in_time, strict=True)):
             simulation = {} if discharges is None else {"simulation": discharges.summary()}
-            yield {"title": self.case.remedies[number].title, **axle_summary(solution), **simulation}
+            yield {
+                "title": self.case.remedies[number].title,
+                **texts_and_codes(solution.warnings),
+                **axle_summary(solution),
+                **simulation,
+            }
 
     def _heads(self, warnings: Sequence[ResultWarning]) -> dict[str, Any]:
         """Title, warnings, verdict and inputs of a summary."""

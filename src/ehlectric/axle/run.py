@@ -35,7 +35,9 @@ def solve_to_folder(
     load_library()
     result = solve_axle(case, progress=progress)
     files = save(result, folder, replaced=(*FILES, *others))
-    return RunOutcome(result, result.summary(), tuple(files), result.all_warnings)
+    return RunOutcome(
+        result, result.summary(), tuple(files), (*result.all_warnings, *result.warnings_of_remedies)
+    )
 
 
 def save(result: AxleResult, folder: str | Path, *, replaced: Sequence[str] = ()) -> list[Path]:

@@ -102,7 +102,7 @@ def remedy_cells(summary: Summary) -> Iterator[tuple[str, ...]]:
     for row in _in_order(summary):
         yield printable(row["element"]), *(table.get(row["element"], "–") for table in ratios)
     for number, shaft in enumerate(summary["shafts"]):
-        voltages = (_cell(table["shafts"][number]["voltage"]) for _, table in cases)
+        voltages = (_to_housing(table, table["shafts"][number]["voltage"]) for _, table in cases)
         yield f"U of {printable(shaft['shaft'])} [V]", *voltages
 
 
