@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cache
 from types import MappingProxyType
 from typing import Any, Literal
@@ -427,6 +427,19 @@ def written_text(field: Field, text: str) -> str:
     return f"{pieces[0]} {field.unit}"
 
 
+def _amount_at(key: str) -> Amount | None:
+    """Unit and bounds of an input from the book of inputs, or from that of the laws of oils."""
+    entry = input_at(key)
+    if entry is not None and entry.unit:
+        return with_bounds(Amount, entry)
+    law = data_file("ehlectric.lubricant", "parameters.toml").get(key.rpartition("lubricant.")[2])
+    return None if law is None else Amount(**{name: law[name] for name in _OF_AMOUNTS if name in law})
+
+
+# Keys of the unit and bounds of an amount.
+_OF_AMOUNTS = tuple(each.name for each in fields(Amount))
+
+
 def in_field_unit(field: Field, text: str) -> str:
     """Text of an error with its bounds in the unit of a field.
 
@@ -447,10 +460,9 @@ def in_field_unit(field: Field, text: str) -> str:
 
     names = "|".join(sorted({re.escape(name) for name in (si, si.replace("^", "**"))}))
     elsewhere = re.compile(rf"(?<!['\d.e+-])({_NUMBER}) (?:{names})(?![\w*^/²³])")
-    entry = input_at(field.key)
-    if entry is None:
+    amount = _amount_at(field.key)
+    if amount is None:
         return text if si == field.unit else elsewhere.sub(lambda match: number(match[1]), text)
-    amount = with_bounds(Amount, entry)
     parts_of_text = text.split(amount.takes)
     if si != field.unit:
         parts_of_text = [elsewhere.sub(lambda match: number(match[1]), part) for part in parts_of_text]
