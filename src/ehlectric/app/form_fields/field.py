@@ -428,7 +428,7 @@ def written_text(field: Field, text: str) -> str:
 
 
 def _amount_at(key: str) -> Amount | None:
-    """Unit and bounds of an input from the book of inputs, or from that of the laws of oils."""
+    """Unit and bounds of an input, from the book of inputs or the parameters of oil laws."""
     entry = input_at(key)
     if entry is not None and entry.unit:
         return with_bounds(Amount, entry)
