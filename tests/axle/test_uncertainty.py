@@ -105,8 +105,8 @@ def test_probabilities_of_all_elements(uncertainty, solution):
 def test_the_verdict_names_the_first_elements_and_the_input_to_measure(solution):
     result = solve_axle(solution.case, remedies=False)
     codes = [reason.code for reason in result.verdict.reasons]
-    # A verdict has the sampling error of few points, where it is large, in the same statement.
-    assert {"probability", "probability-rough"} & set(codes)
+    # Few points state the margin with its sampling error, and no margin where the error exceeds it.
+    assert {"probability", "probability-rough", "probability-only"} & set(codes)
     assert {"axle-first-chances", "axle-deciding"} <= set(codes)
     assert "uncertainty" in result.summary()
     pending = solve_axle(solution.case, remedies=False, probable=False)
