@@ -49,7 +49,7 @@ def test_a_bearing_is_solved_and_compared(ehlectric, files):
     assert done.returncode == 0, done.stderr
     assert "mean film factor" in done.stdout
     assert "1 of 3 rows have no film factor: line 5 (" in done.stderr
-    assert "ignored remark" in done.stderr
+    assert "data.csv: not used: remark. Rename" in done.stderr
     out = files / "out"
     assert {"summary.json", "bearing.nc", "measured.json", "measured.csv"} < {p.name for p in out.iterdir()}
     assert (out / "measured_and_computed.png").read_bytes()[:4] == b"\x89PNG"
