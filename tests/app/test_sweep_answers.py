@@ -157,7 +157,7 @@ def test_a_folder_with_another_sweep_is_not_shown_as_the_one_that_is_asked_for(f
 @pytest.mark.slow
 def test_warnings_of_a_map_have_no_codes(folder):
     told = sweep_answers.seen(str(folder), "bearing.first_break", TABLE).warnings
-    assert told
+    assert [one.text for one in told if one.text.startswith("At 1 of 1 solved points: ")]
     assert not any(code in one.text for one in told for code in CODES if "-" in code)
 
 

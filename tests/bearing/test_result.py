@@ -256,7 +256,10 @@ def test_ceramic_elements(rollers):
     """
     solution = rollers.solution
     conditions = dataclasses.replace(solution.conditions, element=Solid.of("silicon-nitride"))
-    ceramic = BearingResult(dataclasses.replace(solution, conditions=conditions))
+    ceramic = with_bearing(
+        BearingResult(dataclasses.replace(solution, conditions=conditions)),
+        element_material="silicon-nitride",
+    )
     found = strict(ceramic.summary())
     assert {found["bearing"][key] for key in BREAKS} == {None}
     assert found["warning_codes"].count("capacitance-bound") == 1

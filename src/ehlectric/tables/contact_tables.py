@@ -235,15 +235,18 @@ def _temperature_error(summary: Summary) -> str:
 
 
 def _load_share(summary: Summary) -> ValueWithNote:
-    """Load share with no more digits than its change from a coarser grid leaves, and this change."""
+    """Load share with no more digits than its change from a coarser grid leaves, and this change.
+
+    An upper bound has no error beside it.
+    """
     asperities = summary["asperities"]
     share, before = asperities["load_share"], asperities["load_share_coarser"]
-    note = ", not known on a coarser grid"
+    shown, note = share_text(share, before), ", not known on a coarser grid"
     if before is not None:
         error = formatted(100.0 * abs(share - before), ".2g")
-        half = share_text(before, share)
-        note = f", ± {error} percentage points by the grid: {half} % on half the nodes"
-    return ValueWithNote((share_text(share, before), "%"), note)
+        within = "" if shown.startswith("<") else f"± {error} percentage points by the grid: "
+        note = f", {within}{share_text(before, share)} % on half the nodes"
+    return ValueWithNote((shown, "%"), note)
 
 
 def _area_error(summary: Summary) -> str:

@@ -188,10 +188,10 @@ def _without_code(warning: PageWarning) -> PageWarning:
 
     Its text says all that the meaning of its own code does.
     """
-    return replace(warning, meaning="", text=_CODE.sub(lambda match: f"{match[1]}: ", warning.text))
+    return replace(warning, meaning="", text=_CODE.sub("At ", warning.text))
 
 
-_CODE = re.compile(rf"\b(warning|note) (?:{'|'.join(CODES)}): ")
+_CODE = re.compile(rf"^(?:{'|'.join(CODES)}) at ")
 
 
 def _accuracy(results: SweepResults) -> str:
