@@ -266,8 +266,8 @@ def test_numbers_of_surfaces_that_touch_are_those_of_the_summary(geometry):
     ):
         shown = number(view, key)
         assert (shown.unit, float(shown.text)) == (unit, pytest.approx(factor * summary[name], rel=0.05)), key
-    # The load share has the digits that the grid leaves, and its change beside it; one that falls by more than a
-    # third from grid to grid is an upper bound.
+    # The load share has the digits that the grid leaves, and its change beside it; one that falls by more than
+    # a third from grid to grid is an upper bound.
     share, before = summary["load_share"], summary["load_share_coarser"]
     shown = number(view, "asperities.load_share")
     if geometry == "line":
@@ -275,7 +275,8 @@ def test_numbers_of_surfaces_that_touch_are_those_of_the_summary(geometry):
         assert f"± {100.0 * abs(share - before):.2g} " in shown.note
     else:
         assert (shown.text, shown.note) == (f"< {math.ceil(100.0 * share)}", "30 % on half the nodes")
-        assert 0.25 < before < 0.3 and share < before / 1.5
+        assert 0.25 < before < 0.3
+        assert share < before / 1.5
     prefixes = {"Ω": 1.0, "mΩ": 1e-3, "µΩ": 1e-6, "kΩ": 1e3}
     shown = number(view, "asperities.resistance")
     assert float(shown.text) * prefixes[shown.unit] == pytest.approx(summary["resistance"], rel=0.05)
