@@ -266,8 +266,8 @@ def test_numbers_of_surfaces_that_touch_are_those_of_the_summary(geometry):
     ):
         shown = number(view, key)
         assert (shown.unit, float(shown.text)) == (unit, pytest.approx(factor * summary[name], rel=0.05)), key
-    # The load share has the digits that the grid leaves, and its change beside it; one that falls by more than
-    # a third from grid to grid is an upper bound.
+    # The load share has the digits that the grid leaves, and its change beside it; one that falls by more
+    # than a third from grid to grid is an upper bound.
     share, before = summary["load_share"], summary["load_share_coarser"]
     shown = number(view, "asperities.load_share")
     if geometry == "line":
