@@ -237,7 +237,7 @@ def _temperature_error(summary: Summary) -> str:
 def _load_share(summary: Summary) -> ValueWithNote:
     """Load share with no more digits than its change from a coarser grid leaves, and this change.
 
-    An upper bound has no error beside it.
+    An upper bound has no error.
     """
     asperities = summary["asperities"]
     share, before = asperities["load_share"], asperities["load_share_coarser"]
