@@ -22,6 +22,14 @@ def network(conducting=(), **capacitances):
     return Network(SHAFTS, tuple(films))
 
 
+def voltages_of(shafts):
+    """Voltages of the elements that insulate, after an edge of 300 V."""
+    potentials = shafts.potentials(300.0)
+    return {
+        each.name: abs(shafts.voltage(each, potentials)) for each in shafts.elements if not each.conducts
+    }
+
+
 def element(of, name):
     """Element of a network by its name."""
     return next(each for each in of.elements if each.name == name)
@@ -116,21 +124,21 @@ def test_the_energy_of_a_breakdown_is_lost_by_the_capacitances(values, order, pa
 
 def test_the_rank_of_elements_by_their_breakdown_voltage():
     """The first mesh has most of the voltage, but a bearing with a thin film is first."""
-    voltages = {"10": 3.0, "12": 1.8, "20": 2.0, "23": 0.74, "30": 1.0}
-    ranked = rank(network(), voltages, 300.0)
+    limits = {"10": 3.0, "12": 1.8, "20": 2.0, "23": 0.74, "30": 1.0}
+    ranked = rank(voltages_of(network()), limits)
     assert [name for name, _ in ranked] == ["12", "10", "23", "20", "30"]
     assert ranked[0][1] == pytest.approx(10.70786 / 1.8, rel=1e-5)
-    assert rank(network(("12",)), voltages, 300.0)[0][0] == "23"
+    assert rank(voltages_of(network(("12",))), limits)[0][0] == "23"
 
 
 def test_summits_that_touch_precede_all_others_by_their_voltage():
     """The first shaft has more voltage than the second one. What has no voltage does not discharge."""
     limits = {"10": 3.0, "12": 1.8, "20": 0.0, "23": 0.0, "30": 1.0}
-    ranked = rank(network(), limits, 300.0)
+    ranked = rank(voltages_of(network()), limits)
     assert ranked[:2] == [("20", np.inf), ("23", np.inf)]
     assert [name for name, _ in ranked[2:]] == ["12", "10", "30"]
-    assert rank(network(("23",)), limits, 300.0)[0] == ("20", np.inf)
-    assert dict(rank(network(("20",)), limits, 300.0))["23"] == 0.0
+    assert rank(voltages_of(network(("23",))), limits)[0] == ("20", np.inf)
+    assert dict(rank(voltages_of(network(("20",))), limits))["23"] == 0.0
 
 
 def test_a_shaft_without_a_path_to_the_housing_is_named():

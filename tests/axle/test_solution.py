@@ -67,6 +67,60 @@ def test_the_first_element_depends_on_the_conduction_of_the_meshes():
     assert set(axle.changed_ranks) == {"b1", "b3"}
 
 
+def touching_at(share, limits=1.0):
+    """Axle by hand whose second mesh has touching summits and conducts for a share of the time."""
+    axle = by_hand()
+    elements = [
+        replace(each, breakdown_voltage=None, touching=True, contact_time_share=share)
+        if each.name == "m23"
+        else replace(each, breakdown_voltage=limits * each.breakdown_voltage)
+        for each in axle.elements
+    ]
+    return replace(axle, elements=tuple(elements))
+
+
+def test_voltages_change_to_those_of_a_conducting_mesh_between_95_and_99_percent_of_contact():
+    """Half of each network at 97 %: 30 (134, 15, 4)/333.4 V insulating, 30 (17, 1, 1)/43.2 V conducting.
+
+    The mesh whose summits touch has the margin (1 - w)/w with the weight w of the insulating network.
+    """
+    insulating = [30.0 * part / 333.4 for part in (134.0, 15.0, 4.0)]
+    conducting = [30.0 * part / 43.2 for part in (17.0, 1.0, 1.0)]
+    for share, weight in ((0.9, 1.0), (0.96, 0.75), (0.97, 0.5), (0.98, 0.25), (0.99, 0.0)):
+        axle = touching_at(share)
+        expected = [
+            weight * one + (1.0 - weight) * other for one, other in zip(insulating, conducting, strict=True)
+        ]
+        assert list(axle.potentials().values()) == pytest.approx(expected, rel=1e-9)
+        ratios = dict(axle.ranking())
+        assert ratios["m12"] == pytest.approx((expected[0] - expected[1]) / 1.8, rel=1e-9)
+        if weight == 1.0:
+            assert ratios["m23"] == np.inf
+        elif weight:
+            assert ratios["m23"] == pytest.approx(weight / (1.0 - weight), rel=1e-9)
+        else:
+            assert "m23" not in ratios
+        assert dict(axle.ranking("never"))["m23"] == np.inf
+        assert list(axle.potentials("always").values()) == pytest.approx([30.0 / 17.6] * 3, rel=1e-12)
+
+
+def test_summits_that_touch_at_times_are_never_green():
+    """All films hold ten times their voltage; the mesh opens for 1 to 5 % of the time."""
+    found = {}
+    for share in (0.96, 0.98, 0.989, 0.99):
+        axle = touching_at(share, limits=100.0)
+        first, verdict = axle_summary(axle)["first"], axle_verdict(axle)
+        found[share] = first["element"], verdict.level, verdict.code
+        assert ("95 to 99 % of the time" in verdict.text) == (share < 0.99)
+    assert found == {
+        0.96: ("m23", "red", "discharges-likely"),
+        0.98: ("m23", "yellow", "discharges-possible"),
+        0.989: ("m12", "yellow", "discharges-possible"),
+        0.99: ("m12", "green", "breakdown-excluded"),
+    }
+    assert axle_summary(touching_at(0.98, limits=100.0))["first"]["margin"] == pytest.approx(3.0, rel=1e-9)
+
+
 def test_a_ring_on_the_rotor_discharges_all_shafts_during_the_edge():
     """1 ohm and an edge of 100 ns: 0.3 V, b dV/dt R, as the time constant of 2.5 ns is short."""
     ring = [{"between": ["rotor", "housing"], "kind": "ring", "resistance": "1 ohm"}]

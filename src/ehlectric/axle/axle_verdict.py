@@ -97,13 +97,18 @@ def axle_verdict(
         )
     margin, touching = 1.0 / ratio, first not in limits
     interval = None if touching else strength_interval(margin)
-    level, code = _level(solution, margin, None if uncertainty is None else uncertainty.chance)
+    chance = None if uncertainty is None else uncertainty.chance
+    level, code = _level(solution, margin, chance, touching=touching)
     # The probability holds for capacitances that are upper bounds, with which the voltages are lower.
-    level, code = doubted(level, code, doubts=bool(solution.bounded) and _level_of(largest) != "green")
+    level, code = doubted(
+        level,
+        code,
+        doubts=bool(solution.bounded) and _level_of(largest) != "green",
+        touching=any(name not in limits for name, _ in ranking),
+    )
     doubts: tuple[Statement, ...] = tuple(strength_doubt(solution.case.discharge, margin))
     facts: tuple[Fact, ...] = () if touching else (Fact("first.breakdown_voltage", limits[first]),)
-    if uncertainty is not None:
-        chance = uncertainty.chance
+    if uncertainty is not None and chance is not None:
         # A margin that is 0 at almost all points has no spread that a measurement would reduce.
         ranked = uncertainty.ranks_inputs and chance.high > 0.0
         stated = (each for each in chance.statements() if ranked or not each.code.startswith("measure"))
@@ -143,15 +148,17 @@ def _ratio(ratio: float) -> str:
     return readable(ratio, 2) if math.isfinite(ratio) else "touching summits"
 
 
-def _level(solution: AxleSolution, margin: float, chance: Chance | None) -> tuple[Level, str]:
+def _level(
+    solution: AxleSolution, margin: float, chance: Chance | None, *, touching: bool
+) -> tuple[Level, str]:
     """Level and code of a verdict: by the probability, or by the margin.
 
-    If the summits of an element touch under a voltage, both follow the rule of surfaces that touch, unless
-    the probability, or the films that separate their surfaces, make breakdown expected.
+    If the summits of the first element touch and its margin is below 1, both follow the rule of surfaces that
+    touch, unless the probability, or the films that separate their surfaces, make breakdown expected.
     """
-    if chance is not None and (chance.level == "red" or margin > 0.0):
+    if chance is not None and (chance.level == "red" or not touching or margin >= 1.0):
         return chance.level, chance.code
-    if margin > 0.0:
+    if not touching or margin >= 1.0:
         level = level_of(*strength_interval(margin))
         return level, code_of(level, likely=margin < 1.0)
     films = max(solution.ratios().values(), default=0.0)
@@ -215,6 +222,9 @@ def _reasons(solution: AxleSolution, first: str) -> Iterator[Statement]:
     )
     if at_times:
         yield Statement.of("axle-conducting-at-times", elements=at_times)
+    almost = tuple(each.name for each in solution.elements if 0.0 < each.insulating_part("by-film") < 1.0)
+    if almost:
+        yield Statement.of("axle-almost-conducting", elements=almost)
     for each in solution.elements:
         if each.state == CONDUCTS:
             yield Statement.of("axle-conducting", elements=(each.name,))
@@ -229,7 +239,7 @@ def _others(solution: AxleSolution, first: str) -> Iterator[Statement]:
         elif ranking[0][0] != first:
             name, ratio = ranking[0]
             about = {"case": _IF[conduction], "element": name}
-            if math.isinf(ratio):
+            if name not in solution.breakdown_voltages:
                 yield Statement.of("axle-touches-if", **about)
             else:
                 yield Statement.of("axle-first-if", **about, margin=1.0 / ratio)

@@ -155,19 +155,19 @@ class Network:
         return {shaft: by_node.get(self.nodes[shaft], 0.0) for shaft in self.shafts}
 
 
-def rank(
-    network: Network, limits: Mapping[str, float], edge: float, rise_time: float = 0.0
-) -> list[tuple[str, float]]:
-    """Names of elements with the ratio of their voltage after an edge to their breakdown voltage, in the
-    order of ``firsts``. ``limits``, breakdown voltages by the name of the element [V], 0 where summits touch;
-    ``edge`` of the source [V] and its ``rise_time`` [s].
+def rank(voltages: Mapping[str, float], limits: Mapping[str, float]) -> list[tuple[str, float]]:
+    """Names of elements with the ratio of their voltage to their breakdown voltage, in the order of
+    ``firsts``. Both have the names of the elements [V]; a breakdown voltage is 0 where summits touch.
+
+    Examples
+    --------
+    >>> rank({"bearing": 3.0, "mesh": 2.0}, {"bearing": 2.0, "mesh": 0.0})
+    [('mesh', inf), ('bearing', 1.5)]
     """
-    potentials = network.potentials(edge, rise_time)
-    names = [each.name for each in network.elements if each.name in limits and not each.conducts]
-    films = {each.name: each for each in network.elements}
-    voltages = np.array([abs(network.voltage(films[name], potentials)) for name in names])
-    ratios = voltage_ratios(voltages, np.array([limits[name] for name in names]))
-    rows = zip(names, ratios.tolist(), voltages.tolist(), strict=True)
+    names = [name for name in voltages if name in limits]
+    of_names = np.array([voltages[name] for name in names])
+    ratios = voltage_ratios(of_names, np.array([limits[name] for name in names]))
+    rows = zip(names, ratios.tolist(), of_names.tolist(), strict=True)
     return [(name, ratio) for name, ratio, _ in sorted(rows, key=lambda row: (-row[1], -row[2]))]
 
 

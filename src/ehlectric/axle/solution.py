@@ -37,7 +37,15 @@ from ehlectric.cases.axle_inputs import CONDUCTING, Shaft
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.gear_inputs import Conduction
 from ehlectric.errors import ConvergenceError, InputError, within
-from ehlectric.gear import GearSolution, drawing_of, gear_pair, gear_warnings, solve_gear_pair, state_at
+from ehlectric.gear import (
+    GearSolution,
+    drawing_of,
+    gear_pair,
+    gear_warnings,
+    insulating_part,
+    solve_gear_pair,
+    state_at,
+)
 from ehlectric.quantities.formats import CELSIUS, amount, speed_text
 from ehlectric.quantities.lubrication_states import CONDUCTS
 from ehlectric.quantities.result_warnings import ResultWarning
@@ -92,9 +100,13 @@ class Element:
 
     def film(self, conduction: Conduction) -> Film:
         """Element of the network; ``conduction`` is an assumption about meshes, "by-film" as in its file."""
-        given = self.conduction if self.kind == "bearing" or conduction == "by-film" else conduction
-        conducts = state_at(self.contact_time_share, given) == CONDUCTS
+        conducts = self.insulating_part(conduction) == 0.0
         return Film(self.name, self.first, self.second, self.capacitance, conducts)
+
+    def insulating_part(self, conduction: Conduction) -> float:
+        """Weight of the network in which the element insulates, with an assumption about meshes."""
+        given = self.conduction if self.kind == "bearing" or conduction == "by-film" else conduction
+        return insulating_part(self.contact_time_share, given)
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,9 +125,29 @@ class AxleSolution:
     @cached_property
     def _networks(self) -> dict[Conduction, Network]:
         """Networks by the assumption about the meshes; a network keeps its solution."""
-        return {conduction: self._network(conduction) for conduction in CONDUCTIONS}
+        return {conduction: self._network(self.films(conduction)) for conduction in CONDUCTIONS}
 
-    def _network(self, conduction: Conduction) -> Network:
+    @cached_property
+    def _weighted_networks(self) -> dict[Conduction, tuple[tuple[float, Network], ...]]:
+        """Weights and networks with all combinations of elements that almost conduct: insulating in one, and
+        conducting in the other; by the assumption about the meshes.
+        """
+        return {conduction: tuple(self._weighted(conduction)) for conduction in CONDUCTIONS}
+
+    def _weighted(self, conduction: Conduction) -> Iterator[tuple[float, Network]]:
+        parts = [each.insulating_part(conduction) for each in self.elements]
+        between = [number for number, part in enumerate(parts) if 0.0 < part < 1.0]
+        if not between:
+            yield 1.0, self.network(conduction)
+            return
+        for conducting in product((False, True), repeat=len(between)):
+            films, weight = [*self.films(conduction)], 1.0
+            for number, conducts in zip(between, conducting, strict=True):
+                films[number] = replace(films[number], conducts=conducts)
+                weight *= 1.0 - parts[number] if conducts else parts[number]
+            yield weight, self._network(films)
+
+    def _network(self, of_elements: Iterable[Film]) -> Network:
         case, given = self.case, self.case.circuit.capacitances
         rotor = case.rotor
         films = [
@@ -141,21 +173,33 @@ class AxleSolution:
                     0.0 if link.resistance is None else 1.0 / link.resistance,
                 )
             )
-        return Network(tuple(shaft.name for shaft in case.shaft), (*films, *self.films(conduction)))
+        return Network(tuple(shaft.name for shaft in case.shaft), (*films, *of_elements))
 
     def films(self, conduction: Conduction = "by-film") -> tuple[Film, ...]:
         """Bearings and meshes as elements of the network."""
         return tuple(element.film(conduction) for element in self.elements)
 
     def potentials(self, conduction: Conduction = "by-film", edge: float | None = None) -> dict[str, float]:
-        """Voltages of the shafts against the housing after an edge [V], by default the edge of the case."""
+        """Voltages of the shafts against the housing after an edge [V], by default the edge of the case.
+
+        They are weighted means over the networks of elements that almost conduct.
+        """
         edge = self.case.edge if edge is None else edge
-        return self.network(conduction).potentials(edge, self.case.source.rise_time or 0.0)
+        rise_time = self.case.source.rise_time or 0.0
+        potentials = dict.fromkeys(self.turning, 0.0)
+        for weight, network in self._weighted_networks[conduction]:
+            for shaft, potential in network.potentials(edge, rise_time).items():
+                potentials[shaft] += weight * potential
+        return potentials
+
+    def voltages(self, conduction: Conduction = "by-film") -> dict[str, float]:
+        """Absolute voltages of bearings and meshes after the edge of the case [V] by their names."""
+        network, potentials = self.network(conduction), self.potentials(conduction)
+        return {film.name: abs(network.voltage(film, potentials)) for film in self.films(conduction)}
 
     def voltage_of(self, name: str) -> float:
         """Absolute voltage of a bearing or mesh after the edge of the case [V]."""
-        film = next(film for film in self.films() if film.name == name)
-        return abs(self.network().voltage(film, self.potentials()))
+        return self.voltages()[name]
 
     @property
     def breakdown_voltages(self) -> dict[str, float]:
@@ -171,10 +215,27 @@ class AxleSolution:
 
         The ratio is infinite for an element whose summits touch under a voltage: its contacts that open
         discharge at any voltage. Of several such elements, the element with the largest voltage is first.
+        As the element becomes a conductor, its ratio falls to 0.
         """
-        rise_time = self.case.source.rise_time or 0.0
-        limits = {each.name: each.limit for each in self.elements if math.isfinite(each.limit)}
-        return rank(self.network(conduction), limits, self.case.edge, rise_time)
+        voltages, limits = self.voltages(conduction), self._limits(conduction)
+        return rank(voltages, {name: limit for name, limit in limits.items() if math.isfinite(limit)})
+
+    def _limits(self, conduction: Conduction) -> dict[str, float]:
+        """Breakdown voltages of all elements [V]: 0 where summits touch, infinite without a breakdown.
+
+        An element whose summits touch and that almost conducts, with the insulating part w, has the margin
+        (1 - w)/w.
+        """
+        limits, voltages = {}, self.voltages(conduction)
+        for each in self.elements:
+            part = each.insulating_part(conduction)
+            if part == 0.0:
+                limits[each.name] = math.inf
+            elif each.limit == 0.0:
+                limits[each.name] = voltages[each.name] * (1.0 - part) / part
+            else:
+                limits[each.name] = each.limit
+        return limits
 
     def discharging(self, conduction: Conduction = "by-film") -> list[tuple[str, float]]:
         """Elements of the ranking that have a voltage."""
@@ -199,11 +260,8 @@ class AxleSolution:
         Both have the shape (elements,). A breakdown voltage is 0 where summits touch, and infinite for an
         element that conducts or does not break down.
         """
-        network, potentials, films = self.network(), self.potentials(), self.films()
-        limits = [
-            math.inf if film.conducts else each.limit for each, film in zip(self.elements, films, strict=True)
-        ]
-        return np.array([abs(network.voltage(film, potentials)) for film in films]), np.array(limits)
+        voltages, limits = self.voltages(), self._limits("by-film")
+        return np.array([*voltages.values()]), np.array([*limits.values()])
 
     @property
     def bounded(self) -> tuple[str, ...]:

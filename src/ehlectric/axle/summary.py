@@ -107,11 +107,12 @@ def _first(solution: AxleSolution) -> dict[str, Any]:
     if not ranking:
         return dict.fromkeys(("element", "voltage", "breakdown_voltage", "voltage_ratio", "margin"))
     name, ratio = ranking[0]
+    breakdown = solution.breakdown_voltages.get(name)
     return {
         "element": name,
         "voltage": solution.voltage_of(name),
-        "breakdown_voltage": solution.breakdown_voltages.get(name),
-        "voltage_ratio": ratio if math.isfinite(ratio) else None,
+        "breakdown_voltage": breakdown,
+        "voltage_ratio": None if breakdown is None else ratio,
         "margin": 1.0 / ratio,
     }
 

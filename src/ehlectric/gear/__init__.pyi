@@ -2,6 +2,7 @@
 
 from .forces_on_shafts import Hand as Hand
 from .forces_on_shafts import mesh_forces as mesh_forces
+from .gear_verdict import insulating_part as insulating_part
 from .gear_verdict import state_at as state_at
 from .gear_verdict import state_of as state_of
 from .geometry import GearPair as GearPair

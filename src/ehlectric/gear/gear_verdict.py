@@ -27,6 +27,10 @@ from ehlectric.quantities.verdict import Verdict
 # Shares of time up to which a mesh is called insulating, and from which it is called conducting.
 _INSULATING, _CONDUCTING = 0.01, 0.99
 
+# Share of time from which a network with the mesh as a conductor has a part in the voltages (engineering
+# judgement).
+_MOSTLY_CONDUCTING = 0.95
+
 
 def state_of(solution: GearSolution) -> str:
     """State of the mesh: what its conduction is set to, or by the share of time in which it conducts."""
@@ -44,6 +48,25 @@ def state_at(share: float, conduction: Conduction) -> str:
     if conduction != "by-film":
         return CONDUCTS if conduction == "always" else INSULATES
     return CONDUCTS if share >= _CONDUCTING else INSULATES if share <= _INSULATING else AT_TIMES
+
+
+def insulating_part(share: float, conduction: Conduction) -> float:
+    """Weight of the network in which a mesh insulates, at a share of time with metallic contact.
+
+    The network in which the mesh conducts has the rest of the weight, so that no voltage jumps as the mesh
+    becomes a conductor.
+
+    Examples
+    --------
+    >>> [round(insulating_part(share, "by-film"), 6) for share in (0.5, 0.95, 0.97, 0.99)]
+    [1.0, 1.0, 0.5, 0.0]
+    >>> insulating_part(0.5, "always"), insulating_part(0.5, "never")
+    (0.0, 1.0)
+    """
+    if conduction != "by-film":
+        return float(conduction == "never")
+    part = (_CONDUCTING - share) / (_CONDUCTING - _MOSTLY_CONDUCTING)
+    return min(max(part, 0.0), 1.0)
 
 
 def breakdown_margin(solution: GearSolution) -> float | None:
