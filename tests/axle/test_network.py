@@ -25,9 +25,7 @@ def network(conducting=(), **capacitances):
 def voltages_of(shafts):
     """Voltages of the elements that insulate, after an edge of 300 V."""
     potentials = shafts.potentials(300.0)
-    return {
-        each.name: abs(shafts.voltage(each, potentials)) for each in shafts.elements if not each.conducts
-    }
+    return {each.name: abs(shafts.voltage(each, potentials)) for each in shafts.elements if not each.conducts}
 
 
 def element(of, name):

@@ -47,7 +47,6 @@ from ehlectric.gear import (
     state_at,
 )
 from ehlectric.quantities.formats import CELSIUS, amount, speed_text
-from ehlectric.quantities.lubrication_states import CONDUCTS
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable
 from ehlectric.runtime.progress import Progress, silent

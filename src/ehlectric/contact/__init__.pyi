@@ -60,6 +60,7 @@ from .summary import minimum_by_formula as minimum_by_formula
 from .touching import Spots as Spots
 from .touching import about_share as about_share
 from .touching import changed_share as changed_share
+from .touching import digits_within as digits_within
 from .touching import load_share_of as load_share_of
 from .touching import share_text as share_text
 from .touching import unknown_share as unknown_share

@@ -169,12 +169,18 @@ class Coarser:
     load_share: float = field(metadata=number("not negative"))  # part of the load that asperities carry
     # Part of the area of the dry smooth contact in which the surfaces touch.
     contact_area_share: float = field(metadata=number("not negative"))
+    # Mean film thickness in the Hertz zone outside of the spots [m]; None if they cover it.
+    mean_film: float | None = field(default=None, metadata=number("positive or null"))
 
     @classmethod
     def of(cls, conditions: Conditions | PointConditions, film: Film | PointFilm) -> Coarser:
         """Asperities of the film on the coarser grid."""
         zone = hertz_weights(film, conditions.semi_axes)
-        return cls(load_share_of(conditions, spots_of(film)), touched_share(film, zone))
+        return cls(
+            load_share_of(conditions, spots_of(film)),
+            touched_share(film, zone),
+            _mean(*_around(film, zone)),
+        )
 
 
 @dataclass(frozen=True)
@@ -259,8 +265,7 @@ def touching(
     the friction coefficient of asperities.
     """
     zone = hertz_weights(film, conditions.semi_axes)
-    around = ~film.contact & (zone > 0.0)
-    thickness, weights = film.thickness[around], zone[around]
+    thickness, weights = _around(film, zone)
     deformed = None if smooth is None else weighted_rms(film.thickness - smooth, zone)
     mean = float(np.vdot(zone, film.thickness) / np.sum(zone))
     share, load_share = touched_share(film, zone), load_share_of(conditions, spots)
@@ -274,7 +279,7 @@ def touching(
         spots_of_one_node=int(np.count_nonzero(spots.nodes == 1)),
         mean_spot=spots.area / spots.number if spots.number else None,
         largest_spot=float(np.max(spots.areas)) if spots.number else None,
-        mean_film=float(np.average(thickness, weights=weights)) if thickness.size else None,
+        mean_film=_mean(thickness, weights),
         least_film=float(np.min(thickness)) if thickness.size else None,
         **_percentiles("film", thickness, weights),
         rq_deformed=deformed,
@@ -282,6 +287,17 @@ def touching(
         lambda_deformed=mean / deformed if deformed is not None and deformed >= FLAT else None,
         boundary_friction=None if friction is None else friction * load_share,
     )
+
+
+def _around(film: Film | PointFilm, zone: Array) -> tuple[Array, Array]:
+    """Film thickness [m] and weights of the nodes of the Hertz zone outside of the spots."""
+    around = ~film.contact & (zone > 0.0)
+    return film.thickness[around], zone[around]
+
+
+def _mean(values: Array, weights: Array) -> float | None:
+    """Weighted mean; None without values."""
+    return float(np.average(values, weights=weights)) if values.size else None
 
 
 def _area_error(spots: Spots, share: float, coarser: Coarser | None) -> float | None:
@@ -747,8 +763,20 @@ def share_text(share: float, coarser: float | None) -> str:
     relative = error / share if share > 0.0 else 0.0
     if coarser is not None and coarser > share and relative > _FALLING:
         return f"< {rounded_up(100.0 * share):g}"
-    digits = 3 if relative < 0.01 else 2 if relative < 0.2 else 1
-    return f"{float(f'{100.0 * share:.{digits}g}'):g}"
+    return f"{float(f'{100.0 * share:.{digits_within(relative)}g}'):g}"
+
+
+def digits_within(change: float) -> int:
+    """Digits of a number of touching surfaces that its relative change from a coarser grid leaves.
+
+    Solutions with other asperities in contact may also differ by less than this change.
+
+    Examples
+    --------
+    >>> [digits_within(change) for change in (0.005, 0.1, 0.5)]
+    [3, 2, 1]
+    """
+    return 3 if change < 0.01 else 2 if change < 0.2 else 1
 
 
 def about_share(share: float, coarser: float | None) -> str:

@@ -17,6 +17,7 @@ from ehlectric.contact import (
     PointResult,
     Result,
     case_summary,
+    digits_within,
     share_text,
 )
 from ehlectric.discharge.discharge_laws import LARGEST_PIT, MEAN_PIT
@@ -249,6 +250,22 @@ def _load_share(summary: Summary) -> ValueWithNote:
     return ValueWithNote((shown, "%"), note)
 
 
+def _film_around(key: str) -> Callable[[Summary], ValueWithNote]:
+    """Film outside of the spots with the digits that the change of its mean from a coarser grid leaves."""
+
+    def shown(summary: Summary) -> ValueWithNote:
+        asperities = summary["asperities"]
+        value, mean, before = asperities[key], asperities["mean_film"], asperities.get("mean_film_coarser")
+        if value is None or mean is None or before is None:
+            return ValueWithNote(value, "")
+        change = abs(mean - before) / mean
+        note = f", in the Hertzian zone, ± {readable(100.0 * change, 2)} % by the grid"
+        text = readable(1e9 * value, digits_within(change))
+        return ValueWithNote((text, "nm"), note if key == "mean_film" else "")
+
+    return shown
+
+
 def _area_error(summary: Summary) -> str:
     """Note of the real area of contact: what it is a part of, and its error by the grid."""
     error = summary["asperities"]["contact_area_error"]
@@ -470,6 +487,8 @@ _WORDS = RowTexts(
         "film.thermal": _temperature,
         "asperities.load_share": _load_share,
         "asperities.spots": _spots,
+        "asperities.mean_film": _film_around("mean_film"),
+        "asperities.film_5": _film_around("film_5"),
         "asperities.mass_error": _oil_error,
         "field.columns": _rough_columns,
         "discharge.zone_position": _zone_place,
