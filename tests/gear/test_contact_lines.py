@@ -105,6 +105,19 @@ def test_nodes_add_up_to_the_length_at_each_phase(drawing, loaded):
     assert parts.weights @ lengths == pytest.approx(plane.mean_length, rel=1e-5)
 
 
+@given(st.floats(0.0, 1e3), st.floats(0.0, 1e3))
+def test_nodes_move_without_a_step_as_a_load_begins_outside_of_a_part(before, behind):
+    """x = L sin^2 theta - e for zeros of the load at -e and 1 + e', as 1e-9 further outside."""
+    whole = np.zeros(1), np.ones(1)
+    at, share = nodes_within(5, whole, (np.array([-before]), np.array([1.0 + behind])))
+    moved, _ = nodes_within(5, whole, (np.array([-before - 1e-9]), np.array([1.0 + behind])))
+    assert moved == pytest.approx(at, abs=1e-4)
+    assert np.sum(share) == pytest.approx(1.0, rel=1e-12)
+    # A load near a zero grows with the distance x + e, and the width of its contact with the root of it.
+    exact = ((1.0 + before) ** 1.5 - before**1.5) / 1.5
+    assert np.sum(share * np.sqrt(at + before)) == pytest.approx(exact, rel=2e-3)
+
+
 @given(*RATIOS)
 def test_nodes_integrate_over_the_plane_of_action(alpha, beta):
     """The integral of x^2 y over all lines and phases is the integral over the plane over the distance p_bt

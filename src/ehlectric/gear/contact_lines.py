@@ -39,6 +39,9 @@ _CLOSE, _GAP, _INSIDE = 1e-7, 1e-6, 1e-9
 # Nodes of a spur pair between two phases at which the mesh changes.
 _PHASES, _NARROW, _SPUR_PHASES = 4, 1e-3, 8
 
+# Largest distance of a place without load from a loaded piece, over its length: nodes no longer depend on it.
+_DISTANT = 1e4
+
 # Nodes of a piece without a load: its outer end, and a place next to the load.
 _UNLOADED = np.array([0.0, 0.99])
 
@@ -190,22 +193,36 @@ def line_nodes(parts: LineParts, at: Array, share: Array) -> LineNodes:
     )
 
 
-def nodes_within(number: int, loaded: tuple[Array, Array]) -> tuple[Array, Array]:
+def nodes_within(
+    number: int, loaded: tuple[Array, Array], zeros: tuple[Array, Array] | None = None
+) -> tuple[Array, Array]:
     """Places and shares of nodes within the loaded pieces of parts, each of shape (m, n).
 
-    ``number``, nodes of a part; ``loaded``, start and end of its loaded piece, 0 to 1, shape (m,). Nodes are
-    dense where a load starts at zero, as the width of a contact grows with the root of the load.
+    ``number``, nodes of a part; ``loaded``, start and end of its loaded piece, 0 to 1, shape (m,); ``zeros``,
+    places before and behind it at which the load is zero, by default at ends inside of the part. Nodes are
+    dense near zeros, as the width of a contact grows with the root of the load: with the distances e and e'
+    of both zeros from a piece of the length 1, and L = 1 + e + e', the places are x = L sin^2(theta) - e, and
+    theta is linear. For distant zeros this is x itself, for one near zero a root law. Nodes move without a
+    step as a zero enters the part.
     """
     at, weight = lobatto(number)
-    first, last = (edge[:, np.newaxis] for edge in loaded)
-    low, high = first > 0.0, last < 1.0
-    if np.any(low) or np.any(high):
-        both, rest = low & high, 1.0 - at
-        slope = np.where(low, 2.0 * at, np.where(high, 2.0 * rest, 1.0))
-        moved = np.where(low, at**2, np.where(high, 1.0 - rest**2, at))
-        weight = weight * np.where(both, 6.0 * at * rest, slope)
-        at = np.where(both, at**2 * (3.0 - 2.0 * at), moved)
-    return first + (last - first) * at, (last - first) * weight
+    first, last = loaded
+    if zeros is None:
+        zeros = np.where(first > 0.0, first, -math.inf), np.where(last < 1.0, last, math.inf)
+    length = last - first
+    with np.errstate(divide="ignore", invalid="ignore"):
+        before, behind = (
+            np.clip(np.nan_to_num(distance / length, nan=_DISTANT), 0.0, _DISTANT)[:, np.newaxis]
+            for distance in (first - zeros[0], zeros[1] - last)
+        )
+    whole = 1.0 + before + behind
+    low, high = np.arcsin(np.sqrt(before / whole)), np.arccos(np.sqrt(behind / whole))
+    angle = low + (high - low) * at
+    places = whole * np.sin(angle) ** 2 - before
+    places = np.minimum(np.maximum(places, 0.0), 1.0)
+    share = weight * np.sin(2.0 * angle)
+    share /= np.sum(share, axis=1, keepdims=True)
+    return first[:, np.newaxis] + length[:, np.newaxis] * places, length[:, np.newaxis] * share
 
 
 def with_unloaded(at: Array, share: Array, loaded: tuple[Array, Array]) -> tuple[Array, Array]:

@@ -309,8 +309,10 @@ class Sharing:
         """Nodes of a part of a line."""
         return self.slices.number
 
-    def _loaded(self, delta: Array) -> tuple[Array, Array]:
-        """Start and end of the piece of each part in which f is below delta, 0 to 1; equal ones for none."""
+    def _loaded(self, delta: Array) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
+        """Start and end of the piece of each part in which f is below delta, 0 to 1; equal ones for none. Then
+        the places at which f is delta, also outside of the part.
+        """
         constant, slope, square = self.slices.opening
         constant = constant - delta[self.parts.phase]
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -321,8 +323,9 @@ class Sharing:
         first = np.where(level, -math.inf, np.fmin(*roots))
         last = np.where(level, math.inf, np.fmax(*roots))
         none = np.where(level, constant >= 0.0, np.isnan(first) | (first >= 1.0) | (last <= 0.0))
-        first, last = np.minimum(np.maximum(first, 0.0), 1.0), np.minimum(np.maximum(last, 0.0), 1.0)
-        return np.where(none, 1.0, first), np.where(none, 1.0, last)
+        ends = (np.minimum(np.maximum(place, 0.0), 1.0) for place in (first, last))
+        start, end = (np.where(none, 1.0, place) for place in ends)
+        return (start, end), (first, last)
 
     def _delta(self, at: Array, share: Array) -> Array:
         """Approach delta at each phase [m], shape (p,), of nodes that all carry load."""
@@ -347,8 +350,8 @@ class Sharing:
             return *nodes, whole, self._delta(*nodes)
         delta, loaded = self._approach(*self.slices.whole), whole
         for _ in range(_STEPS):
-            loaded = self._loaded(delta)
-            nodes = nodes_within(self.number, loaded)
+            loaded, zeros = self._loaded(delta)
+            nodes = nodes_within(self.number, loaded, zeros)
             before, delta = delta, self._delta(*nodes)
             if np.all(np.abs(delta - before) <= _SETTLED * delta):
                 break
