@@ -1,15 +1,15 @@
 """Margins, on which the colour of a verdict depends, along lines through the examples: none jumps.
 
 An input that changes by 0.01 % changes a margin by less than 2 % of it, or by less than 0.01. A margin begins
-and ends at 0 where summits touch. Discrete choices are exceptions: the names and states of elements, the number
-of points of a probability, and bearings without a height of summits, which have no margin below a lambda ratio
-of 1.
+and ends at 0 where summits touch. Discrete choices are exceptions: the names and states of elements, the
+number of points of a probability, and bearings without a height of summits, which have no margin below a
+lambda ratio of 1.
 """
 
 import numpy as np
 import pytest
 
-from ehlectric import AxleCase, BearingCase, DriveCase, GearCase, evaluate
+from ehlectric import AxleCase, BearingCase, DriveCase, GearCase, evaluate, solve_bearing
 
 AXLE = ("first.margin",)
 GEARS = ("mesh.margin", "mesh.contact_time_share")
@@ -47,7 +47,9 @@ POINTS, PARTS, WIDTH = 25, 6, 1e-4
 def margins_at(case, key, values, names):
     """Margins at values of an input by name: 0 without one, as where summits touch."""
     found = evaluate(case, {key: values})
-    return {name: np.nan_to_num(np.asarray(found[name].values, dtype=float)) for name in names if name in found}
+    return {
+        name: np.nan_to_num(np.asarray(found[name].values, dtype=float)) for name in names if name in found
+    }
 
 
 def steps_along(case, key, values, names):
@@ -81,6 +83,24 @@ def test_no_margin_jumps_along_a_line(kind, example, key, low, high, names):
     assert jumps(steps) == []
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("example", "low", "high", "change"),
+    [("bearing_6314", 7194.0, 7300.0, 0.15), ("bearing_6208", 676.0, 681.0, 0.1)],
+)
+def test_a_step_of_the_stated_film_error_leaves_the_probability(example, low, high, change):
+    """The largest error of all contacts steps as another one counts: a breakdown stays as likely."""
+    case = BearingCase.from_toml(f"examples/{example}.toml")
+    found = [
+        solve_bearing(case.replace({"contacts": "atlas", "bearing.radial_load": load}), workers=1).summary()
+        for load in (low, high)
+    ]
+    errors = [summary["bearing"]["film_error"] for summary in found]
+    assert abs(np.log(errors[1] / errors[0])) > change
+    chances = [summary["uncertainty"]["breakdown_probability"] for summary in found]
+    assert chances[0] == pytest.approx(chances[1], abs=0.01)
+
+
 def test_a_jump_is_found(monkeypatch):
     """A step from 0 to 0.094 at 12.75 N m, as of a mesh that becomes a conductor at once."""
     module = "tests.discharge.test_margins_do_not_jump.margins_at"
@@ -89,6 +109,8 @@ def test_a_jump_is_found(monkeypatch):
         return {"first.margin": np.where(values < 12.75, 0.0, 0.094)}
 
     monkeypatch.setattr(module, stepped)
-    ((_, place, change, _), *_) = jumps(steps_along(None, "drive.torque", np.geomspace(5.0, 80.0, POINTS), AXLE))
+    ((_, place, change, _), *_) = jumps(
+        steps_along(None, "drive.torque", np.geomspace(5.0, 80.0, POINTS), AXLE)
+    )
     assert place == pytest.approx(12.75, rel=WIDTH)
     assert change == pytest.approx(0.094)

@@ -310,8 +310,8 @@ class Sharing:
         return self.slices.number
 
     def _loaded(self, delta: Array) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
-        """Start and end of the piece of each part in which f is below delta, 0 to 1; equal ones for none. Then
-        the places at which f is delta, also outside of the part.
+        """Start and end of the piece of each part in which f is below delta, 0 to 1; equal ones for none.
+        Then the places at which f is delta, also outside of the part.
         """
         constant, slope, square = self.slices.opening
         constant = constant - delta[self.parts.phase]
