@@ -12,7 +12,7 @@ import pytest
 from ehlectric.drive import drive_cycle
 from ehlectric.errors import InputError
 from tests.helpers.full_cases import KINDS, cases_of, new_values, refused_of
-from tests.helpers.input_effects import MODELS, Answer, first_difference
+from tests.helpers.input_effects import MODELS, Answer, first_difference, solving_once
 from tests.helpers.input_keys import choices_of, key_at, keys_of, others, values_in, with_value
 
 # Other values of keys by their last names: of texts, and of numbers of which a tenth more is too little.
@@ -191,6 +191,7 @@ def uncovered(kind: str, walk: Walk) -> Iterator[str]:
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_input_acts(kind: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(drive_cycle, "SIMULATED", 4)
+    solving_once(monkeypatch)
     walk = Walk(kind, tmp_path)
     walk.take()
     faults = [f"{key} {text}" for key, text in walk.failing.items() if not excepted(kind, key[0])]

@@ -19,6 +19,7 @@ from ehlectric.axle import solve_axle
 from ehlectric.axle.axle_discharges import simulate_axle
 from ehlectric.axle.summary import axle_summary
 from ehlectric.bearing.impedance import impedance_of
+from ehlectric.bearing.result import solve_bearing
 from ehlectric.bearing.summary import summary_of
 from ehlectric.calibration.models import model_of
 from ehlectric.calibration.range_update import given_points
@@ -56,7 +57,21 @@ _solved_everywhere = solved_points.solved_correction
 
 
 def _solved_at_ends(case: GearCase, flanks: Any, atlas: Any) -> Any:
-    return _solved_everywhere(case, flanks, atlas.some(np.argsort(atlas.places)[[0, -1]]))
+    return _solved_everywhere(case, flanks, atlas.some(np.argsort(atlas.places)[[0]]))
+
+
+def solving_once(monkeypatch: Any) -> None:
+    """Solve equal bearings of axles and drives once: files that differ in one key have most of them."""
+    known: dict[str, Any] = {}
+
+    def solved(case: BearingCase, **options: Any) -> Any:
+        key = repr(case.to_dict())
+        if key not in known:
+            known[key] = solve_bearing(case, **options)
+        return known[key]
+
+    for room in ("axle.solution", "drive.preparation"):
+        monkeypatch.setattr(f"ehlectric.{room}.solve_bearing", solved)
 
 
 # Relative difference of numbers that is an effect, far above rounding.
