@@ -36,7 +36,9 @@ def test_the_first_element_by_hand():
     limits = np.array([[1.0, 3.0, 1.0], [0.0, 0.0, 1.0], [INF, 6.0, 0.0], [1.0, 0.0, 1.0]])
     numbers = firsts(voltages, limits)
     assert numbers.tolist() == [0, 1, 2, -1]
-    first, second, third = _chances(("a", "b", "c"), voltages, limits, np.isinf(limits), numbers)
+    first, second, third = _chances(
+        ("a", "b", "c"), voltages, limits, (np.isinf(limits), limits == 0.0), numbers
+    )
     assert (first.first, second.first, third.first) == (0.25, 0.25, 0.25)
     assert (first.breakdown, second.breakdown, third.breakdown) == (0.5, 0.5, 0.5)
     assert (first.conduction, first.touching, third.touching) == (0.25, 0.25, 0.25)
@@ -49,7 +51,7 @@ def test_what_decides_is_what_only_one_of_two_elements_has(solution):
     ratio = np.exp(2.0 * at[:, 1] - 1.0)
     voltages, limits = np.stack([ratio, np.ones(512)], axis=1), np.ones((512, 2))
     elements = tuple(
-        _chances(("a", "b"), voltages, limits, np.zeros((512, 2), bool), firsts(voltages, limits))
+        _chances(("a", "b"), voltages, limits, (np.isinf(limits), limits == 0.0), firsts(voltages, limits))
     )
     deciding = _deciding(design, at, voltages, limits, elements)
     assert deciding is not None

@@ -379,6 +379,7 @@ class _Rows:
     # Breakdown voltages: 0 where summits touch, infinite for elements that conduct or do not break down.
     limits: list[Array] = field(default_factory=list)
     conducting: list[Array] = field(default_factory=list)
+    touching: list[Array] = field(default_factory=list)  # summits touch, and the element does not conduct
 
     def add(self, solution: AxleSolution | None) -> None:
         """Add a point; NaN without a solution."""
@@ -387,11 +388,14 @@ class _Rows:
             self.voltages.append(np.full(count, np.nan))
             self.limits.append(np.full(count, np.nan))
             self.conducting.append(np.zeros(count, dtype=bool))
+            self.touching.append(np.zeros(count, dtype=bool))
             return
         voltages, limits = solution.voltages_and_limits()
         self.voltages.append(voltages)
         self.limits.append(limits)
-        self.conducting.append(np.array([each.state == CONDUCTS for each in solution.elements]))
+        conducting = np.array([each.state == CONDUCTS for each in solution.elements])
+        self.conducting.append(conducting)
+        self.touching.append(np.array([each.touching for each in solution.elements]) & ~conducting)
 
     def margins(self) -> Array:
         """Margin of the first element at the points, shape (n,)."""
@@ -432,9 +436,9 @@ def uncertainty_of(
     strength = np.exp(np.sum(design.log_factors(at), axis=-1))
     voltages, limits = np.array(rows.voltages), np.array(rows.limits) * strength[:, np.newaxis]
     solved = np.all(np.isfinite(voltages), axis=1)
-    conducting = np.array(rows.conducting)[solved]
+    states = np.array(rows.conducting)[solved], np.array(rows.touching)[solved]
     first = firsts(voltages[solved], limits[solved])
-    elements = tuple(_chances(rows.names, voltages[solved], limits[solved], conducting, first))
+    elements = tuple(_chances(rows.names, voltages[solved], limits[solved], states, first))
     deciding = _deciding(design, at[solved], voltages[solved], limits[solved], elements)
     known = {each.name: getattr(spread, each.name) for each in fields(spread)}
     known |= {"inputs": inputs, "predicted": predicted}
@@ -462,10 +466,10 @@ def _add(rows: _Rows, design: AxleDesign, at: Array) -> None:
 
 
 def _chances(
-    names: Sequence[str], voltages: Array, limits: Array, conducting: Array, first: IntArray
+    names: Sequence[str], voltages: Array, limits: Array, states: tuple[Array, Array], first: IntArray
 ) -> Iterator[ElementChance]:
-    """Probabilities of all elements."""
-    touching = (limits == 0.0) & np.logical_not(conducting)
+    """Probabilities of all elements; ``states``, whether they conduct, and whether their summits touch."""
+    conducting, touching = states
     ratios = voltage_ratios(voltages, limits)
     for number, name in enumerate(names):
         low, median, high = np.quantile(ratios[:, number], INTERVAL, method="higher").tolist()
