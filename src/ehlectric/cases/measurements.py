@@ -292,6 +292,8 @@ def _parts_of(head: str, book: ColumnBook) -> _Head | None:
     text = " ".join(head[: _LONGEST + 1].strip().strip("\"'").split())
     if len(text) > _LONGEST:
         return None
+    if text.lower() in _TURNS and "speed" in book.columns:
+        return _Head(text, "speed", text, "speed", uncertain=False)
     name, unit = name_and_unit(text)
     return _known_head(text, name, unit, book) or (None if unit is not None else _with_bare_unit(text, book))
 
@@ -308,6 +310,9 @@ def _known_head(text: str, name: str, unit: str | None, book: ColumnBook) -> _He
 # Between a name and a unit without brackets: "speed_rpm", "Zeit in s", "U / V", "Torque, N m".
 _BETWEEN = re.compile(r"\s*+[_,/:]\s*+|\s+(?:in\s+)?")
 
+# Units of rotation that stand alone over a column of speeds.
+_TURNS = ("rpm", "1/min", "min-1", "u/min", "tr/min", "r/min")
+
 # Largest number of words of a head with a unit without brackets.
 _MOST_WORDS = 12
 
@@ -315,19 +320,21 @@ _MOST_WORDS = 12
 def _with_bare_unit(text: str, book: ColumnBook) -> _Head | None:
     """Name and unit of a head without brackets; None if its end is not a unit.
 
-    In a name of a program, "rad_s" and "m_per_s" are quotients, and "mPa_s" is a product.
+    In a name of a program, "rad_s", "radps" and "m_per_s" are quotients, and "mPa_s" is a product.
     """
     for match in islice(_BETWEEN.finditer(text), _MOST_WORDS):
         end = text[match.end() :].strip()
         head = _known_head(text, text[: match.start()], end, book)
         if head is None or not end:
             continue
-        for unit in (end, end.replace("_per_", "/").replace("_", "/"), end.replace("_", " ")):
+        of_program = end.replace("_per_", "/").replace("_", "/"), end.replace("_", " ")
+        quotient = (f"{end[:-2]}/s",) if end.endswith("ps") else ()
+        for unit in (end, *of_program, *quotient):
+            fits = any(units.is_unit(unit, book.columns[name].unit) for name in _candidates(head.known, book))
             if unit == "%" or known_factor(unit, unit) is not None or degree(unit) is not None:
-                quantity = book.columns.get(head.known)
-                if quantity is None or len(end.split("_")) == 1 or units.is_unit(unit, quantity.unit):
+                if fits or not head.known or len(end.split("_")) == 1:
                     return replace(head, unit=unit)
-            elif head.known and units.is_unit(unit, book.columns[head.known].unit):
+            elif fits:
                 return replace(head, unit=unit)
     return None
 
@@ -335,19 +342,25 @@ def _with_bare_unit(text: str, book: ColumnBook) -> _Head | None:
 # Quantities that a speed may be, whose unit is a unit of a velocity.
 _VELOCITIES = ("entrainment_speed", VEHICLE_SPEED)
 
+
+def _candidates(name: str, book: ColumnBook) -> tuple[str, ...]:
+    """Quantities of a book that a name over a column may mean: the unit of a speed says which speed it is."""
+    others = {"speed": _VELOCITIES, VEHICLE_SPEED: ("speed",)}.get(name, ())
+    return tuple(each for each in (name, *others) if each in book.columns)
+
 # Units of the speeds of vehicles, in small letters: an entrainment speed in them needs its whole name.
 _OF_VEHICLES = ("km/h", "mph", "mi/h", "kn", "knot")
 
 
 def _checked(name: str, head: str, unit: str, book: ColumnBook) -> Column:
     """Column whose unit belongs to its quantity; a speed in m/s is an entrainment speed or the speed of the
-    vehicle, if the book contains either of them.
+    vehicle, if the book contains either of them, and the speed of a vehicle in rpm is a speed.
     """
     reasons = []
-    others = tuple(other for other in _VELOCITIES if name == "speed" and other in book.columns)
+    candidates = _candidates(name, book)
     if plain(unit).lower() in _OF_VEHICLES:
-        others = tuple(other for other in others if other == VEHICLE_SPEED)
-    for candidate in (name, *others):
+        candidates = tuple(each for each in candidates if each != "entrainment_speed" or each == name)
+    for candidate in candidates:
         column = Column(candidate, head, unit, book=book)
         try:
             if book.columns[candidate].unit == "K":
@@ -430,10 +443,13 @@ def capacitance_of(measured: Measurement, uncertainty: float | None = None) -> M
     lacking = {mode: [name for name in mode if not measured.has(name)] for mode in _MODES}
     mode = min(lacking, key=lambda each: len(lacking[each]))
     if lacking[mode]:
+        heads = ", ".join(shown(printable(head)) for head in (*measured.heads.values(), *measured.ignored))
+        of_file = f"; the file has {heads}"
         if not any(measured.has(name) for name in _OF_MODES):
-            raise InputError.missing(f"{measured.source}: capacitance", _MODE_TEXT)
-        key = f"{measured.source}: {lacking[mode][0]}"
-        raise InputError.missing(key, f"a column of this quantity with the {mode[0].replace('_', ' ')}")
+            raise InputError.missing(f"{measured.source}: capacitance", f"{_MODE_TEXT}{of_file}")
+        missing, given = lacking[mode][0], mode[0].replace("_", " ")
+        of_quantity = f"a column of this quantity with the {given}"
+        raise InputError.missing(f"{measured.source}: {missing}", f"{of_quantity}{of_file}")
     columns = [measured.values[name] for name in mode]
     value, resistance = _parallel(mode, columns)
     stated = _of_mode(measured, mode, columns)

@@ -48,6 +48,7 @@ _WORDS = [
         (r"{}(?:°|(?i:deg(?:rees?)?)\.?)[ _]*(?i:f(?:ahrenheit)?){}", "degF"),
         (r"{}(?:°|(?i:deg(?:rees?)?)\.?)[ _]*(?i:r(?:ankine)?){}", "degR"),
         (r"{}(?:°|(?i:deg(?:rees?)?)\.?)[ _]*(?i:k(?:elvins?)?){}", "K"),
+        (r"{}(?i:grad|degr[eé]s?)[ _]*(?i:celsius|c){}", "degC"),
         (r"{}(?i:celsius|centigrade){}", "degC"),
         (r"{}(?i:fahrenheit){}", "degF"),
         (r"{}(?i:kelvins?){}", "K"),

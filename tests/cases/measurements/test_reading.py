@@ -51,6 +51,10 @@ TWO = {"speed": [1000 * RPM, 3000 * RPM], "capacitance": [260.5e-12, 190e-12]}
         "speed rpm,Capacitance_F\n1000,260.5e-12\n3000,1.9e-10\n",
         "Drehzahl in 1/min;Kapazität / pF\n1000;260,5\n3000;190\n",
         "Vitesse de rotation [tr/min];capacité (nF)\n1000;0,2605\n3000;0,190\n",
+        "Vitesse (tr/min);Capacité (pF)\n1000;260,5\n3000;190\n",
+        "vitesse_tr_min;capacite_pF\n1000;260,5\n3000;190\n",
+        "rpm,Cp_pF\n1000,260.5\n3000,190\n",
+        "speed_radps,Cp_pF\n104.71975511965977,260.5\n314.1592653589793,190\n",
         "speed_1/min,cp: pF,remark_a\n1000,260.5,2\n3000,190,3\n",
         "\tspeed [rpm]\tcapacitance [pF]\n0\t1000\t260.5\n1\t3000\t190\n",  # to_csv of pandas, with its index
         "#\tspeed [rpm]\tcapacitance [pF]\n1000\t260.5\n3000\t190\n",
@@ -62,6 +66,18 @@ def test_ways_to_write_the_same_rows(tmp_path, text):
     assert set(measured.values) == set(TWO)
     for name, values in TWO.items():
         assert measured.values[name] == pytest.approx(values, rel=1e-12)
+
+
+@each("unit", ["in Grad Celsius", "[degré Celsius]", "(°C)", "in grad C", "_degC"])
+def test_degrees_celsius_in_words(tmp_path, unit):
+    measured = read(tmp_path, f"temperature {unit},film [µm]\n40,0.3\n".replace(" _", "_"))
+    assert measured.values["temperature"] == pytest.approx([313.15])
+
+
+@each("head", ["Vitesse [tr/min]", "velocity [rpm]", "vitesse_tr/min", "rpm", "Geschwindigkeit in U/min"])
+def test_the_speed_of_a_shaft_and_of_a_vehicle_by_their_units(head):
+    assert column_of(head, GEAR_CYCLE).name == "speed"
+    assert column_of("Vitesse [km/h]", GEAR_CYCLE).name == "vehicle_speed"
 
 
 @each("encoding", ["utf-8-sig", "utf-16", "cp1252"])

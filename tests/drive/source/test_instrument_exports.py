@@ -393,6 +393,13 @@ BARE = [f",{-volt:g},{volt:g}" for volt in VOLTS]
         (["Unit of x,s", "Trace Unit,A,mV", "", "TIME,CH1,CH2"], TWO),
         (["x-axis,CH1,CH2", "s,W,mV"], TWO),
         (["Time,CH1 Current A,CH2 mV"], TWO),
+        (["TIME,CH1_A,CH2_mV"], TWO),
+        (["TIME,CH1 A,CH2 mV"], TWO),
+        (["Zeit / s,CH1 / A,CH2 / mV"], TWO),
+        (["Einheit,s,A,mV", "Zeit,CH1,CH2"], TWO),
+        (["Vertikale Einheit,A,mV", "Zeit,CH1,CH2"], TWO),
+        (["CH1: A,CH2: mV", "TIME,CH1,CH2"], TWO),
+        (["CH1 [A],CH2 [mV]", "TIME,CH1,CH2"], TWO),
         (["TraceName,CH1,CH2", "BlockSize,64,64", "VUnit,A,mV", "HResolution,1e-6,1e-6"], BARE),
         (['"TraceName","CH1","CH2",', "VUnit,A,mV,", "HResolution,1e-6,1e-6,", "HUnit,s,s,"], BARE),
     ],
@@ -403,7 +410,7 @@ def test_a_unit_belongs_to_its_channel(tmp_path, above, rows):
     step = {"step": 1e-6} if rows is BARE else {}
     if step:
         assert "HResolution" in refused(path, column="CH2")
-    second = "CH2" if "CH2 mV" not in above[0] else 3
+    second = "CH2" if "CH2 mV" not in above[0] or len(above) > 1 else 3
     read, _ = read_waveform(path, column=second, **step)
     assert read.values == pytest.approx(1e-3 * np.array(VOLTS))
     assert read_waveform(path, **step)[0].values == pytest.approx(read.values)
@@ -426,7 +433,13 @@ def test_blocks_of_tektronix_have_units_of_their_own(tmp_path):
     assert "'A' as unit of column 5" in refused(path, column=5)
 
 
-@each("head", ["shaft current", "Strom", "I in A", "Current A", "CH1 (mA)"])
+def test_a_column_has_the_name_that_the_file_writes(tmp_path):
+    path = written(tmp_path, ["time_s,u_mV", *columns(evenly(1e-6), VOLTS)])
+    for name in ("u", "u_mV"):
+        assert read_waveform(path, column=name)[0].values == pytest.approx(1e-3 * np.array(VOLTS))
+
+
+@each("head", ["shaft current", "Strom", "I in A", "Current A", "CH1 (mA)", "i_A", "I_mA", "Kanal 1 / A"])
 def test_a_current_is_no_shaft_voltage(tmp_path, head):
     path = written(tmp_path, [f"time (s),{head}", *columns(evenly(1e-6), VOLTS)])
     record = ShaftFile(file=str(path))

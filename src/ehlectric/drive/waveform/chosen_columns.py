@@ -165,7 +165,7 @@ def _named(path: Path, key: str, requested: str | int, heads: Sequence[Head]) ->
     else:
         # Fields of forms take a number in quotes as a name.
         name = " ".join(requested.strip(" \"'").split()).casefold()
-        matches = [head for head in heads if head.name.casefold() == name]
+        matches = [head for head in heads if name in (head.name.casefold(), head.written.casefold())]
     if len(matches) != 1:
         raise InputError(key, got=f"{shown(requested)}, but {path} has the columns {_listed(heads)}")
     return matches[0]

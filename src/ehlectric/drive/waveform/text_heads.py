@@ -21,7 +21,8 @@ _LONGEST_NAME = 40
 
 # Units as oscilloscopes write them, in small letters, and factors by the first letter of a prefix.
 _UNIT = re.compile(
-    "(milli|micro|nano|pico|kilo|[muµnpk]?)(?:(?P<s>s|secs?|seconds?)|(?P<V>v|volts?)|(?P<A>a|amps?|amperes?))"
+    "(milli|micro|nano|pico|kilo|[muµnpk]?)"
+    "(?:(?P<s>s|secs?|seconds?|sekunden?|secondes?)|(?P<V>v|volts?)|(?P<A>a|amps?|amp[eè]res?))"
 )
 _FACTORS = {"": 1.0, "m": 1e-3, "u": 1e-6, "µ": 1e-6, "n": 1e-9, "p": 1e-12, "k": 1e3}
 
@@ -63,16 +64,29 @@ SPELLINGS = {
 
 # Words of keys of the sampling interval, and of keys in general, which are no names of columns.
 INTERVALS = ("interval", "increment", "xinc", "tinc", "hresolution", "rate", "period", "frequency", "delta")
-_STATED = ("unit", "length", *INTERVALS)
+_STATED = ("unit", "einheit", "length", *INTERVALS)
 
 # Beginnings of keys of units above the numbers that belong to the other axis: "Vertical Units", "xunit".
-_OTHERS = {"s": ("v", "y"), "V": ("h", "x", "time", "tunit")}
+_OTHERS = {"s": ("v", "y"), "V": ("h", "x", "time", "zeit", "tunit")}
+
+# Words of keys of units.
+_UNITS = ("unit", "einheit")
 
 # Words of a key of units without its channel, as in "Vertical Units CH1" and "Channel 1 Unit".
-_OF_UNIT = re.compile("units?|vertical|channel|ch")
+_OF_UNIT = re.compile("unit[eé]?s?|einheit(?:en)?|verti[ck]ale?|channel|kanal|ch")
 
 # Words of the names of currents.
 _CURRENT = re.compile("current|strom|courant", re.IGNORECASE)
+
+# Names that a bare "A" follows as a unit: of a numbered channel, and of a current, as in "CH1_A" and "i_A".
+_BEFORE_AMPERE = re.compile(r".*\d|i[a-z]?", re.IGNORECASE)
+
+# Unit after a slash, as in "Kanal 1 / A", and after a colon, as in "CH1: A".
+_SLASHED = re.compile(r"(.*\S)\s*/\s*([^\s/]+)")
+_AFTER_COLON = re.compile(r"([^:]*\S)\s*:\s*(\S+)")
+
+# Units of other quantities at the end of a name, as in "P_W".
+_FOREIGN = ("w", "kw", "hz", "khz", "ohm", "degc", "rpm", "nm", "n", "pa", "bar")
 
 # Rates of samples: "250000000", "250 MSa/s", "1 GHz".
 _RATE = re.compile(r"([\d.]+(?:[eE][-+]?\d+)?)\s*([kMG]?)(?:Sa/s|S/s|sps|Hz)?", re.IGNORECASE)
@@ -89,6 +103,7 @@ class Head:
     place: int
     name: str = ""
     unit: str = ""
+    written: str = ""  # name and unit as the file has them; empty where they are apart
 
     @property
     def base(self) -> str:
@@ -140,6 +155,8 @@ def parts_of(head: str, *, bare_time: bool = False) -> tuple[str, str]:
     --------
     >>> parts_of("Time (us)"), parts_of("C1 in V"), parts_of("time_ms"), parts_of("Channel A")
     (('Time', 'us'), ('C1', 'V'), ('time', 'ms'), ('Channel A', ''))
+    >>> parts_of("Kanal 1 / A"), parts_of("CH1_A"), parts_of("i_mA"), parts_of("phase A")
+    (('Kanal 1', 'A'), ('CH1', 'A'), ('i', 'mA'), ('phase A', ''))
     >>> parts_of("V(vcm)"), parts_of("I(R1)"), parts_of("V(s)"), parts_of("V(mV)", bare_time=True)
     (('V(vcm)', 'V'), ('I(R1)', 'A'), ('V(s)', 'V'), ('V(mV)', 'V or mV'))
     """
@@ -154,15 +171,22 @@ def parts_of(head: str, *, bare_time: bool = False) -> tuple[str, str]:
     text, unit = name_and_unit(head)
     if unit is not None:
         return text, unit
+    slashed = _SLASHED.fullmatch(text)
+    if slashed is not None and (unit_of(slashed[2])[0] or known_factor(slashed[2], slashed[2]) is not None):
+        return slashed[1], slashed[2]
     words = text.replace("_", " ").replace("/", " ").split()
     base = unit_of(words[-1])[0] if words else ""
+    if "_" in text and len(words) > 1 and words[-1].lower() in _FOREIGN:
+        return " ".join(words[:-1]), words[-1]
     if len(words) > 1 and words[-2].lower() == "in" and base:
         return " ".join(words[:-2]), words[-1]
     if len(words) == 1 and base in ("s", "V") and len(text) > 1:
         return text, text
     # "Channel A" is a name: of bare words, only those that no channel has are units.
     of_time = base == "s" and words[0].lower() in _TIME_NAMES
-    of_current = base == "A" and is_current(text)
+    of_current = base == "A" and (
+        is_current(text) or len(words[-1]) > 1 or _BEFORE_AMPERE.fullmatch(" ".join(words[:-1])) is not None
+    )
     if len(words) > 1 and (base == "V" or of_time or of_current):
         return " ".join(words[:-1]), words[-1]
     return text, ""
@@ -228,7 +252,7 @@ class Labels:
         return [
             value
             for spelling, each in firsts.items()
-            if "unit" in spelling and not spelling.startswith(_OTHERS[base])
+            if _is_unit(spelling) and not spelling.startswith(_OTHERS[base])
             for value in each.values
         ]
 
@@ -273,12 +297,34 @@ def _of_channels(labels: Labels) -> Labels:
             for place, name in _by_channel(stated, labels.heads).items():
                 heads[place] = replace(heads[place], name=name)
     for stated in labels.stated:
-        is_unit = "unit" in stated.spelling and not stated.spelling.startswith(_OTHERS["V"])
+        is_unit = _is_unit(stated.spelling) and not stated.spelling.startswith(_OTHERS["V"])
         units = _by_channel(stated, list(heads.values())) if is_unit else {}
         for place, unit in units.items():
             heads[place] = replace(heads[place], unit=heads[place].unit or unit)
         others += [] if units else [stated]
+    for place, unit in _named_above(labels.header, list(heads.values())):
+        heads[place] = replace(heads[place], unit=heads[place].unit or unit)
     return Labels(list(heads.values()), labels.header, tuple(others))
+
+
+def _named_above(header: Sequence[str], heads: Sequence[Head]) -> Iterator[tuple[int, str]]:
+    """Places and units of channels that a line above names, as "CH1 [A], CH2: V" and "probe on CH1 [A]"."""
+    names = {head.name.casefold(): head.place for head in heads if head.name}
+    for line in header:
+        for field in re.split("[;,\t]", line):
+            after = _AFTER_COLON.fullmatch(field.strip())
+            name, unit = parts_of(field) if after is None else after.groups()
+            words, base = name.casefold(), unit_of(unit)[0]
+            if base and words in names:
+                yield names[words], unit
+            elif base == "A":
+                # A voltage on another name may be an offset or a scale of the channel.
+                yield from ((place, unit) for known, place in names.items() if words.endswith(f" {known}"))
+
+
+def _is_unit(spelling: str) -> bool:
+    """Whether a key in small letters is a key of units."""
+    return any(word in spelling for word in _UNITS)
 
 
 def _by_channel(stated: Stated, heads: Sequence[Head]) -> dict[int, str]:
@@ -294,6 +340,10 @@ def _by_channel(stated: Stated, heads: Sequence[Head]) -> dict[int, str]:
     if of_key and of_key in spelled:
         return {spelled[of_key]: stated.values[0]}
     named = {names[a.casefold()]: b for a, b in pairwise(stated.values) if a.casefold() in names}
+    columns = [head for head in heads if not head.is_numbering]
+    if not named and len(stated.values) == len(columns) > 1 and unit_of(stated.values[0])[0] == "s":
+        # Also the unit of the times.
+        return {head.place: value for head, value in zip(columns, stated.values, strict=True)}
     if named or len(stated.values) != len(channels) or len(channels) < 2:
         return named
     return {head.place: value for head, value in zip(channels, stated.values, strict=True)}
@@ -308,7 +358,7 @@ def _of_blocks(layout: Layout, rows: Sequence[Sequence[str]], heads: list[Head])
     placed = {head.place: head for head in heads}
     for end, first in starts:
         block = list(takewhile(lambda head: head is not None, map(placed.get, range(first, layout.width))))
-        pairs = [pair for row in rows for pair in pairwise(row[end:first]) if "unit" in pair[0].lower()]
+        pairs = [pair for row in rows for pair in pairwise(row[end:first]) if _is_unit(pair[0].lower())]
         for key, unit in pairs:
             of_times = key.lower().startswith(_OTHERS["V"])
             for head in block[:1] if of_times else block[1:] or block:
@@ -361,7 +411,7 @@ def _heads(layout: Layout) -> list[Head]:
     names = rows[-1] if _are_names(layout, rows[-1]) else []
     bare_time = any(name.lower() in _TIME_NAMES for name in names)
     return [
-        Head(place, *(parts_of(names[place], bare_time=bare_time) if names else ()))
+        Head(place, *parts_of(names[place], bare_time=bare_time), names[place]) if names else Head(place)
         for place in layout.columns
     ]
 
