@@ -16,6 +16,7 @@ from unittest.mock import patch
 import numpy as np
 
 from ehlectric import BearingResult, SweepResults
+from ehlectric.calibration import check_measured
 from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.gear import solve_gear
 from ehlectric.runs import gear_preview
@@ -79,6 +80,9 @@ def faults(kind: str, tables: Mapping[str, Any], folder: Path) -> tuple[list[str
     try:
         result = answer.result
         summary = _summary(result)
+        if getattr(answer.case, "measured", None) is not None:
+            # Only ``calibrate`` reads measured values, with these checks.
+            check_measured(answer.case)
     except InputError as error:
         solved = error
         if kind == "sweep" and "solved" not in summary["status"]:

@@ -90,3 +90,25 @@ def test_an_oil_slower_than_the_edges_is_noted(drive, conductivity, told):
     texts = [one.text for one in preview_of(conducting).warnings if one.code == "edges-faster-than-oil"]
     assert bool(texts) is told
     assert all("21" in text and "100 ns" in text for text in texts)
+
+
+@pytest.mark.parametrize(
+    ("changes", "key"),
+    [
+        ({"drive.temperature": "320 degC"}, "drive.temperature"),
+        ({"drive.temperature": None, "non_drive_end.bearing.temperature": "320 degC"}, None),
+        ({"drive_end.bearing.radial_load": "5 MN"}, "drive_end.bearing"),
+    ],
+)
+def test_a_bearing_that_is_refused_names_its_end_before_and_in_the_simulation(drive, changes, key):
+    """The laws of FVA 3 do not hold at 320 degC; no bearing of the example carries 5 MN."""
+    table = drive.replace({"drive.contacts": "formula", "remedies": []}).to_dict()
+    for end in ENDS:
+        table[end]["lubricant"] = {"base": "fva-3"}
+    case = DriveCase.from_dict(table).replace(changes)
+    keys = []
+    for way in (preview_of, solve_drive):
+        with pytest.raises(InputError) as error:
+            way(case)
+        keys.append(error.value.key)
+    assert keys == 2 * [key or "non_drive_end.bearing.temperature"]

@@ -1,11 +1,13 @@
 """Sweeps of gear pairs: the numbers of single pairs, the states of the mesh, maps, and what is refused."""
 
+from concurrent.futures import ThreadPoolExecutor
+
 import matplotlib as mpl
 import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from ehlectric import InputError, Sweep, read_sweep
+from ehlectric import InputError, Sweep, read_sweep, run_sweep
 from ehlectric.commands.command_line import app
 from ehlectric.figures.sweep_maps import value_map
 from ehlectric.gear import solve_gear
@@ -143,12 +145,29 @@ def test_verdicts_by_the_states(meshes, level):
     assert sweep_verdict(points(*meshes)).level == level
 
 
+@pytest.mark.parametrize("key", [f"{RA}.1", "gear.profile_shift.1"])
+def test_a_point_that_is_refused_leaves_the_others_over_a_key_of_one_gear(key, tmp_path):
+    """In batches too: the second of the points has too little oil, or no teeth."""
+    changes = [("0.05 um", "20 N m"), ("0.06 um", "1e-5 N m")] if key != "gear.profile_shift.1" else []
+    values = (
+        {key: [one for one, _ in changes], TORQUE: [two for _, two in changes]}
+        if changes
+        else {key: [CASE.gear.profile_shift[0], 3.0]}
+    )
+    sweep = Sweep.from_dict({"case": CASE, "design": "paired", "vary": values})
+    with ThreadPoolExecutor(1) as executor:
+        points = run_sweep(sweep, tmp_path, executor).points
+    assert [point.solved for point in points] == [True, False]
+    assert points[1].reason
+
+
 @each(
     ("vary", "text"),
     [
         ({"bearing.radial_load": ["1 kN", "2 kN"]}, "bearing.radial_load: unknown key"),
         ({RA: {"from": "0.1 um", "to": "-1 um", "count": 3}}, "flank_ra"),
         ({"gear.operation.bulk_temperature": {"from": "iso", "to": "90 degC", "count": 2}}, "temperature"),
+        ({RA: [["0.05 um", "0.06 um"], ["0.05 um", "0.07 um"]]}, "flank_ra.1 and gear.flank_ra.2"),
         ({"gear.teeth": {"from": 10, "to": 20, "count": 2}}, "list"),
     ],
 )

@@ -348,6 +348,7 @@ def _candidates(name: str, book: ColumnBook) -> tuple[str, ...]:
     others = {"speed": _VELOCITIES, VEHICLE_SPEED: ("speed",)}.get(name, ())
     return tuple(each for each in (name, *others) if each in book.columns)
 
+
 # Units of the speeds of vehicles, in small letters: an entrainment speed in them needs its whole name.
 _OF_VEHICLES = ("km/h", "mph", "mi/h", "kn", "knot")
 

@@ -57,6 +57,7 @@ from .netlist_files import arc_of as arc_of
 from .netlist_files import check_targets as check_targets
 from .netlist_files import write_files as write_files
 from .netlist_files import write_netlist as write_netlist
+from .preparation import of_end as of_end
 from .preparation import prepare as prepare
 from .quick_estimate import expected as expected
 from .quick_estimate import quick_drive as quick_drive

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,7 +17,7 @@ from ehlectric.drive.drive_cycle import check_drive_cycle
 from ehlectric.drive.motor_circuit import capacitive_divider
 from ehlectric.drive.source_in_time import SourceInTime
 from ehlectric.errors import InputError, within
-from ehlectric.quantities.inputs import ENDS
+from ehlectric.quantities.inputs import ENDS, REPLACED
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable
 
@@ -65,8 +67,11 @@ def prepare(case: DriveCase, *, workers: int | None = None) -> PreparedDrive:
     """
     check_drive_cycle(case)
     first, second = case.bearings
-    drive_end = solve_bearing(first, workers=workers)
-    results = drive_end, drive_end if second == first else solve_bearing(second, workers=workers)
+    with of_end(case, ENDS[0]):
+        drive_end = solve_bearing(first, workers=workers)
+    with of_end(case, ENDS[1]):
+        other = drive_end if second == first else solve_bearing(second, workers=workers)
+    results = drive_end, other
     elements = (
         _element(results[0], case, ENDS[0]),
         _element(results[1], case, ENDS[1]),
@@ -74,6 +79,18 @@ def prepare(case: DriveCase, *, workers: int | None = None) -> PreparedDrive:
     _check_extinction(case, elements)
     source = SourceInTime.of(case.running_source, case.source, case.breakdown, case.drive.duration)
     return PreparedDrive(case, results, elements, films_of(elements, case.breakdown), source)
+
+
+@contextmanager
+def of_end(case: DriveCase, end: str) -> Iterator[None]:
+    """Context in which an error about the bearing at an end has the key of the drive file."""
+    try:
+        yield
+    except InputError as error:
+        above = REPLACED.get(error.key or "")
+        if above is not None and error.key in case.replaced:
+            raise error.with_text(above, error.text) from None
+        raise error.under(end) from None
 
 
 def _element(result: BearingResult, case: DriveCase, end: str) -> BearingElement:

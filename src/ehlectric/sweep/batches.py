@@ -70,8 +70,13 @@ class Batch:
             yield key, self.table_of(place)
 
 
-def _with_values(table: Mapping[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:
-    """Nested tables with values of dotted keys; tables that do not change are those that were given."""
+def _with_values(table: Any, values: Mapping[str, Any]) -> Any:
+    """Nested tables with values of dotted keys; tables that do not change are those that were given.
+
+    The last part of a key is the number of a gear, from 1, where a list has a value for each gear.
+    """
+    if isinstance(table, list):
+        return [values.get(str(number), each) for number, each in enumerate(table, 1)]
     direct, within = by_table(values)
     return {
         **table,

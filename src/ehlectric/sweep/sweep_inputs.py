@@ -622,6 +622,17 @@ def _axis(key: str, field: FieldInfo, value: Any, design: str, *, written: bool)
         raise InputError(key, got=shown(value), takes="a table with from and to in a sobol design")
     if isinstance(value, str) or not isinstance(value, Sequence) or len(value) == 0:
         raise InputError(key, got=shown(value), takes="a list of values or a table with from and to")
+    return _different(key, field, value, design, written=written)
+
+
+def _different(
+    key: str, field: FieldInfo, value: Sequence[Any], design: str, *, written: bool
+) -> tuple[Any, ...]:
+    """Values of a list, in SI units, which differ in a grid design."""
+    of_gears = [each for each in value if isinstance(each, list | tuple)] if number_of(field) else []
+    if of_gears:
+        takes = f"one value for each point; of each gear alone, as {key}.1 and {key}.2"
+        raise InputError(key, got=f"the list {shown(of_gears[0])}", takes=takes)
     values = tuple(_values(key, field, value, written=written))
     known: set[str] = set()
     for each in values if design == "grid" else ():
