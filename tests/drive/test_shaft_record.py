@@ -134,6 +134,20 @@ def test_discharges_of_a_simulated_drive_are_counted(simulated, step):
     assert found.breakdown.value == pytest.approx(exact, abs=2.0 * found.breakdown.uncertainty)
 
 
+@pytest.mark.parametrize("noise", [0.2, 0.7, 1.5])
+def test_a_ratio_is_that_of_the_record_or_none_under_noise(noise):
+    """0.0405 without noise; edges change the voltage by 7.6 V. No correct probe is called inverted."""
+    path = EXAMPLES / "measurements" / "shaft_voltage.csv"
+    time, source, shaft = pd.read_csv(path, skiprows=3, names=["time", "CH1", "CH2"]).to_numpy().T
+    for seed in range(6):
+        noisy = shaft + np.random.default_rng(seed).normal(0.0, noise, shaft.size)
+        found, turned = (shaft_record(sign * noisy, time[1] - time[0], source) for sign in (1.0, -1.0))
+        assert (found.inverted, found.ratio is None) == (False, noise > 0.5)
+        if found.ratio is not None:
+            assert found.ratio.value == pytest.approx(0.0405, abs=found.ratio.uncertainty)
+            assert turned.inverted
+
+
 @pytest.mark.parametrize("column", ["CH1", "CH2"])
 def test_an_inverted_probe_is_turned(tmp_path, column):
     """With either probe inverted, all quantities are those of the record with correct probes."""

@@ -35,6 +35,9 @@ _HIDDEN = 0.5
 _HIGH, _MOVED, _AGREE = 0.5, 0.3, 0.2
 _AGREE_UNRESOLVED, _LARGE_PART, _EIGHT = 0.8, 0.6, 8
 
+# Least change of the shaft voltage by an edge, in standard deviations of the noise of a change.
+_RESOLVED = 10.0
+
 # Quantiles of the ratios: one whose distance is the error by arcs, and one that may be larger by this factor.
 _UPPER, _SPREAD = (0.75, 0.9), 1.2
 
@@ -313,6 +316,9 @@ def _ratio(
     # Arcs within the difference reduce a ratio, so that an undisturbed one is among the largest.
     upper, highest = np.quantile(ratios, _UPPER).tolist()
     if size.size < least or not highest <= _SPREAD * value:
+        return None
+    if value * float(np.median(size)) < _RESOLVED * math.sqrt(2.0) * noise:
+        # Of changes within the noise, only those that it enlarges are above the least one.
         return None
     scatter = _ROBUST * float(np.median(np.abs(ratios[near] - value))) * math.sqrt(0.5 * math.pi / size.size)
     return Estimate(value, math.hypot(scatter, max(upper - value, 0.0))), int(size.size)
