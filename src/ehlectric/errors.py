@@ -172,7 +172,12 @@ class InputError(ValueError):
         """
         each = [part for error in errors for part in error.several or (error,)]
         first, *others = several = {(error.key, error.text): error for error in each}.values()
-        missing = [error.key or "" for error in others if error.is_missing]
+        # With the case in which the value is missing, as in "missing with the remedy 'Ring'; expected ...".
+        missing = [
+            f"{error.key or ''}{error.text.partition(';')[0].removeprefix('missing')}"
+            for error in others
+            if error.is_missing
+        ]
         further = [str(error) for error in others if not error.is_missing]
         text = first.text + "".join(f"; also {line}" for line in further)
         if missing:

@@ -183,5 +183,22 @@ def test_all_missing_values_of_an_axle_and_its_remedies_are_named_at_once():
         solve_axle(AxleCase.from_dict(tables | {"remedies": rough}))
     text = str(caught.value)
     assert text.startswith("mesh.1.contact_resistance: missing")
-    assert "'Rough 1'" in text
-    assert "also missing: mesh.2.contact_resistance" in text
+    assert "missing with the mitigation measure 'Rough 1'; expected the resistance" in text
+    assert "also missing: mesh.2.contact_resistance with the mitigation measure 'Rough 2'" in text
+
+
+@pytest.mark.slow
+def test_a_value_that_the_axle_itself_lacks_is_named_once():
+    """With the table of the arc, and not again for a remedy."""
+    tables = two_stages().to_dict()
+    for mesh in tables["mesh"]:
+        mesh.pop("contact_resistance", None)
+        mesh["pair"]["gear"]["flank_ra"] = [1.2e-7, 1.2e-7]
+    tables["drive"]["duration"] = 1e-4
+    tables.pop("breakdown", None)
+    tables["remedies"] = [{"title": "Edge", "changes": {"source.rise_time": 2e-7}}]
+    with pytest.raises(InputError) as caught:
+        solve_axle(AxleCase.from_dict(tables))
+    text = str(caught.value)
+    assert text.startswith("breakdown: missing")
+    assert [text.count(f"mesh.{number}.contact_resistance") for number in (1, 2)] == [1, 1]

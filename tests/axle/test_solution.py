@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ehlectric import AxleCase, load, save, solve, solve_axle, solve_bearing
+from ehlectric import AxleCase, InputError, load, save, solve, solve_axle, solve_bearing
 from ehlectric.axle.axle_verdict import axle_verdict
 from ehlectric.axle.measurable import _Probable as Probable
 from ehlectric.axle.network import HOUSING, WINDING, Film, Network
@@ -328,3 +328,12 @@ def test_a_warning_of_many_elements_has_the_numbers_of_the_thinnest_film():
     assert text == "b1: number b1. The same holds for b2, b3 and 2 others, with other numbers."
     (text,) = (str(each) for each in named_warnings(thinnest_first(elements, warnings[:3])))
     assert text == "b1: number b1. The same holds for b3, b5, with other numbers."
+    alike = [(name, (ResultWarning("row-unloaded", "number 7."),)) for name in ("b1", "b3")]
+    assert [str(each) for each in named_warnings(alike)] == ["b1: number 7. The same holds for b3."]
+
+
+@pytest.mark.parametrize("torque", ["1e-9 N m", "-1e-8 N m"])
+def test_a_torque_that_loads_no_bearing_is_named(torque):
+    with pytest.raises(InputError, match="load the bearings of rotor") as caught:
+        solve_elements(two_stages(remedies=[]).replace({"drive.torque": torque}))
+    assert caught.value.key == "drive.torque"

@@ -416,6 +416,8 @@ def test_a_class_of_a_kind_without_radial_clearance_is_refused_in_the_designatio
         ("FAG 6312-C-VL0241", ["'C'", "'VL0241'", "of SKF"], "skf-insocoat-vl0241"),
         ("6312 XYZ-J20AA", ["'XYZ'", "'J20AA'", "of Schaeffler"], "schaeffler-j20aa"),
         ("6312-VL2071", ["'VL2071'"], "skf-insocoat-vl2071"),
+        ("SKF 6312/C3VL0241", ["'VL0241'"], "skf-insocoat-vl0241"),
+        ("FAG 6312-C-J20AA-C4", ["'J20AA'"], "schaeffler-j20aa"),
     ],
 )
 def test_one_refusal_names_all_suffixes_with_lines_to_paste(text, parts, coating):
@@ -426,7 +428,9 @@ def test_one_refusal_names_all_suffixes_with_lines_to_paste(text, parts, coating
     assert [part for part in parts if part not in line] == []
     base, coated = re.search("(base = '[^']+')$", line), re.search(r"bearing\.(coating = \{.*?\})", line)
     pasted = tomllib.loads(f"{base[1]}\n{coated[1]}\n")
-    assert pasted == {"base": "6312", "coating": {"base": coating, "relative_permittivity": 9}}
+    classes = re.search("C[34]", text)
+    base = "6312" if classes is None else f"6312/{classes[0]}"
+    assert pasted == {"base": base, "coating": {"base": coating, "relative_permittivity": 9}}
     assert coating in library.coating_names()
 
 

@@ -118,6 +118,20 @@ def test_shares_and_energies_are_those_of_the_durations(duty):
     assert found["deciding_torque"] == rows.torque[worst]
 
 
+def test_a_row_whose_summits_touch_decides(tmp_path):
+    """At 30 N m summits touch and have no margin; at 0.05 N m the film is thick."""
+    duty = run_mesh_duty(case_of(tmp_path, "0,3000,30,80,5\n10,3000,0.05,80,5\n", HEADS), probable=False)
+    found = duty.summary()
+    assert duty.rows.touching.tolist() == [True, False]
+    assert (found["deciding_time"], found["deciding_torque"]) == (0.0, 30.0)
+    assert found["least_margin"] > 5.0
+
+
+def test_a_cycle_without_any_result_says_so(tmp_path):
+    duty = run_mesh_duty(case_of(tmp_path, "0,3000,0,80,5\n10,3000,0,80,5\n", HEADS), probable=False)
+    assert duty.statement.code == "cycle-not-computed"
+
+
 def test_a_row_without_torque_is_left_out_with_its_line(duty):
     (warning,) = (each for each in duty.warnings if each.code == "duty-left-out")
     assert "Line 8" in str(warning)

@@ -165,7 +165,7 @@ def simulate_axle(
     case, network = solution.case, solution.network()
     breakdown = case.breakdown
     if breakdown is None:
-        raise InputError.missing("breakdown", "the arc of the films; drive.duration needs it")
+        raise InputError.missing("breakdown", _NO_ARC)
     given = case.source
     with within("source"):
         running = given.at_speed(case.drive.speed)
@@ -199,11 +199,20 @@ def simulate_axles(
     Values that are missing in several of them are named at once, before the first simulation.
     """
     films = [solve_films(solution.case) for solution in solutions] if films is None else films
-    case, breakdown, missing = solutions[0].case, solutions[0].case.breakdown, list[InputError]()
+    case, missing = solutions[0].case, list[InputError]()
+    if case.breakdown is None:
+        missing.append(InputError.missing("breakdown", _NO_ARC))
+    breakdown = case.breakdown or Breakdown.from_dict(_ANY_ARC)
     for number, (solution, solved) in enumerate(zip(solutions, films, strict=True)):
-        if breakdown is not None:
-            with _collecting(missing), _of_remedy(case, number):
-                _films_in_time(solved, breakdown, _conducting(solution))
+        found, known = list[InputError](), {each.key for each in missing}
+        with _collecting(found):
+            _films_in_time(solved, breakdown, _conducting(solution))
+        missing += [
+            _of_remedy(each, case, number)
+            for error in found
+            for each in error.several or (error,)
+            if each.key not in known
+        ]
     if missing:
         raise InputError.together(missing)
     return tuple(
@@ -212,21 +221,18 @@ def simulate_axles(
     )
 
 
-@contextmanager
-def _of_remedy(case: AxleCase, number: int) -> Iterator[None]:
-    """Context in which an error names the remedy with a number from 1; 0 is the axle itself."""
-    try:
-        yield
-    except InputError as error:
-        if not number:
-            raise
-        title = printable(case.remedies[number - 1].title)
-        raise InputError.together(
-            [
-                each.with_text(each.key, f"{each.text} (with the mitigation measure {title!r})")
-                for each in error.several or (error,)
-            ]
-        ) from None
+# Reason for a missing table of arcs, and an arc with which other missing values are found.
+_NO_ARC = "the arc of the films; drive.duration needs it"
+_ANY_ARC = {"arc_resistance": "1 ohm", "extinction_voltage": "1 uV", "recovery_time": "1 us"}
+
+
+def _of_remedy(error: InputError, case: AxleCase, number: int) -> InputError:
+    """Error that names the remedy with a number from 1; 0 is the axle itself."""
+    if not number:
+        return error
+    title = printable(case.remedies[number - 1].title)
+    text = error.text.removeprefix("missing")
+    return error.with_text(error.key, f"missing with the mitigation measure {title!r}{text}")
 
 
 def _conducting(solution: AxleSolution) -> set[str]:

@@ -607,14 +607,17 @@ def named_warnings(warnings: Iterable[tuple[str, Iterable[ResultWarning]]]) -> I
     """
     first: dict[str, ResultWarning] = {}
     names: dict[str, list[str]] = {}
+    texts: dict[str, set[str]] = {}
     for name, of_element in warnings:
         for warning in of_element:
             first.setdefault(warning.code, warning)
+            texts.setdefault(warning.code, set()).add(str(warning))
             if name not in names.setdefault(warning.code, []):
                 names[warning.code].append(name)
     for code, warning in first.items():
         name, *others = names[code]
-        further = f" The same holds for {_named(others)}, with other numbers." if others else ""
+        numbers = ", with other numbers" if len(texts[code]) > 1 else ""
+        further = f" The same holds for {_named(others)}{numbers}." if others else ""
         yield ResultWarning(warning.code, f"{name}: {warning}{further}")
 
 
@@ -626,11 +629,21 @@ def _named(names: Sequence[str]) -> str:
 
 
 def load_of(case: AxleCase, number: int, loads: Mapping[str, BearingLoads]) -> tuple[float, float]:
-    """Radial load and axial force of a bearing from the meshes [N]; 0 on a shaft without gears."""
+    """Radial load and axial force of a bearing from the meshes [N]; 0 on a shaft without gears.
+
+    Raises InputError for a torque that loads no bearing of the shaft.
+    """
     bearing = case.bearing[number]
     if bearing.shaft not in loads:
         return 0.0, 0.0
     on_shaft = loads[bearing.shaft]
+    if not bearing.loaded and max(*on_shaft.radial, abs(on_shaft.axial)) <= _NO_FORCE:
+        raise InputError(
+            "drive.torque",
+            got=f"{readable(case.drive.torque)} N m, with which gears load the bearings of {bearing.shaft} "
+            f"by at most {_NO_FORCE:g} N",
+            takes="a larger torque: a bearing without a load has no film that is computed",
+        )
     place = case.bearings_of(bearing.shaft).index(number)
     radial = on_shaft.radial[place]
     radial = radial if radial > _NO_FORCE else 0.0

@@ -11,6 +11,7 @@ import numpy as np
 
 from ehlectric.arrays import Array, IntArray, Mask
 from ehlectric.bearing.cycle_rows import (
+    LEFT_OUT,
     MOST_STRETCHES,
     STANDSTILL,
     CycleRows,
@@ -194,7 +195,13 @@ class MarginCycle(Values, Generic[Rows]):
 
     @property
     def statement(self) -> Statement | None:
-        """Statement on the cycle: probability of breakdown, share of time with breakdown; None without."""
+        """Statement on the cycle: probability of breakdown, share of time with breakdown; None without.
+
+        A cycle of which no row has a result says so.
+        """
+        turning = self.rows.state[self.rows.turns]
+        if turning.size and np.all(turning == LEFT_OUT):
+            return Statement.of("cycle-not-computed")
         probability, low, high = self._means(whole=True)
         if probability is None or low is None or high is None:
             return None

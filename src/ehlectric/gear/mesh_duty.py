@@ -97,8 +97,11 @@ class MeshRows(MarginRows):
 
     @property
     def deciding(self) -> int | None:
-        """Row with the minimum margin, or without margins with the minimum lambda ratio; None without."""
-        for values in (self.margin, self.lambda_ratio):
+        """Row with the minimum lambda ratio of those whose summits touch under a voltage, else with the
+        minimum margin, else with the minimum lambda ratio; None without.
+        """
+        touching = np.where(self.touching, self.lambda_ratio, math.nan)
+        for values in (touching, self.margin, self.lambda_ratio):
             if np.any(np.isfinite(values)):
                 return int(np.nanargmin(values))
         return None

@@ -287,7 +287,7 @@ def _check_angle_letters(text: str, name: str, rest: Sequence[str]) -> None:
 def _checked_suffixes(text: str, rest: Sequence[str], name: str) -> Iterator[Suffix]:
     """Suffixes of a bearing; raises one InputError for all that are unknown or may change its elements."""
     kind, of_series = kind_and_series(name)
-    wrong: list[str] = []
+    wrong, classes = list[str](), list[str]()
     bore = 1e3 * series()[name].bore if name in series() else None
     for part in _joined(rest, bore):
         known, unknown = parted(part, bore)
@@ -303,9 +303,12 @@ def _checked_suffixes(text: str, rest: Sequence[str], name: str) -> Iterator[Suf
                 _check_suffix(text, suffix, kind, of_series)
             except InputError as error:
                 wrong.append(error.takes or "")
+            else:
+                classes += [suffix.text] if suffix.group == "clearance" else []
         yield from known
     if wrong:
-        raise InputError("base", got=shown(text), takes=f"{'; '.join(wrong)}; the rest is base = {name!r}")
+        left = "/".join([name, *classes])
+        raise InputError("base", got=shown(text), takes=f"{'; '.join(wrong)}; the rest is base = {left!r}")
 
 
 def _joined(rest: Sequence[str], bore: float | None) -> Iterator[str]:
