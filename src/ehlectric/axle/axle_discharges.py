@@ -204,12 +204,12 @@ def simulate_axles(
         missing.append(InputError.missing("breakdown", _NO_ARC))
     breakdown = case.breakdown or Breakdown.from_dict(_ANY_ARC)
     for number, (solution, solved) in enumerate(zip(solutions, films, strict=True)):
-        found, known = list[InputError](), {each.key for each in missing}
-        with _collecting(found):
+        lacking, known = list[InputError](), {each.key for each in missing}
+        with _collecting(lacking):
             _films_in_time(solved, breakdown, _conducting(solution))
         missing += [
             _of_remedy(each, case, number)
-            for error in found
+            for error in lacking
             for each in error.several or (error,)
             if each.key not in known
         ]

@@ -62,7 +62,7 @@ class Batch:
         if "shaft" in self.table:
             # Keys of an axle name shafts and numbers of meshes.
             return AxleCase.from_dict(self.table).replace(values).to_dict()
-        return _with_values(self.table, values)
+        return {**_with_values(self.table, values)}
 
     def tasks(self) -> Iterator[Task]:
         """Points one by one, each with its key and the tables of its case."""
