@@ -167,7 +167,7 @@ def test_a_point_that_is_refused_leaves_the_others_over_a_key_of_one_gear(key, t
         ({"bearing.radial_load": ["1 kN", "2 kN"]}, "bearing.radial_load: unknown key"),
         ({RA: {"from": "0.1 um", "to": "-1 um", "count": 3}}, "flank_ra"),
         ({"gear.operation.bulk_temperature": {"from": "iso", "to": "90 degC", "count": 2}}, "temperature"),
-        ({RA: [["0.05 um", "0.06 um"], ["0.05 um", "0.07 um"]]}, "flank_ra.1 and gear.flank_ra.2"),
+        ({RA: [["0.05 um", "0.06 um"], ["0.05 um", "0.07 um"]]}, "flank_ra.1 or gear.flank_ra.2"),
         ({"gear.teeth": {"from": 10, "to": 20, "count": 2}}, "list"),
     ],
 )

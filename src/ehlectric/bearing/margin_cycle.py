@@ -197,7 +197,7 @@ class MarginCycle(Values, Generic[Rows]):
     def statement(self) -> Statement | None:
         """Statement on the cycle: probability of breakdown, share of time with breakdown; None without.
 
-        A cycle of which no row has a result says so.
+        A cycle of which no row has a result has a statement of its own.
         """
         turning = self.rows.state[self.rows.turns]
         if turning.size and np.all(turning == LEFT_OUT):

@@ -445,7 +445,7 @@ def capacitance_of(measured: Measurement, uncertainty: float | None = None) -> M
     mode = min(lacking, key=lambda each: len(lacking[each]))
     if lacking[mode]:
         heads = ", ".join(shown(printable(head)) for head in (*measured.heads.values(), *measured.ignored))
-        of_file = f"; the file has {heads}"
+        of_file = f"; the file contains {heads}"
         if not any(measured.has(name) for name in _OF_MODES):
             raise InputError.missing(f"{measured.source}: capacitance", f"{_MODE_TEXT}{of_file}")
         missing, given = lacking[mode][0], mode[0].replace("_", " ")

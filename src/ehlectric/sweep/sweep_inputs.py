@@ -631,7 +631,7 @@ def _different(
     """Values of a list, in SI units, which differ in a grid design."""
     of_gears = [each for each in value if isinstance(each, list | tuple)] if number_of(field) else []
     if of_gears:
-        takes = f"one value for each point; of each gear alone, as {key}.1 and {key}.2"
+        takes = f"one value for each point; of a single gear as {key}.1 or {key}.2"
         raise InputError(key, got=f"the list {shown(of_gears[0])}", takes=takes)
     values = tuple(_values(key, field, value, written=written))
     known: set[str] = set()

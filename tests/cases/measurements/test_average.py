@@ -84,12 +84,12 @@ def test_uncertainty_of_a_capacitance_in_series():
 
 
 def test_a_measurement_needs_all_of_an_impedance():
-    with pytest.raises(InputError, match=r"series_resistance: missing.* has 'Cs \[F\]', 'frequency"):
+    with pytest.raises(InputError, match=r"series_resistance: missing.* contains 'Cs \[F\]', 'frequency"):
         capacitance_of(read_measurement(pd.DataFrame({"Cs [F]": CS, "frequency [Hz]": 1e5})))
     frame = pd.DataFrame({"impedance [ohm]": [1.0], "phase [deg]": [-80.0]})
     with pytest.raises(InputError, match="frequency: missing"):
         capacitance_of(read_measurement(frame))
-    with pytest.raises(InputError, match=r"capacitance: missing.* has 'film \[nm\]'"):
+    with pytest.raises(InputError, match=r"capacitance: missing.* contains 'film \[nm\]'"):
         capacitance_of(read_measurement(pd.DataFrame({"film [nm]": [1.0]})))
     both = frame.assign(**{"capacitance [pF]": 1.0, "frequency [Hz]": 1.0})
     with pytest.raises(InputError, match="a capacitance and an impedance"):

@@ -103,7 +103,7 @@ class Head:
     place: int
     name: str = ""
     unit: str = ""
-    written: str = ""  # name and unit as the file has them; empty where they are apart
+    written: str = ""  # name and unit as the file contains them; empty where they are apart
 
     @property
     def base(self) -> str:
