@@ -11,6 +11,7 @@ from ehlectric.cases.film_inputs import shear_unused
 from ehlectric.gear.flank_films import without_heat
 from ehlectric.gear.flank_oil import by_lubricant
 from ehlectric.gear.solution import GearSolution
+from ehlectric.quantities.formats import amount
 from ehlectric.quantities.result_warnings import ResultWarning
 
 # Share of the capacitance above which films outside the atlas are worth a warning.
@@ -65,7 +66,13 @@ def _of_pair(solution: GearSolution, *, in_axle: bool = False) -> Iterator[Resul
     if solution.pair.normal_backlash is None:
         yield ResultWarning.of("backlash-unknown")
     if filled > _FILLED:
-        yield ResultWarning.of("film-fills-backlash", percent=100.0 * filled, less=100.0 * _thinner(filled))
+        assumed = ", which is assumed" if solution.pair.normal_backlash is None else ""
+        yield ResultWarning.of(
+            "film-fills-backlash",
+            percent=100.0 * filled,
+            backlash=f"{amount(solution.backlash, 'm')}{assumed}",
+            less=100.0 * _thinner(filled),
+        )
     yield from _in_fillets(solution)
     yield from _outside_atlas(solution)
 
