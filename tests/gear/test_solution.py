@@ -142,7 +142,7 @@ def test_pairs_without_a_known_backlash_have_the_recommended_one():
         for module, distance in ((5e-3, 100e-3), (1.5e-3, 50e-3))
     ]
     assert room == pytest.approx([0.18e-3, 0.09e-3], abs=0.01e-3)
-    with pytest.raises(InputError, match=r"-1 mN m.* assumed without gear\.normal_backlash"):
+    with pytest.raises(InputError, match=r"-1 mN m.*assumed without gear\.normal_backlash"):
         solve_gear_pair(case_of(centre_distance=None, operation__pinion_torque="-1 mN m"))
 
 

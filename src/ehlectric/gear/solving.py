@@ -161,12 +161,13 @@ def check_room(solution: GearSolution) -> None:
     torque, film = solution.case.gear.operation.pinion_torque, solution.minimum_film
     if film <= 0.5 * solution.backlash:
         return
+    least = 2.0 * abs(torque) * film / solution.backlash
     assumed = " (assumed without gear.normal_backlash)" if solution.pair.normal_backlash is None else ""
     raise InputError(
         "gear.operation.pinion_torque",
         got=f"{amount(torque, 'N m')}, which gives a film of {amount(film, 'm')} in a normal backlash of "
         f"{amount(solution.backlash, 'm')}{assumed}",
-        takes=f"about {amount(2.0 * abs(torque) * film / solution.backlash, 'N m')} or more, a lower speed, or a "
+        takes=f"about {amount(least, 'N m')} or more, a lower speed, or a "
         "lower viscosity: below this torque the oil on both sides of the teeth keeps them in the middle of "
         "the backlash, and they may rattle",
     )
