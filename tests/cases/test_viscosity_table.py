@@ -165,6 +165,24 @@ def test_one_temperature_and_ambient_pressure():
         Lubricant.from_dict({**ELECTRIC, "viscosity_table": ambient})
 
 
+def test_another_table_over_temperature_keeps_the_law_over_pressure():
+    """Twice the viscosity of the first table, with the coefficient that the file gives."""
+    ambient = table_of(rows_of(KNOWN["barus"], pressures=(0.0,)))
+    del ambient["pressure"]
+    given = {"viscosity_law": "barus", "pressure_viscosity_coefficient": 18e-9}
+    ball = {"radius_x": "10 mm", "radius_y": "10 mm", "reduced_modulus": "226 GPa", "load": "20 N"}
+    case = Case.point(
+        **ball,
+        entrainment_speed="1 m/s",
+        temperature="60 degC",
+        lubricant={**ELECTRIC, **given, "viscosity_table": ambient},
+    )
+    twice = ambient | {"viscosity": [2.0 * float(value) for value in ambient["viscosity"]]}
+    changed = case.replace({"lubricant.viscosity_table": twice})
+    assert changed.oil.viscosity == pytest.approx(2.0 * case.oil.viscosity, rel=1e-6)
+    assert changed.oil.alpha_star == pytest.approx(18e-9, rel=1e-3)
+
+
 def test_the_table_replaces_the_viscosity_of_a_base():
     table = table_of(rows_of(KNOWN["roelands"]))
     for base in ("fva-3", "paper"):

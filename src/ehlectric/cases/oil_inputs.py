@@ -419,8 +419,12 @@ def displace_oil(table: dict[str, Any], changes: Mapping[str, Any]) -> None:
     if not ways and _has_viscosity(table.get("atmospheric_law")):
         displaced -= {"atmospheric_law"}
     if changes.get(KEY) is not None:
-        displaced |= {*law_parameters("viscosity_law", "atmospheric_law"), *_AMBIENT, "temperature_range"}
-        displaced |= {"viscosity_law"} if table.get(KEY) is not None else set()
+        before = table.get(KEY)
+        displaced |= {*law_parameters("atmospheric_law"), *_AMBIENT, "temperature_range"}
+        if before is None or before.get("pressure") is not None:
+            # A table over temperature alone leaves the law over pressure to the file.
+            displaced |= {*law_parameters("viscosity_law")}
+            displaced |= {"viscosity_law"} if before is not None else set()
     for key in displaced - changes.keys():
         table.pop(key, None)
 
