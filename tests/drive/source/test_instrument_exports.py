@@ -433,6 +433,13 @@ def test_blocks_of_tektronix_have_units_of_their_own(tmp_path):
     assert "'A' as unit of column 5" in refused(path, column=5)
 
 
+@each("head", ["V_W", "U_N", "V1_A", "CH1 A", "Phase 1 A", "v_amp", "phase UA", "U/N"])
+@each("above", [[], ["Trigger source CH1 A"], ["Coupling of CH1 A"]])
+def test_a_phase_is_no_unit(tmp_path, head, above):
+    path = written(tmp_path, [*above, f"time (s),{head}", *columns(evenly(1e-6), VOLTS)])
+    assert read_waveform(path)[0].values == pytest.approx(np.array(VOLTS))
+
+
 def test_a_column_has_the_name_that_the_file_writes(tmp_path):
     path = written(tmp_path, ["time_s,u_mV", *columns(evenly(1e-6), VOLTS)])
     for name in ("u", "u_mV"):

@@ -36,7 +36,12 @@ def layout(text):
         ("Channel A", "Channel A", ""),
         ("phase_A", "phase_A", ""),
         ("Kanal 1 / A", "Kanal 1", "A"),
-        ("Leistung/W", "Leistung", "W"),
+        ("Leistung / W", "Leistung", "W"),
+        *(
+            (name, name, "")
+            for name in ("V_W", "U_N", "V1_A", "CH1 A", "Phase 1 A", "v_amp", "phase UA", "v_ua")
+        ),
+        *((name, name, "") for name in ("V/N", "L1/N", "u_bar", "Gate amp", "v_ma")),
         ("P_W", "P", "W"),
         ("V(vcm)", "V(vcm)", "V"),
         ("V(s)", "V(s)", "V"),

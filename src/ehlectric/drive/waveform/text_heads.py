@@ -78,15 +78,21 @@ _OF_UNIT = re.compile("unit[eé]?s?|einheit(?:en)?|verti[ck]ale?|channel|kanal|c
 # Words of the names of currents.
 _CURRENT = re.compile("current|strom|courant", re.IGNORECASE)
 
-# Names that a bare "A" follows as a unit: of a numbered channel, and of a current, as in "CH1_A" and "i_A".
-_BEFORE_AMPERE = re.compile(r".*\d|i[a-z]?", re.IGNORECASE)
+# Names that a bare "A" follows as a unit: of a numbered channel or a current, as in "CH1_A" and "i_A". After
+# other names it may be a phase; after a space it is a unit if a column next to it has a unit in this way.
+_BEFORE_AMPERE = re.compile(r"(?:ch|channel|kanal|voie)[\s_]*\d+|i[a-z\d]?", re.IGNORECASE)
+_BESIDE_VOLT = re.compile(r".*\d [mkµu]?V")
+
+# Amperes that no name ends in, and beginnings of names of voltages, whose last letter is a phase.
+_AMPERES = re.compile("[mµunpk]A|amps|[Aa]mp[eè]res?")
+_OF_VOLTAGE = re.compile(r"[uv]|phase|volt|l\d*$|diff|gate", re.IGNORECASE)
 
 # Unit after a slash, as in "Kanal 1 / A", and after a colon, as in "CH1: A".
 _SLASHED = re.compile(r"(.*\S)\s*/\s*([^\s/]+)")
 _AFTER_COLON = re.compile(r"([^:]*\S)\s*:\s*(\S+)")
 
 # Units of other quantities at the end of a name, as in "P_W".
-_FOREIGN = ("w", "kw", "hz", "khz", "ohm", "degc", "rpm", "nm", "n", "pa", "bar")
+_FOREIGN = ("W", "kW", "Hz", "kHz", "ohm", "degC", "rpm", "Nm")
 
 # Rates of samples: "250000000", "250 MSa/s", "1 GHz".
 _RATE = re.compile(r"([\d.]+(?:[eE][-+]?\d+)?)\s*([kMG]?)(?:Sa/s|S/s|sps|Hz)?", re.IGNORECASE)
@@ -172,11 +178,16 @@ def parts_of(head: str, *, bare_time: bool = False) -> tuple[str, str]:
     if unit is not None:
         return text, unit
     slashed = _SLASHED.fullmatch(text)
-    if slashed is not None and (unit_of(slashed[2])[0] or known_factor(slashed[2], slashed[2]) is not None):
+    if slashed is not None and unit_of(slashed[2])[0]:
         return slashed[1], slashed[2]
     words = text.replace("_", " ").replace("/", " ").split()
     base = unit_of(words[-1])[0] if words else ""
-    if "_" in text and len(words) > 1 and words[-1].lower() in _FOREIGN:
+    if (
+        words
+        and words[-1] in _FOREIGN
+        and re.fullmatch(r".+(?:_| / )\S+", text)
+        and not _OF_VOLTAGE.match(text)
+    ):
         return " ".join(words[:-1]), words[-1]
     if len(words) > 1 and words[-2].lower() == "in" and base:
         return " ".join(words[:-2]), words[-1]
@@ -184,12 +195,18 @@ def parts_of(head: str, *, bare_time: bool = False) -> tuple[str, str]:
         return text, text
     # "Channel A" is a name: of bare words, only those that no channel has are units.
     of_time = base == "s" and words[0].lower() in _TIME_NAMES
-    of_current = base == "A" and (
-        is_current(text) or len(words[-1]) > 1 or _BEFORE_AMPERE.fullmatch(" ".join(words[:-1])) is not None
-    )
+    of_current = base == "A" and (is_current(text) or _has_amperes(text, words))
     if len(words) > 1 and (base == "V" or of_time or of_current):
         return " ".join(words[:-1]), words[-1]
     return text, ""
+
+
+def _has_amperes(text: str, words: Sequence[str]) -> bool:
+    """Whether a head of some words ends in a unit of a current, and not in a phase or an amplitude."""
+    if _AMPERES.fullmatch(words[-1]) is not None:
+        return _OF_VOLTAGE.match(text) is None
+    before = text[:-1].rstrip("_")
+    return text.endswith("_A") and _BEFORE_AMPERE.fullmatch(before) is not None
 
 
 def is_current(name: str) -> bool:
@@ -313,11 +330,11 @@ def _named_above(header: Sequence[str], heads: Sequence[Head]) -> Iterator[tuple
     for line in header:
         for field in re.split("[;,\t]", line):
             after = _AFTER_COLON.fullmatch(field.strip())
-            name, unit = parts_of(field) if after is None else after.groups()
-            words, base = name.casefold(), unit_of(unit)[0]
-            if base and words in names:
+            name, unit = name_and_unit(field) if after is None else after.groups()
+            words, base = name.casefold(), unit_of(unit or "")[0]
+            if unit and base and words in names:
                 yield names[words], unit
-            elif base == "A":
+            elif unit and base == "A":
                 # A voltage on another name may be an offset or a scale of the channel.
                 yield from ((place, unit) for known, place in names.items() if words.endswith(f" {known}"))
 
@@ -410,6 +427,8 @@ def _heads(layout: Layout) -> list[Head]:
         return [Head(place, parts_of(names[place])[0] if names else "", unit) for place, unit in pairs]
     names = rows[-1] if _are_names(layout, rows[-1]) else []
     bare_time = any(name.lower() in _TIME_NAMES for name in names)
+    beside_volts = any(_BESIDE_VOLT.fullmatch(name) for name in names)
+    names = [re.sub(r"(?<=\d) A$", "_A", name) if beside_volts else name for name in names]
     return [
         Head(place, *parts_of(names[place], bare_time=bare_time), names[place]) if names else Head(place)
         for place in layout.columns
