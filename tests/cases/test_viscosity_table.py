@@ -151,6 +151,20 @@ def test_what_is_outside_the_table():
     assert "viscosity-table-short" in [warning.code for warning in warnings]
 
 
+@pytest.mark.parametrize(
+    "head", ["Kinematic viscosity [mm²/s]", "kinematische Viskosität", "viscosité cinématique"]
+)
+def test_a_kinematic_viscosity_is_named(tmp_path, head):
+    path = tmp_path / "oil.csv"
+    path.write_text(f"Temperature [°C];{head}\n20;100\n40;50\n", encoding="utf-8")
+    with pytest.raises(InputError, match="multiply a kinematic viscosity by the density"):
+        Lubricant.from_dict({**ELECTRIC, "viscosity_law": "barus", "viscosity_table": str(path)})
+    path.write_text(f"T [°C];{head};dynamic viscosity [mPa s]\n20;100;85\n40;50;40\n", encoding="utf-8")
+    given = {"viscosity_law": "barus", "pressure_viscosity_coefficient": 18e-9}
+    found = Lubricant.from_dict({**ELECTRIC, **given, "viscosity_table": str(path)})
+    assert list(found.viscosity_table.viscosity) == pytest.approx([0.085, 0.04])
+
+
 def test_one_temperature_and_ambient_pressure():
     isotherm = table_of(rows_of(KNOWN["roelands"], temperatures=(313.15,)))
     found = Lubricant.from_dict({**ELECTRIC, "viscosity_table": isotherm}).at(313.15)

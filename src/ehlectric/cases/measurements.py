@@ -908,13 +908,20 @@ def _columns(
     place of the second.
     """
     columns: dict[int, Column] = {}
+    doubtful: dict[int, Column] = {}
     twins: dict[int, int] = {}
     for place, head in enumerate(heads):
+        in_doubt = _in_doubt(head)
         try:
             column = column_of(head.removeprefix(_FROM_CELLS), book)
         except InputError as error:
+            if in_doubt:
+                continue
             raise InputError(source, str(error)) from None
         if column is None:
+            continue
+        if in_doubt:
+            doubtful[place] = column
             continue
         same = [(at, other) for at, other in columns.items() if _key(other) == _key(column)]
         if same and same[0][1].head == column.head:
@@ -926,11 +933,44 @@ def _columns(
                 takes="one of the two",
             )
         columns[place] = column
+    columns = dict(sorted({**columns, **_without_doubt(doubtful, columns)}.items()))
     columns = _with_vehicle(source, heads, columns, book)
     if all(column.uncertainty for column in columns.values()):
         raise _unknown(source, heads, book)
     ignored = (printable(short(head)) for place, head in enumerate(heads) if place not in columns)
     return columns, tuple(head for head in ignored if head), twins
+
+
+# Names of a single letter that mean something else in files without a meter.
+_LETTERS = ("r", "x", "d", "phi", "φ")
+
+# Name of a program whose end is a quotient, as in "speed_radps".
+_QUOTIENT = re.compile(r"\S*_[a-z]+ps", re.IGNORECASE)
+
+
+def _in_doubt(head: str) -> bool:
+    """Whether a head counts only if no other one names its quantity: a letter, a bare unit of rotation, or
+    the name of a program.
+    """
+    text = head.removeprefix(_FROM_CELLS).strip().lower()
+    letter = re.split(r"[\s_\[(/,:]", text, maxsplit=1)[0] in _LETTERS
+    return letter or text in _TURNS or _QUOTIENT.fullmatch(text) is not None
+
+
+def _without_doubt(doubtful: Mapping[int, Column], columns: Mapping[int, Column]) -> dict[int, Column]:
+    """Columns of doubtful heads that no other column names: letters belong to a meter with a frequency and
+    without a capacitance or a film, and there is one speed.
+    """
+    names = {column.name for column in columns.values()}
+    of_meter = "frequency" in names and not names & {"capacitance", "film"}
+    speeds = {"speed", *_VELOCITIES}
+    certain: dict[int, Column] = {}
+    for place, column in doubtful.items():
+        known = names | {each.name for each in certain.values()}
+        taken = known & speeds if column.name in speeds else known & {column.name}
+        if not taken and (column.name in speeds or of_meter):
+            certain[place] = column
+    return certain
 
 
 def _with_vehicle(

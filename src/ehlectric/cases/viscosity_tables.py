@@ -14,7 +14,7 @@ from pydantic import model_validator
 from ehlectric.cases.amounts import amount_at
 from ehlectric.cases.measurements import MOST_POINTS, ColumnBook, Measurement, read_measurement
 from ehlectric.cases.table import Table
-from ehlectric.errors import InputError, within
+from ehlectric.errors import InputError, printable, shown, within
 from ehlectric.lubricant.law import is_many
 from ehlectric.lubricant.oil import RangeCheck
 from ehlectric.quantities.result_warnings import ResultWarning
@@ -73,8 +73,16 @@ def with_rows(table: Mapping[Any, Any]) -> Mapping[Any, Any]:
     except InputError as error:
         raise InputError.worded(KEY, str(error)) from None
     if not read.has("viscosity"):
+        heads = ", ".join(shown(printable(head)) for head in (*read.heads.values(), *read.ignored))
+        kinematic = (
+            "; multiply a kinematic viscosity by the density"
+            if "inema" in heads.lower() or "inéma" in heads.lower()
+            else ""
+        )
         raise InputError(
-            KEY, f"{read.source}: has no viscosity", takes=f"headings such as {VISCOSITIES.examples}"
+            KEY,
+            f"{read.source}: has no viscosity, but {heads}",
+            takes=f"headings such as {VISCOSITIES.examples}{kinematic}",
         )
     _check_newtonian(read)
     rows = {name: read.values[name].tolist() for name in _COLUMNS if read.has(name)}

@@ -74,6 +74,35 @@ def test_degrees_celsius_in_words(tmp_path, unit):
     assert measured.values["temperature"] == pytest.approx([313.15])
 
 
+@each(
+    ("heads", "names"),
+    [
+        ("speed [rpm],x [mm],film [nm]", {"speed", "film"}),
+        ("speed [rpm],R [mm],d,film [nm]", {"speed", "film"}),
+        ("speed [rpm],phi [deg],capacitance [pF]", {"speed", "capacitance"}),
+        ("rpm,speed [rpm],capacitance [pF]", {"speed", "capacitance"}),
+        ("speed_rpm,speed_radps,capacitance_pF", {"speed", "capacitance"}),
+        (
+            "speed [rpm],frequency [Hz],R [ohm],X [ohm]",
+            {"speed", "frequency", "series_resistance", "reactance"},
+        ),
+    ],
+)
+def test_a_head_in_doubt_counts_only_if_no_other_names_its_quantity(tmp_path, heads, names):
+    """A letter of a meter may be a place, and a bare unit a second speed: 350 is no phase."""
+    measured = read(tmp_path, f"{heads}\n{','.join(['350'] * (heads.count(',') + 1))}\n")
+    assert set(measured.values) == names
+    assert measured.values["speed"] == pytest.approx([350.0 * RPM])
+
+
+def test_the_speed_of_a_vehicle_goes_before_a_bare_unit(tmp_path):
+    path = tmp_path / "drive.csv"
+    path.write_text("time [s],speed [km/h],rpm,torque [N m]\n0,100,955,5\n1,100,955,5\n", encoding="utf-8")
+    measured = read_measurement(path, GEAR_CYCLE)
+    assert measured.values["vehicle_speed"] == pytest.approx([100.0 / 3.6] * 2)
+    assert "rpm" in measured.ignored
+
+
 @each("head", ["Vitesse [tr/min]", "velocity [rpm]", "vitesse_tr/min", "rpm", "Geschwindigkeit in U/min"])
 def test_the_speed_of_a_shaft_and_of_a_vehicle_by_their_units(head):
     assert column_of(head, GEAR_CYCLE).name == "speed"
