@@ -101,6 +101,14 @@ def test_voltages_change_to_those_of_a_conducting_mesh_between_95_and_99_percent
         else:
             assert "m23" not in ratios
         assert dict(axle.ranking("never"))["m23"] == np.inf
+        # The mesh opens at the voltage, and with the energy, of the network in which it insulates.
+        energies, b2 = axle.energies(), Film("b2", "intermediate", HOUSING, 5.0 * NANO)
+        if weight:
+            assert energies["m23"] == pytest.approx(3.78049 * NANO, rel=1e-4)
+        ends = [
+            touching_at(at).network().breakdown(b2, touching_at(at).potentials()).energy for at in (0.5, 1.0)
+        ]
+        assert energies["b2"] == pytest.approx(weight * ends[0] + (1.0 - weight) * ends[1], rel=1e-9)
         assert list(axle.potentials("always").values()) == pytest.approx([30.0 / 17.6] * 3, rel=1e-12)
 
 
@@ -112,6 +120,7 @@ def test_summits_that_touch_at_times_are_never_green():
         first, verdict = axle_summary(axle)["first"], axle_verdict(axle)
         found[share] = first["element"], verdict.level, verdict.code
         assert ("95 to 99 % of the time" in verdict.text) == (share < 0.99)
+        assert "between these times" not in verdict.text
     assert found == {
         0.96: ("m23", "red", "discharges-likely"),
         0.98: ("m23", "yellow", "discharges-possible"),

@@ -59,10 +59,14 @@ def test_what_the_simulation_refuses_is_refused(drive):
 
 
 def test_a_strength_that_needs_the_field_is_told(drive):
-    """Its films are solved by the simulation alone."""
+    """Its films are solved by the simulation alone; with films of the atlas, both refuse the drive."""
     oil = drive.replace({"bearings.lubricant.viscosity_law": "constant"})
-    (row,) = preview_of(oil).rows
+    (row,) = preview_of(oil.replace({"drive.contacts": "solved"})).rows
     assert "drive_end.lubricant.viscosity_law: " in row.note
+    for look in (preview_of, solve_drive):
+        with pytest.raises(InputError) as error:
+            look(oil)
+        assert error.value.key == "drive_end.lubricant.viscosity_law"
 
 
 @each("look", [preview_of, solve_drive])

@@ -11,7 +11,7 @@ import numpy as np
 
 from ehlectric.arrays import Array, IntArray, Mask
 from ehlectric.axle.many_axles import solve_axles
-from ehlectric.axle.network import firsts, voltage_ratios
+from ehlectric.axle.network import firsts, touches, voltage_ratios
 from ehlectric.axle.solution import AxleSolution
 from ehlectric.bearing import duty_csv, edges_of, file_warnings, moves
 from ehlectric.cases.axle_case import AxleCase, changed_axle
@@ -46,7 +46,7 @@ class AxleDuty:
     torque: Array  # of the rotor [N m], shape (n,)
     temperature: Array  # of the oil [K], shape (n,)
     # Voltages and breakdown voltages of all elements after an edge [V], shape (n, elements): NaN without a
-    # result. A breakdown voltage is 0 where summits touch, and infinite if the element does not break down.
+    # result, and limits as in ``voltage_ratios``.
     voltages: Array
     limits: Array
     states: IntArray  # numbers of the states, shape (n, elements)
@@ -76,6 +76,11 @@ class AxleDuty:
         return voltage_ratios(self.voltages, self.limits)
 
     @property
+    def touching(self) -> Mask:
+        """Whether the summits of each element touch under a voltage, shape (n, elements)."""
+        return touches(self.limits) & (self.voltages > 0.0)
+
+    @property
     def first(self) -> IntArray:
         """Number of the element that discharges first at each row, -1 without one, shape (n,)."""
         return firsts(self.voltages, self.limits)
@@ -99,15 +104,15 @@ class AxleDuty:
                 {
                     "element": name,
                     "first_share": self.share(first == number),
-                    "breakdown_share": self.share(self.known & (ratios[:, number] >= 1.0)),
-                    "touching_share": self.share(
-                        self.known & (self.limits[:, number] == 0.0) & (self.voltages[:, number] > 0.0)
+                    "breakdown_share": self.share(
+                        self.known & ((ratios[:, number] >= 1.0) | self.touching[:, number])
                     ),
+                    "touching_share": self.share(self.known & self.touching[:, number]),
                     **{
                         f"{key}_share": self.share(self.states[:, number] == STATES.index(state))
                         for key, state in _SHARES.items()
                     },
-                    **self._largest(ratios[:, number]),
+                    **self._largest(np.where(self.touching, 0.0, ratios)[:, number]),
                 }
                 for number, name in enumerate(self.names)
             ],
@@ -152,10 +157,13 @@ class AxleDuty:
             "first_element": (None, first),
         }
         for number, key in enumerate(self.keys):
-            finite = np.isfinite(self.limits[:, number])
+            limits = self.limits[:, number]
             columns |= {
                 f"{key}.voltage": ("V", self.voltages[:, number]),
-                f"{key}.breakdown_voltage": ("V", np.where(finite, self.limits[:, number], math.nan)),
+                f"{key}.breakdown_voltage": (
+                    "V",
+                    np.where(np.isfinite(limits), np.maximum(limits, 0.0), math.nan),
+                ),
                 f"{key}.state": (None, np.array(STATES, dtype=object)[self.states[:, number]]),
             }
         return columns

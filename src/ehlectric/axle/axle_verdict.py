@@ -8,6 +8,7 @@ from typing import Protocol
 
 from ehlectric.axle.solution import AxleSolution
 from ehlectric.discharge.breakdown_rule import (
+    TOUCHING_AT_TIMES,
     Chance,
     code_of,
     doubted,
@@ -106,7 +107,8 @@ def axle_verdict(
         doubts=bool(solution.bounded) and _level_of(largest) != "green",
         touching=any(name not in limits for name, _ in ranking),
     )
-    doubts: tuple[Statement, ...] = tuple(strength_doubt(solution.case.discharge, margin))
+    # The margin of touching summits does not depend on the strength.
+    doubts: tuple[Statement, ...] = () if touching else tuple(strength_doubt(solution.case.discharge, margin))
     facts: tuple[Fact, ...] = () if touching else (Fact("first.breakdown_voltage", limits[first]),)
     if uncertainty is not None and chance is not None:
         # A margin that is 0 at almost all points has no spread that a measurement would reduce.
@@ -158,7 +160,9 @@ def _level(
     """
     if chance is not None and (chance.level == "red" or not touching or margin >= 1.0):
         return chance.level, chance.code
-    if not touching or margin >= 1.0:
+    if touching and margin >= 1.0:
+        return "yellow", TOUCHING_AT_TIMES
+    if not touching:
         level = level_of(*strength_interval(margin))
         return level, code_of(level, likely=margin < 1.0)
     films = max(solution.ratios().values(), default=0.0)
@@ -215,14 +219,15 @@ def _reasons(solution: AxleSolution, first: str) -> Iterator[Statement]:
     yield from others
     if solution.changed_ranks:
         yield Statement.of("axle-ranks", elements=solution.changed_ranks)
+    parts = {each.name: each.insulating_part("by-film") for each in solution.elements}
+    almost = tuple(name for name, part in parts.items() if 0.0 < part < 1.0)
     at_times = tuple(
         f"{each.name} {time_share_text(each.contact_time_share)}"
         for each in solution.elements
-        if each.state == AT_TIMES
+        if each.state == AT_TIMES and each.name not in almost
     )
     if at_times:
         yield Statement.of("axle-conducting-at-times", elements=at_times)
-    almost = tuple(each.name for each in solution.elements if 0.0 < each.insulating_part("by-film") < 1.0)
     if almost:
         yield Statement.of("axle-almost-conducting", elements=almost)
     for each in solution.elements:

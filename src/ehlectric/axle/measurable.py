@@ -14,6 +14,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.axle.axle_verdict import axle_verdict
+from ehlectric.axle.network import times_strength
 from ehlectric.axle.solution import (
     AxleSolution,
     elements_of,
@@ -210,7 +211,7 @@ def _margin(solution: AxleSolution, strength: float) -> float:
     if not has_chance(solution.case):
         return math.nan
     voltages, limits = solution.voltages_and_limits()
-    return float(least_margins(voltages[np.newaxis], strength * limits[np.newaxis])[0])
+    return float(least_margins(voltages[np.newaxis], times_strength(limits, strength)[np.newaxis])[0])
 
 
 def _steps(case: AxleCase, each: UncertainKey, value: float) -> dict[int, dict[str, float]]:

@@ -30,7 +30,7 @@ from functools import cached_property
 import numpy as np
 import scipy
 
-from ehlectric.arrays import Array, IntArray
+from ehlectric.arrays import Array, IntArray, Mask
 from ehlectric.cases.axle_inputs import HOUSING as HOUSING
 from ehlectric.drive import FRAME, StateSpace, state_space
 from ehlectric.drive import WINDING as WINDING
@@ -157,7 +157,7 @@ class Network:
 
 def rank(voltages: Mapping[str, float], limits: Mapping[str, float]) -> list[tuple[str, float]]:
     """Names of elements with the ratio of their voltage to their breakdown voltage, in the order of
-    ``firsts``. Both have the names of the elements [V]; a breakdown voltage is 0 where summits touch.
+    ``firsts``. Both have the names of the elements [V], and limits as in ``voltage_ratios``.
 
     Examples
     --------
@@ -174,16 +174,29 @@ def rank(voltages: Mapping[str, float], limits: Mapping[str, float]) -> list[tup
 def voltage_ratios(voltages: Array, limits: Array) -> Array:
     """Voltages divided by breakdown voltages [V], of one shape.
 
-    ``limits``, breakdown voltages: 0 where summits touch, infinite for an element that conducts or does not
-    break down. The ratio is infinite where summits touch under a voltage, and 0 without a voltage.
+    ``limits``, breakdown voltages: infinite for an element that conducts or does not break down. Touching
+    summits have no breakdown voltage, but minus their margin: 0, or below 0 for an element that almost
+    conducts. The ratio is the reciprocal of the margin: infinite where summits touch under a voltage, and 0
+    without a voltage.
 
     Examples
     --------
-    >>> voltage_ratios(np.array([3.0, 3.0, 0.0]), np.array([2.0, 0.0, 0.0])).tolist()
-    [1.5, inf, 0.0]
+    >>> voltage_ratios(np.array([3.0, 3.0, 0.0, 3.0]), np.array([2.0, 0.0, 0.0, -4.0])).tolist()
+    [1.5, inf, 0.0, 0.25]
     """
     with np.errstate(divide="ignore", invalid="ignore"):
-        return np.where(voltages == 0.0, 0.0, voltages / limits)
+        ratios = np.where(limits > 0.0, voltages / limits, 1.0 / np.abs(limits))
+        return np.where(voltages == 0.0, 0.0, ratios)
+
+
+def touches(limits: Array) -> Mask:
+    """Whether summits touch, by the limits of ``voltage_ratios``."""
+    return np.asarray(limits <= 0.0)
+
+
+def times_strength(limits: Array, factor: Array | float) -> Array:
+    """Limits of ``voltage_ratios`` for a strength that is a factor times as large: of films only."""
+    return np.where(limits > 0.0, limits * factor, limits)
 
 
 def firsts(voltages: Array, limits: Array) -> IntArray:

@@ -200,6 +200,23 @@ class AxleSolution:
         """Absolute voltage of a bearing or mesh after the edge of the case [V]."""
         return self.voltages()[name]
 
+    def energies(self) -> dict[str, float]:
+        """Energies of breakdowns after the edge of the case [J] by the names of elements with a voltage.
+
+        They are means over the networks in which the element insulates.
+        """
+        weights: dict[str, float] = {}
+        sums: dict[str, float] = {}
+        names = {each.name for each in self.elements}
+        for weight, network in self._weighted_networks["by-film"]:
+            potentials = network.potentials(self.case.edge, self.case.source.rise_time or 0.0)
+            for film in network.elements:
+                if film.name in names and not film.conducts and network.voltage(film, potentials):
+                    energy = network.breakdown(film, potentials).energy
+                    weights[film.name] = weights.get(film.name, 0.0) + weight
+                    sums[film.name] = sums.get(film.name, 0.0) + weight * energy
+        return {name: energy / weights[name] for name, energy in sums.items()}
+
     @property
     def breakdown_voltages(self) -> dict[str, float]:
         """Breakdown voltages by the names of the elements that have one [V]."""
@@ -220,18 +237,18 @@ class AxleSolution:
         return rank(voltages, {name: limit for name, limit in limits.items() if math.isfinite(limit)})
 
     def _limits(self, conduction: Conduction) -> dict[str, float]:
-        """Breakdown voltages of all elements [V]: 0 where summits touch, infinite without a breakdown.
+        """Breakdown voltages of all elements [V], with the limits of ``voltage_ratios``.
 
         An element whose summits touch and that almost conducts, with the insulating part w, has the margin
         (1 - w)/w.
         """
-        limits, voltages = {}, self.voltages(conduction)
+        limits = {}
         for each in self.elements:
             part = each.insulating_part(conduction)
             if part == 0.0:
                 limits[each.name] = math.inf
             elif each.limit == 0.0:
-                limits[each.name] = voltages[each.name] * (1.0 - part) / part
+                limits[each.name] = -(1.0 - part) / part
             else:
                 limits[each.name] = each.limit
         return limits
@@ -256,8 +273,7 @@ class AxleSolution:
     def voltages_and_limits(self) -> tuple[Array, Array]:
         """Return voltages and breakdown voltages of all elements after the edge of the case [V].
 
-        Both have the shape (elements,). A breakdown voltage is 0 where summits touch, and infinite for an
-        element that conducts or does not break down.
+        Both have the shape (elements,); limits as in ``voltage_ratios``.
         """
         voltages, limits = self.voltages(), self._limits("by-film")
         return np.array([*voltages.values()]), np.array([*limits.values()])

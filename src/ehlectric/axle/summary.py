@@ -122,13 +122,11 @@ def _ranked(solution: AxleSolution, conduction: Conduction) -> list[str]:
 
 def _elements(solution: AxleSolution) -> list[dict[str, Any]]:
     """Rows of elements.csv."""
-    network, potentials = solution.network(), solution.potentials()
+    voltages, energies = solution.voltages(), solution.energies()
     ranks = {conduction: _ranked(solution, conduction) for conduction in CONDUCTIONS}
     ratios = {conduction: solution.ratios(conduction) for conduction in CONDUCTIONS}
     rows = []
     for element in solution.elements:
-        film = element.film("by-film")
-        voltage = abs(network.voltage(film, potentials))
         places = {
             conduction: names.index(element.name) + 1 if element.name in names else None
             for conduction, names in ranks.items()
@@ -144,16 +142,14 @@ def _elements(solution: AxleSolution) -> list[dict[str, Any]]:
                 "contact_time_share": element.contact_time_share,
                 "capacitance": element.capacitance,
                 "breakdown_voltage": element.breakdown_voltage,
-                "voltage": voltage,
+                "voltage": voltages[element.name],
                 "voltage_ratio": ratios["by-film"].get(element.name),
                 "voltage_ratio_always": ratios["always"].get(element.name),
                 "voltage_ratio_never": ratios["never"].get(element.name),
                 "rank": places["by-film"],
                 "rank_always": places["always"],
                 "rank_never": places["never"],
-                "energy": None
-                if film.conducts or voltage == 0.0
-                else network.breakdown(film, potentials).energy,
+                "energy": energies.get(element.name),
             }
         )
     return rows

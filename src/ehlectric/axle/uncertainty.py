@@ -27,7 +27,7 @@ import numpy as np
 from ehlectric.arrays import Array, IntArray
 from ehlectric.axle.film_capacitances import FilmCapacitances
 from ehlectric.axle.many_axles import FilmScales, solve_axles
-from ehlectric.axle.network import firsts, voltage_ratios
+from ehlectric.axle.network import firsts, times_strength, voltage_ratios
 from ehlectric.axle.solution import AxleSolution, SolvedFilms, solve_films
 from ehlectric.bearing import (
     FILMS,
@@ -376,7 +376,7 @@ class _Rows:
 
     names: tuple[str, ...]
     voltages: list[Array] = field(default_factory=list)
-    # Breakdown voltages: 0 where summits touch, infinite for elements that conduct or do not break down.
+    # Breakdown voltages, as the limits of ``voltage_ratios``.
     limits: list[Array] = field(default_factory=list)
     conducting: list[Array] = field(default_factory=list)
     touching: list[Array] = field(default_factory=list)  # summits touch, and the element does not conduct
@@ -406,9 +406,9 @@ def least_margins(voltages: Array, limits: Array) -> Array:
     """Margin of the first element, shape (n,), from voltages and breakdown voltages, shape (n, elements);
     NaN without a voltage.
     """
-    ranked = np.isfinite(limits) & (voltages > 0.0)
-    least = np.min(np.divide(limits, voltages, out=np.full_like(limits, np.inf), where=ranked), axis=1)
-    margins = np.where(np.any(ranked, axis=1), least, MOST_MARGIN)
+    ratios = np.max(np.nan_to_num(voltage_ratios(voltages, limits), nan=0.0, posinf=np.inf), axis=1)
+    with np.errstate(divide="ignore"):
+        margins = np.where(ratios > 0.0, 1.0 / ratios, MOST_MARGIN)
     return np.where(np.any(np.isnan(voltages), axis=1), np.nan, margins)
 
 
@@ -434,7 +434,7 @@ def uncertainty_of(
             break
     at = at[: len(rows.voltages)]
     strength = np.exp(np.sum(design.log_factors(at), axis=-1))
-    voltages, limits = np.array(rows.voltages), np.array(rows.limits) * strength[:, np.newaxis]
+    voltages, limits = np.array(rows.voltages), times_strength(np.array(rows.limits), strength[:, np.newaxis])
     solved = np.all(np.isfinite(voltages), axis=1)
     states = np.array(rows.conducting)[solved], np.array(rows.touching)[solved]
     first = firsts(voltages[solved], limits[solved])

@@ -49,17 +49,17 @@ def _ratios(duty: AxleDuty, ax: Axes) -> None:
 
     Dots in a row above all ratios belong to a first element whose summits touch.
     """
-    ratios = np.where(np.isfinite(duty.ratios) & (duty.ratios >= _LEAST), duty.ratios, np.nan)
+    ratios = np.where(~duty.touching & (duty.ratios >= _LEAST), duty.ratios, np.nan)
     first = duty.first
     for number, colour in enumerate(colours_of_names(duty.names)):
         ax.plot(duty.time, ratios[:, number], color=colour, lw=0.5, alpha=0.6)
         rows = first == number
-        touching = rows & np.isinf(duty.ratios[:, number])
+        touching = rows & duty.touching[:, number]
         dots: dict[str, Any] = {"color": colour, "ls": "none", "marker": "o", "ms": 2.5}
         ax.plot(duty.time[rows], ratios[rows, number], **dots)
         above = np.full(np.count_nonzero(touching), _TOUCHING)
         ax.plot(duty.time[touching], above, transform=ax.get_xaxis_transform(), **dots)
-    if np.any(np.isinf(duty.ratios)):
+    if np.any(duty.touching):
         ax.margins(y=_ABOVE)
         note(ax, 0.01, _TOUCHING - 0.03, "dots above: summits of the first element touch", va="top")
     ax.axhline(1.0, color=BLACK, ls="--", lw=1.0)

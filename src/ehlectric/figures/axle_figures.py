@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -97,7 +96,7 @@ def _first(result: AxleResult) -> str:
     if not ranking:
         return "No bearing or mesh with a voltage breaks down"
     name, ratio = ranking[0]
-    if math.isinf(ratio):
+    if name not in result.solution.breakdown_voltages:
         voltage = readable(result.solution.voltage_of(name), 3)
         return f"{name}: summits touch and discharge at any voltage, here {voltage} V after an edge"
     return f"{name}: {readable(ratio, 3)} times the breakdown voltage after an edge, the largest ratio"

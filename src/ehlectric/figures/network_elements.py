@@ -51,7 +51,8 @@ def elements_of_network(solution: AxleSolution) -> Iterator[NetworkElement]:
     """Elements of the network with their names, values and voltages."""
     network, potentials = solution.network(), solution.potentials()
     elements = {element.name: element for element in solution.elements}
-    ratios = dict(solution.discharging())
+    limits = solution.breakdown_voltages
+    ratios = {name: ratio if name in limits else math.inf for name, ratio in solution.discharging()}
     first = next(iter(ratios), None)
     kinds = [link.kind for link in solution.case.link]
     for film in network.elements:

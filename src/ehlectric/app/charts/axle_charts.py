@@ -113,7 +113,8 @@ def ratios_figure(result: AxleResult) -> Figure:
     ranking = dict(solution.discharging())
     ratios, *bounds = (solution.ratios(conduction) for conduction in CONDUCTIONS)
     names = list(ranking)
-    texts = {name: TOUCHES if math.isinf(ratio) else readable(ratio, 3) for name, ratio in ranking.items()}
+    summits = {name: name not in solution.breakdown_voltages for name in names}
+    texts = {name: TOUCHES if summits[name] else readable(ratio, 3) for name, ratio in ranking.items()}
     labels = {name: f"{name}: {text}" for name, text in texts.items()}
     positive = [value for table in (ratios, *bounds) for value in table.values() if value > 0.0]
     ends = (min([*positive, 1.0]) / _ROOM, max([*positive, 1.0]) * _ROOM)
@@ -125,7 +126,7 @@ def ratios_figure(result: AxleResult) -> Figure:
             "y": [*labels.values()],
             "marker": {
                 "color": [ORANGE, *[BLUE] * (len(names) - 1)],
-                "pattern": {"shape": ["/" if math.isinf(value) else "" for value in ranking.values()]},
+                "pattern": {"shape": ["/" if summits[name] else "" for name in names]},
             },
             "hovertemplate": "%{y}<extra></extra>",
         }
