@@ -422,7 +422,7 @@ def displace_oil(table: dict[str, Any], changes: Mapping[str, Any]) -> None:
         before = table.get(KEY)
         displaced |= {*law_parameters("atmospheric_law"), *_AMBIENT, "temperature_range"}
         if before is None or before.get("pressure") is not None:
-            # A table over temperature alone leaves the law over pressure to the file.
+            # A table without pressures leaves the law over pressure to the file.
             displaced |= {*law_parameters("viscosity_law")}
             displaced |= {"viscosity_law"} if before is not None else set()
     for key in displaced - changes.keys():

@@ -81,7 +81,7 @@ _CURRENT = re.compile("current|strom|courant", re.IGNORECASE)
 # Names that a bare "A" follows as a unit: of a numbered channel or a current, as in "CH1_A" and "i_A". After
 # other names it may be a phase; after a space it is a unit if a column next to it has a unit in this way.
 _BEFORE_AMPERE = re.compile(r"(?:ch|channel|kanal|voie)[\s_]*\d+|i[a-z\d]?", re.IGNORECASE)
-_BESIDE_VOLT = re.compile(r".*\d [mkµu]?V")
+_VOLTS = re.compile(r".*\d [mkµu]?V")
 
 # Amperes that no name ends in, and beginnings of names of voltages, whose last letter is a phase.
 _AMPERES = re.compile("[mµunpk]A|amps|[Aa]mp[eè]res?")
@@ -427,8 +427,8 @@ def _heads(layout: Layout) -> list[Head]:
         return [Head(place, parts_of(names[place])[0] if names else "", unit) for place, unit in pairs]
     names = rows[-1] if _are_names(layout, rows[-1]) else []
     bare_time = any(name.lower() in _TIME_NAMES for name in names)
-    beside_volts = any(_BESIDE_VOLT.fullmatch(name) for name in names)
-    names = [re.sub(r"(?<=\d) A$", "_A", name) if beside_volts else name for name in names]
+    of_volts = any(_VOLTS.fullmatch(name) for name in names)
+    names = [re.sub(r"(?<=\d) A$", "_A", name) if of_volts else name for name in names]
     return [
         Head(place, *parts_of(names[place], bare_time=bare_time), names[place]) if names else Head(place)
         for place in layout.columns
