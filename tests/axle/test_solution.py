@@ -112,6 +112,17 @@ def test_voltages_change_to_those_of_a_conducting_mesh_between_95_and_99_percent
         assert list(axle.potentials("always").values()) == pytest.approx([30.0 / 17.6] * 3, rel=1e-12)
 
 
+@pytest.mark.parametrize("limits", [1.0, 10.0, 30.0])
+def test_no_margin_jumps_as_a_mesh_becomes_a_conductor(limits):
+    """Steps of 2.5e-4 of the share of time, five times of an input that changes by 0.01 %: 10 % or 0.05."""
+    shares = np.arange(0.94, 0.995, 2.5e-4)
+    margins = np.array([1.0 / touching_at(share, limits).ranking()[0][1] for share in shares])
+    changes = np.abs(np.diff(margins))
+    assert np.all(changes < np.maximum(0.05, 0.1 * np.minimum(margins[1:], margins[:-1])))
+    assert margins[0] == 0.0
+    assert margins[-1] == pytest.approx(limits * 1.8 / (30.0 * 16.0 / 43.2), rel=1e-9)
+
+
 def test_summits_that_touch_at_times_are_never_green():
     """All films hold ten times their voltage; the mesh opens for 1 to 5 % of the time."""
     found = {}

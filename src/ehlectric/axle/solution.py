@@ -63,6 +63,9 @@ _NO_CAPACITANCE = 1e-6
 # Forces that are no load of a bearing [N].
 _NO_FORCE = 1e-6
 
+# Largest load of all bearings that a torque near 0 gives [N].
+_SMALL = 1e-3
+
 
 @dataclass(frozen=True)
 class Element:
@@ -653,14 +656,19 @@ def load_of(case: AxleCase, number: int, loads: Mapping[str, BearingLoads]) -> t
     if bearing.shaft not in loads:
         return 0.0, 0.0
     on_shaft = loads[bearing.shaft]
-    if not bearing.loaded and max(*on_shaft.radial, abs(on_shaft.axial)) <= _NO_FORCE:
+    place = case.bearings_of(bearing.shaft).index(number)
+    largest = max(max(*each.radial, abs(each.axial)) for each in loads.values())
+    if (
+        not bearing.loaded
+        and max(on_shaft.radial[place], abs(on_shaft.axial)) <= _NO_FORCE
+        and largest < _SMALL
+    ):
         raise InputError(
             "drive.torque",
             got=f"{readable(case.drive.torque)} N m, with which gears load the bearings of {bearing.shaft} "
             f"by at most {_NO_FORCE:g} N",
             takes="a larger torque: a bearing without a load has no film that is computed",
         )
-    place = case.bearings_of(bearing.shaft).index(number)
     radial = on_shaft.radial[place]
     radial = radial if radial > _NO_FORCE else 0.0
     if on_shaft.shares is not None:
