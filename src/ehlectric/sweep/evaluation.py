@@ -119,10 +119,21 @@ def _of_drive(case: DriveCase, given: Mapping[str, Any], number: int) -> xr.Data
         columns, values = _columns(_quick(bearing), inputs, number)
         inputs_of_drive |= {key: values[name] for key, name in of_end.items() if name is not None}
         part = _dataset(bearing, columns, values).drop_vars(list(values))
+        if "reason" in part:
+            reasons = [_reason_of_end(case, end, str(reason)) for reason in part["reason"].values]
+            part["reason"] = part["reason"].copy(data=np.array(reasons, dtype=part["reason"].dtype.kind))
         parts.append(part.rename_vars({name: f"{end}.{name}" for name in part.data_vars}))
     coordinates = {key: ("point", values) for key, values in inputs_of_drive.items()}
     attributes = parts[0].attrs | {"title": case.title or "Drive at many points", "case": case.to_toml()}
     return xr.merge(parts, combine_attrs="drop").assign_coords(coordinates).assign_attrs(attributes)
+
+
+def _reason_of_end(case: DriveCase, end: str, reason: str) -> str:
+    """Reason of a bearing with the key of the drive file; empty without a reason."""
+    key, sign, text = reason.partition(": ")
+    if not sign:
+        return reason
+    return f"{REPLACED[key] if key in case.replaced else f'{end}.{key}'}: {text}"
 
 
 def _key_of_end(key: str, end: str) -> str | None:
