@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from ehlectric.axle import WINDING, AxleSolution, Element, Film
 from ehlectric.cases.axle_inputs import LinkKind
 from ehlectric.quantities.formats import amount
-from ehlectric.quantities.lubrication_states import AT_TIMES, CONDUCTS, TOUCHES
+from ehlectric.quantities.lubrication_states import CONDUCTS, NO_LIMIT, TOUCHES
 from ehlectric.readable import readable
 
 # Decades of U/V_b on each side of breakdown that a bar shows.
@@ -94,10 +94,7 @@ def _voltages(film: Film, element: Element | None, voltage: float) -> str:
     if element is None or film.conducts:
         return ""
     if element.breakdown_voltage is None:
-        why = TOUCHES if element.touching else "no breakdown voltage"
-        share = readable(100.0 * element.contact_time_share, 2)
-        at_times = f", conducts {share} %" if element.state == AT_TIMES else ""
-        return f"{readable(voltage, 3)} V, {why}{at_times}"
+        return f"{readable(voltage, 3)} V, {TOUCHES if element.touching else NO_LIMIT}"
     ratio = voltage / element.breakdown_voltage
     return f"{readable(voltage, 3)} V / {readable(element.breakdown_voltage, 3)} V = {readable(ratio, 3)}"
 
