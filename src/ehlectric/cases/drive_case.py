@@ -128,6 +128,10 @@ class DriveCase(CaseFile, book="drive_file"):
         given = {key: getattr(self.drive, above.partition(".")[2]) for key, above in REPLACED.items()}
         return {key: value for key, value in given.items() if value is not None}
 
+    def key_at(self, end: str, key: str) -> str:
+        """Return the key of the drive for a key of the bearing file at an end, or of both bearings."""
+        return REPLACED[key] if key in self.replaced else f"{end}.{key}"
+
     def all_inputs(self) -> dict[str, Any]:
         """Return the tables in SI units, also with the Rq of both bearings that follows from an Ra."""
         return self.to_dict() | {end: getattr(self, end).all_inputs() for end in ENDS}

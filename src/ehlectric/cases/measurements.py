@@ -444,8 +444,7 @@ def capacitance_of(measured: Measurement, uncertainty: float | None = None) -> M
     lacking = {mode: [name for name in mode if not measured.has(name)] for mode in _MODES}
     mode = min(lacking, key=lambda each: len(lacking[each]))
     if lacking[mode]:
-        heads = ", ".join(shown(printable(head)) for head in (*measured.heads.values(), *measured.ignored))
-        of_file = f"; the file contains {heads}"
+        of_file = f"; the file contains {listed_heads((*measured.heads.values(), *measured.ignored))}"
         if not any(measured.has(name) for name in _OF_MODES):
             raise InputError.missing(f"{measured.source}: capacitance", f"{_MODE_TEXT}{of_file}")
         missing, given = lacking[mode][0], mode[0].replace("_", " ")
@@ -874,10 +873,22 @@ def _heads(path: Path, lines: list[str], book: ColumnBook) -> tuple[list[str], i
 _LISTED = 9
 
 
+def listed_heads(heads: Iterable[str]) -> str:
+    """Return the first headings of a file as a message shows them; empty without any.
+
+    Examples
+    --------
+    >>> listed_heads(["speed [rpm]", "", "C"])
+    "'speed [rpm]', 'C'"
+    """
+    listed = [shown(printable(head)) for head in heads if head]
+    return ", ".join(listed[:_LISTED]) + ", ..." * (len(listed) > _LISTED)
+
+
 def _unknown(source: object, heads: Sequence[str], book: ColumnBook) -> InputError:
     """Error of a file without known headings, which lists those that it has."""
-    listed = [shown(printable(head)) for head in heads if head]
-    has = f", but {', '.join(listed[:_LISTED])}{', ...' * (len(listed) > _LISTED)}" if listed else ""
+    listed = listed_heads(heads)
+    has = f", but {listed}" if listed else ""
     return InputError(
         source, f"has no headings of known columns{has}", takes=f"headings such as {book.examples}"
     )

@@ -12,9 +12,9 @@ import numpy as np
 from pydantic import model_validator
 
 from ehlectric.cases.amounts import amount_at
-from ehlectric.cases.measurements import MOST_POINTS, ColumnBook, Measurement, read_measurement
+from ehlectric.cases.measurements import MOST_POINTS, ColumnBook, Measurement, listed_heads, read_measurement
 from ehlectric.cases.table import Table
-from ehlectric.errors import InputError, printable, shown, within
+from ehlectric.errors import InputError, within
 from ehlectric.lubricant.law import is_many
 from ehlectric.lubricant.oil import RangeCheck
 from ehlectric.quantities.result_warnings import ResultWarning
@@ -73,7 +73,7 @@ def with_rows(table: Mapping[Any, Any]) -> Mapping[Any, Any]:
     except InputError as error:
         raise InputError.worded(KEY, str(error)) from None
     if not read.has("viscosity"):
-        heads = ", ".join(shown(printable(head)) for head in (*read.heads.values(), *read.ignored))
+        heads = listed_heads((*read.heads.values(), *read.ignored))
         kinematic = (
             "; multiply a kinematic viscosity by the density"
             if "inema" in heads.lower() or "inéma" in heads.lower()

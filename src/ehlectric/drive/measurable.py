@@ -388,7 +388,7 @@ def _of_bearings(case: DriveCase, models: tuple[BearingModel, BearingModel]) -> 
                     continue
                 others = [other.key for other in models[1].names()]
                 places = {0: place, 1: others.index(key)}
-            drive_key = REPLACED[key] if key in case.replaced else f"{BOTH if equal else ENDS[number]}.{key}"
+            drive_key = case.key_at(BOTH if equal else ENDS[number], key)
             ends = changes[key].ends if key in changes else model.design.films
             label = name.label if equal or shared else f"{name.label}, {ENDS[number].replace('_', ' ')}"
             known = FILMS if key == FILMS and equal else drive_key

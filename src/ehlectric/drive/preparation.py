@@ -17,7 +17,7 @@ from ehlectric.drive.drive_cycle import check_drive_cycle
 from ehlectric.drive.motor_circuit import capacitive_divider
 from ehlectric.drive.source_in_time import SourceInTime
 from ehlectric.errors import InputError, within
-from ehlectric.quantities.inputs import ENDS, REPLACED
+from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable
 
@@ -87,9 +87,8 @@ def of_end(case: DriveCase, end: str) -> Iterator[None]:
     try:
         yield
     except InputError as error:
-        above = REPLACED.get(error.key or "")
-        if above is not None and error.key in case.replaced:
-            raise error.with_text(above, error.text) from None
+        if error.key in case.replaced:
+            raise error.with_text(case.key_at(end, error.key), error.text) from None
         raise error.under(end) from None
 
 

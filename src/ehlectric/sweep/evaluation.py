@@ -131,9 +131,7 @@ def _of_drive(case: DriveCase, given: Mapping[str, Any], number: int) -> xr.Data
 def _reason_of_end(case: DriveCase, end: str, reason: str) -> str:
     """Reason of a bearing with the key of the drive file; empty without a reason."""
     key, sign, text = reason.partition(": ")
-    if not sign:
-        return reason
-    return f"{REPLACED[key] if key in case.replaced else f'{end}.{key}'}: {text}"
+    return f"{case.key_at(end, key)}: {text}" if sign else reason
 
 
 def _key_of_end(key: str, end: str) -> str | None:

@@ -64,13 +64,11 @@ SPELLINGS = {
 
 # Words of keys of the sampling interval, and of keys in general, which are no names of columns.
 INTERVALS = ("interval", "increment", "xinc", "tinc", "hresolution", "rate", "period", "frequency", "delta")
-_STATED = ("unit", "einheit", "length", *INTERVALS)
+_UNITS = ("unit", "einheit")
+_STATED = (*_UNITS, "length", *INTERVALS)
 
 # Beginnings of keys of units above the numbers that belong to the other axis: "Vertical Units", "xunit".
 _OTHERS = {"s": ("v", "y"), "V": ("h", "x", "time", "zeit", "tunit")}
-
-# Words of keys of units.
-_UNITS = ("unit", "einheit")
 
 # Words of a key of units without its channel, as in "Vertical Units CH1" and "Channel 1 Unit".
 _OF_UNIT = re.compile("unit[eé]?s?|einheit(?:en)?|verti[ck]ale?|channel|kanal|ch")
