@@ -5,10 +5,15 @@ from __future__ import annotations
 import reprlib
 import unicodedata
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import Any, Self
+from typing import Any, Self, TypeVar
 
+Item = TypeVar("Item")
+Result = TypeVar("Result")
+
+# Largest number of wrong keys of a table that an error names.
+MOST_NAMED = 100
 # Largest length of a value in a message, and of an error's key, which may be a path, and text [characters].
 _MOST_SHOWN, _LONGEST_LINE = 80, 2000
 
@@ -293,3 +298,25 @@ def shown(value: object) -> str:
         # Python writes no whole number of more than some thousand digits.
         text = f"a whole number of {value.bit_length()} bits" if isinstance(value, int) else "a value"
     return short(text)
+
+
+def for_all(make: Callable[[Item], Result], items: Iterable[Item]) -> list[Result]:
+    """Results for all items. Raises an InputError that joins the errors of up to 100 items.
+
+    Examples
+    --------
+    >>> for_all(int, ["1", "2"])
+    [1, 2]
+    """
+    results: list[Result] = []
+    errors: list[InputError] = []
+    for item in items:
+        try:
+            results.append(make(item))
+        except InputError as error:
+            errors.append(error)
+            if len(errors) == MOST_NAMED:
+                break
+    if errors:
+        raise InputError.together(errors)
+    return results

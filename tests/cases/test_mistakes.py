@@ -197,3 +197,16 @@ def test_many_unknown_keys_are_refused_without_a_search_for_each(monkeypatch, ta
     )
     assert f"{table}a99" in text
     assert f"{table}a100" not in text
+
+
+def test_all_wrong_keys_of_a_table_of_keys_are_named():
+    """Ranges, varied keys and shared keys of bearings are no fields, and each is checked by itself."""
+    tables = BearingCase.from_toml(EXAMPLES / "bearing_6208.toml").to_dict()
+    wrong = {"bearing.radial_lode": ["1 kN", "2 kN"], "bearing.sped": ["1 rpm", "2 rpm"]}
+    with pytest.raises(InputError, match=r"^ranges\.bearing\.radial_lode: .*also ranges\.bearing\.sped: "):
+        BearingCase.from_dict(tables | {"ranges": wrong})
+    with pytest.raises(InputError, match=r"^vary\.bearing\.radial_lode: .*also vary\.bearing\.sped: "):
+        Sweep.from_dict({"case": BearingCase.from_dict(tables), "vary": wrong})
+    axle = AxleCase.from_toml(EXAMPLES / "e_axle.toml").to_dict()
+    with pytest.raises(InputError, match=r"^bearings\.ballz: .*also bearings\.clearence: "):
+        AxleCase.from_dict(axle | {"bearings": {"ballz": 3, "clearence": "CN"}})

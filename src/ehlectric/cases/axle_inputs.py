@@ -11,7 +11,7 @@ from ehlectric.cases.bearing_inputs import Bearing
 from ehlectric.cases.defaults import Contacts
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.table import Table, Title, any_of, similar_keys
-from ehlectric.errors import InputError, shown
+from ehlectric.errors import InputError, for_all, shown
 
 # Name of the node whose potential is 0.
 HOUSING = "housing"
@@ -55,12 +55,15 @@ def _bearing_keys(keys: object) -> dict[str, Any]:
     """Keys of the table ``bearing`` of a bearing file that the axle does not determine."""
     if not isinstance(keys, Mapping):
         raise InputError(got=shown(keys), takes="a table with keys of bearings")
-    for key in keys:
-        if key in _OF_AXLE:
-            raise InputError.worded(key, "is a value of the axle; give it in [drive]")
-        if key not in Bearing.known_keys():
-            raise InputError.unknown(key, any_of(similar_keys(key, [*Bearing.known_keys()])))
+    for_all(_check_bearing_key, keys)
     return dict(keys)
+
+
+def _check_bearing_key(key: str) -> None:
+    if key in _OF_AXLE:
+        raise InputError.worded(key, "is a value of the axle; give it in [drive]")
+    if key not in Bearing.known_keys():
+        raise InputError.unknown(key, any_of(similar_keys(key, [*Bearing.known_keys()])))
 
 
 def _shared_keys(keys: object) -> dict[str, Any]:

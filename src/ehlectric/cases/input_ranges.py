@@ -11,7 +11,7 @@ from pydantic.fields import FieldInfo
 from ehlectric.cases.amounts import Amount
 from ehlectric.cases.table import Table, field_within, leaf_of, nearest_key, number_of, parser_of, table_of
 from ehlectric.cases.table_edits import flattened, given_value
-from ehlectric.errors import InputError, shown
+from ehlectric.errors import InputError, for_all, shown
 from ehlectric.runtime.display import is_number
 
 # Relative error by which a value that is rounded may lie outside of its range.
@@ -44,13 +44,16 @@ def ranges_of(
     """
     if not isinstance(tables, Mapping):
         raise InputError(got=shown(tables), takes="a table of keys, each with a list of two values")
-    ranges: dict[str, InputRange] = {}
-    for key, value in _flat(tables):
-        if key in ranges:
+    known: set[str] = set()
+
+    def ranged(item: tuple[str, Any]) -> InputRange:
+        key, value = item
+        if key in known:
             raise InputError(key, got="it twice", takes="it once")
-        field = field_of_values(key, model) if field_of is None else field_of(key)
-        ranges[key] = _range(key, value, field)
-    return tuple(ranges.values())
+        known.add(key)
+        return _range(key, value, field_of_values(key, model) if field_of is None else field_of(key))
+
+    return tuple(for_all(ranged, _flat(tables)))
 
 
 def _flat(tables: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:

@@ -28,7 +28,7 @@ from pydantic_core import CoreSchema, ErrorDetails, InitErrorDetails
 
 from ehlectric.cases.amounts import WRITTEN, Amount, AmountOrWord, Amounts, Count, with_bounds
 from ehlectric.cases.key_names import ADVICE, refuse_deep, refuse_long_keys
-from ehlectric.errors import InputError, printable, short, shown, unseen
+from ehlectric.errors import MOST_NAMED, InputError, printable, short, shown, unseen
 from ehlectric.quantities.inputs import aliases, inputs
 from ehlectric.quantities.units import ROTATION
 from ehlectric.runtime.display import Tabled
@@ -440,10 +440,6 @@ def nearest(name: str, known: Iterable[str]) -> str:
     return difflib.get_close_matches(name[:100], list(known), n=1, cutoff=0.0)[0]
 
 
-# Largest number of unknown keys of a file that are named.
-_MOST_UNKNOWN = 100
-
-
 def first_error(error: ValidationError, model: type[Table], given: Mapping[str, Any]) -> InputError:
     """Convert a validation error of given tables to one InputError, with all that the user should correct.
 
@@ -453,10 +449,10 @@ def first_error(error: ValidationError, model: type[Table], given: Mapping[str, 
     details = [detail for detail in error.errors() if detail["type"] != "default_factory_not_called"]
     details.sort(key=lambda detail: detail["type"] != "extra_forbidden")
     unknown = [detail["loc"] for detail in details if detail["type"] == "extra_forbidden"]
-    if len(unknown) > _MOST_UNKNOWN:
+    if len(unknown) > MOST_NAMED:
         # The search for keys that were meant takes milliseconds for each.
         places = ([part + 1 if isinstance(part, int) else part for part in loc] for loc in unknown)
-        first, *others = (".".join(map(str, loc)) for loc in islice(places, _MOST_UNKNOWN))
+        first, *others = (".".join(map(str, loc)) for loc in islice(places, MOST_NAMED))
         named = ", ".join(map(short, others))
         text = f"unknown key, one of {len(unknown)} in this file; the next are {named}"
         return InputError.worded(first, text)

@@ -39,7 +39,7 @@ from ehlectric.cases.table import (
     read_toml,
     similar_keys,
 )
-from ehlectric.errors import InputError, printable, short, shown, within
+from ehlectric.errors import InputError, for_all, printable, short, shown, within
 from ehlectric.formulas.sobol import sobol_points
 from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED, end_and_key, key_of_drive
 from ehlectric.quantities.sheets import BREAKDOWNS
@@ -376,10 +376,13 @@ class Sweep(Tabled, Table):
         if not flat:
             raise InputError(got="no key", takes="at least one key of the case with its values or its range")
         written = bool(info.context and info.context.get(WRITTEN))
-        for key in flat:
-            check_varied(key, case, flat)
-        fields = {key: input_field(key_in_file(key, case)) for key in flat}
-        return {key: _axis(key, fields[key], value, design, written=written) for key, value in flat.items()}
+        for_all(lambda key: check_varied(key, case, flat), flat)
+
+        def axis(key: str) -> tuple[str, Any]:
+            field = input_field(key_in_file(key, case))
+            return key, _axis(key, field, flat[key], design, written=written)
+
+        return dict(for_all(axis, flat))
 
     @model_validator(mode="after")
     def _check(self) -> Self:
