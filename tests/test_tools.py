@@ -1,10 +1,12 @@
 """Scripts in tools/ find what breaks a rule of the repository, with file and line."""
 
+import json
+
 import pytest
 
 from ehlectric.version import __version__
 from tests.helpers.places import ROOT
-from tools import check_tag, lint_house, mutants
+from tools import check_tag, frozen, lint_house, mutants
 
 
 @pytest.mark.parametrize(
@@ -206,3 +208,24 @@ def area(side: Literal[2], µ=0.0):
     assert changes == [*first, "5: * -> /", "5: 3 -> 4", "6: - -> +", "6: / -> *"]
     (last,) = (one for one in found if one.old == "/")
     assert last.applied(source).decode().splitlines()[5] == '    return "a" + name, µ - (side) * µ'
+
+
+def test_frozen_numbers_find_what_changed(tmp_path, monkeypatch):
+    """Equal numbers are found equal, and a changed key, text, event and number are found."""
+
+    def status(action):
+        monkeypatch.setattr("sys.argv", ["frozen", action, str(tmp_path), "release"])
+        with pytest.raises(SystemExit) as ended:
+            frozen.main()
+        return ended.value.code
+
+    assert status("make") == status("compare") == 0
+    file = tmp_path / "release.json"
+    stored = json.loads(file.read_text(encoding="utf-8"))
+    stored["drive"]["summary"]["drive_end"]["peak_voltage"] *= 1.0 + 2e-10
+    file.write_text(json.dumps(stored), encoding="utf-8")
+    assert status("compare") == 1
+    before = {"a": [1.0, "x"], "events": [[2.0]], "b": None}
+    after = {"a": [1.0 + 1e-12, "y"], "events": [[2.0 + 1e-12]], "c": None}
+    places = [each.partition(":")[0] for each in frozen.differences(before, after)]
+    assert places == [".a[1]", ".b", ".c", ".events[0][0]"]

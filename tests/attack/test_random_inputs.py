@@ -5,6 +5,7 @@ one reason by ``check`` and by the command. Each run takes 40 valid files of a k
 import numpy as np
 import pytest
 
+from ehlectric.bearing import uncertainty
 from ehlectric.drive import drive_cycle
 from tests.attack.random_inputs import NOT_VALID, drawn, faults
 from tests.helpers.full_cases import OF_DUTY
@@ -24,6 +25,7 @@ SOLVED = 0.25
 @pytest.mark.parametrize("kinds", [*([kind] for kind in MODELS), OF_DUTY], ids=[*MODELS, "duty"])
 def test_answers_are_numbers_or_reasons(kinds, tmp_path, monkeypatch):
     monkeypatch.setattr(drive_cycle, "SIMULATED", 4)
+    monkeypatch.setattr(uncertainty, "STAGES", (128,))
     outcomes, wrong = [], {}
     for number in range(50 * FILES):
         kind = kinds[number % len(kinds)]

@@ -5,17 +5,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ehlectric import InputError, load, save, solve, solve_drive
+from ehlectric import DriveCase, InputError, load, save, solve, solve_drive
 from ehlectric.drive import run as of_drives
 from ehlectric.drive.preparation import prepare
 from ehlectric.drive.result import DriveResult
 from ehlectric.drive.stored import check, parts_of
 from ehlectric.drive.summary import checked_summary
+from ehlectric.drive.warnings import unused_keys
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.runtime.file_rules import UnfitError
 from ehlectric.tables.drive_tables import drive_rows
-from tests.helpers.drives import drive_with_remedy
+from tests.helpers.drives import drive_with_remedy, small_drive
 from tests.helpers.each import each
 
 # Keys of the rates of discharges by the sign of the shaft.
@@ -174,3 +175,19 @@ def test_events_of_another_bearing_than_counted_are_refused(drive):
     for edited in (films * 0, films * 0 + 1, 1 - films):
         with pytest.raises(UnfitError, match=r"event_bearing .*block_events"):
             check(dataset.assign(event_bearing=edited), 2)
+
+
+def test_equal_bearings_have_one_note_also_after_loading():
+    """A file with one bearing is written with two."""
+    motor = {
+        "common_mode_voltage": 300.0,
+        "winding_rotor_capacitance": 2e-11,
+        "rotor_frame_capacitance": 1e-9,
+    }
+    tables = small_drive().to_dict()
+    tables["drive_end"]["motor"] = motor
+    del tables["non_drive_end"]
+    case = DriveCase.from_dict(tables)
+    notes = [str(note) for note in unused_keys(case)]
+    assert len(notes) == 1
+    assert [str(note) for note in unused_keys(DriveCase.from_dict(case.to_dict()))] == notes
