@@ -1,8 +1,10 @@
 """E-axles over time: a drive as an axle of one shaft, and inputs that are refused."""
 
+import tomllib
+
 import pytest
 
-from ehlectric import AxleCase, load, save, solve_axle
+from ehlectric import AxleCase, DriveCase, load, save, solve_axle, solve_drive
 from ehlectric.axle.axle_discharges import _stream_of_bearing, simulate_axle
 from ehlectric.axle.films_in_time import AxleInTime, TimedFilm
 from ehlectric.axle.network import HOUSING, WINDING, Film, Network
@@ -12,6 +14,7 @@ from ehlectric.drive.drive_record import FILM, VOLTAGE
 from ehlectric.errors import InputError
 from tests.axle.axles import ALONE, two_stages
 from tests.helpers.drives import arc, element, march, motor, square
+from tests.helpers.places import EXAMPLES
 
 
 def test_an_axle_of_one_shaft_is_a_drive():
@@ -31,6 +34,29 @@ def test_an_axle_of_one_shaft_is_a_drive():
     assert len(drive.events) > 100
     for name in ("events", "counts", "sums", "largest", "histogram", "above", "peak", "rms", "spectrum"):
         assert getattr(record, name).tolist() == getattr(drive, name).tolist(), name
+
+
+def test_the_example_drive_as_an_axle_of_one_shaft():
+    """Its films, its events, its peaks and its voltage for each volt of the source are those of the drive."""
+    with (EXAMPLES / "drive.toml").open("rb") as file:
+        tables = tomllib.load(file)
+    tables["drive"] |= {"duration": "20 ms"}
+    drive = DriveCase.from_dict(tables | {"remedies": []})
+    of_file = tables["drive_end"]["bearing"]
+    loads = {key: of_file.pop(key) for key in ("radial_load", "axial_load")}
+    bearings = {key: value for key, value in of_file.items() if key not in ("inner_speed", "temperature")}
+    axle = AxleCase.from_dict(
+        {name: tables[name] for name in ("source", "circuit", "breakdown")}
+        | {name: tables["drive_end"][name] for name in ("lubricant", "discharge")}
+        | {"drive": tables["drive"] | {"torque": "1 N m", "contacts": "atlas"}, "bearings": bearings}
+        | {"shaft": [{"name": "rotor", "rotor": True}]}
+        | {"bearing": [{"shaft": "rotor", "at": at, **loads} for at in ("0 m", "1 m")]}
+    )
+    one, other = solve_drive(drive).solution.record, solve_axle(axle).discharges.record
+    assert len(one.events) > 1000
+    for name in ("events", "counts", "sums", "largest", "peak"):
+        assert getattr(other, name).tolist() == getattr(one, name).tolist(), name
+    assert other.rms == pytest.approx(one.rms, rel=1e-10)
 
 
 def test_nothing_discharges_if_all_shafts_are_connected_to_the_housing(tmp_path):

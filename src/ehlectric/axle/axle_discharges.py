@@ -1,7 +1,8 @@
 """Discharges of an axle over the simulated time: films of its elements, and what a simulation records.
 
-An element keeps its positions if its capacitance or its breakdown voltage changes by more than 2 %; otherwise
-it has its mean values. A bearing has positions of its rolling elements, and a mesh has phases of one pitch.
+In an axle with meshes, an element keeps its positions if its capacitance or its breakdown voltage changes by
+more than 2 %; otherwise it has its mean values. A bearing has positions of its rolling elements, and a mesh
+has phases of one pitch.
 """
 
 from __future__ import annotations
@@ -250,8 +251,9 @@ def _films_in_time(solved: SolvedFilms, breakdown: Breakdown, conducting: set[st
         if name not in conducting:
             with _collecting(missing), case.naming(number):
                 element = bearing_element(solved.bearings[number], breakdown)
+                element = _few_positions(element) if case.mesh else element
                 stream = _stream_of_bearing(case, number)
-                films.append(TimedFilm(name, bearing.shaft, HOUSING, _few_positions(element), stream))
+                films.append(TimedFilm(name, bearing.shaft, HOUSING, element, stream))
     for number, (name, mesh) in enumerate(zip(case.names_of_meshes(), case.mesh, strict=True)):
         if name not in conducting:
             with _collecting(missing):
