@@ -6,11 +6,11 @@ import pytest
 
 from ehlectric import AxleCase, DriveCase, load, save, solve_axle, solve_drive
 from ehlectric.axle.axle_discharges import _stream_of_bearing, simulate_axle
-from ehlectric.axle.films_in_time import AxleInTime, TimedFilm
-from ehlectric.axle.network import HOUSING, WINDING, Film, Network
 from ehlectric.axle.solution import solve_elements
 from ehlectric.drive.discharges.films_and_source import Measuring
 from ehlectric.drive.drive_record import FILM, VOLTAGE
+from ehlectric.drive.films_in_time import NetworkInTime, TimedFilm
+from ehlectric.drive.network import HOUSING, WINDING, Film, Network
 from ehlectric.errors import InputError
 from tests.axle.axles import ALONE, two_stages
 from tests.helpers.drives import arc, element, march, motor, square
@@ -28,7 +28,7 @@ def test_an_axle_of_one_shaft_is_a_drive():
         Film("rotor and frame", "rotor", HOUSING, circuit.rotor_frame_capacitance),
     )
     films = (TimedFilm("ab"[k], "rotor", HOUSING, film, k) for k, film in enumerate(bearings))
-    axle = AxleInTime(Network(("rotor",), fixed), tuple(films), breakdown)
+    axle = NetworkInTime(Network(("rotor",), fixed), tuple(films), breakdown)
     measuring = Measuring(0.0, drive.duration, 20.0, (1.0,), 0.0)
     record = axle.march(iter([source]), measuring, 5)
     assert len(drive.events) > 100
@@ -150,7 +150,7 @@ def test_the_first_thresholds_of_a_film_do_not_depend_on_other_films():
     """The first discharges of a film that no other film influences: thresholds from its own stream."""
 
     def first(films):
-        axle = AxleInTime(Network(("rotor", "a"), SEPARATE), films, arc(recovery_time=1e-7))
+        axle = NetworkInTime(Network(("rotor", "a"), SEPARATE), films, arc(recovery_time=1e-7))
         record = axle.march(iter([square(280.0, 1e-4, 1e-7, 20)]), Measuring(0.0, 2e-3, 40.0, (1.0,), 0.0), 7)
         of_rotor = [each.name for each in axle.active].index("rotor bearing")
         return record.events[record.events[:, FILM] == of_rotor][:, VOLTAGE]

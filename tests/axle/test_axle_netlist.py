@@ -9,9 +9,9 @@ from scipy.linalg import expm
 from ehlectric import AxleCase, InputError, write_axle_netlist
 from ehlectric.axle.axle_discharges import _films_in_time
 from ehlectric.axle.axle_netlist_files import AxleNetlist, _distinct, axle_netlist
-from ehlectric.axle.films_in_time import AxleInTime
 from ehlectric.axle.solution import solve_films
 from ehlectric.drive import Measuring, Segments, write_files
+from ehlectric.drive.films_in_time import NetworkInTime
 from tests.axle.axles import two_stages
 from tests.axle.test_films_in_time import axle
 from tests.axle.test_solution import by_hand
@@ -141,7 +141,7 @@ def test_discharges_agree_with_the_march(resistance, tmp_path):
     moments = [1e-6 * (start + 7.0) for start in starts]
 
     breakdown_at_once = arc(**(breakdown | {"recovery_time": "0 s"}))
-    of = axle(kind=AxleInTime, relaxation=np.inf, b1=1.0, breakdown=breakdown_at_once)
+    of = axle(kind=NetworkInTime, relaxation=np.inf, b1=1.0, breakdown=breakdown_at_once)
     none = np.zeros(times.size - 1, dtype=complex)
     source = Segments(np.diff(times), volts[:-1], np.diff(volts) / np.diff(times), none)
     record = of.march(iter([source]), Measuring(0.0, 1e-4, 40.0, (1.0,), np.inf), 0)

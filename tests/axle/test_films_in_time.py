@@ -8,10 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.linalg import eigh
 
-from ehlectric.axle.films_in_time import AxleInTime, TimedFilm
-from ehlectric.axle.network import HOUSING, WINDING, Film, Network
 from ehlectric.drive import Measuring, Segments
 from ehlectric.drive.drive_record import ENERGY, FILM, OFF, ON, VOLTAGE
+from ehlectric.drive.films_in_time import NetworkInTime, TimedFilm
+from ehlectric.drive.network import HOUSING, WINDING, Film, Network
 from ehlectric.errors import InputError
 from tests.helpers.drives import arc, element, from_rest, square
 
@@ -29,7 +29,7 @@ LIMITS = {"b1": 3.0, "m12": 1.8, "b2": 2.0, "m23": 0.74, "b3": 1.0}
 PERIOD, RELAXATION, EDGE = 1e-4, 2e-4, 800.0 / 3.0
 
 
-class Ideal(AxleInTime):
+class Ideal(NetworkInTime):
     """Axle whose discharges take no time, and end at 0 V."""
 
     def films_in_time(self):
@@ -121,7 +121,7 @@ def test_the_first_discharge_of_a_separate_program():
     assert first[ON] == pytest.approx(0.1 * PERIOD, rel=1e-12)
 
 
-@pytest.mark.parametrize("kind", [Ideal, AxleInTime])
+@pytest.mark.parametrize("kind", [Ideal, NetworkInTime])
 def test_the_energy_of_the_source_is_stored_or_discharged(kind):
     """Without leakage, to 1e-9: at each jump from V to W the winding takes a charge at (V + W)/2.
 
@@ -195,7 +195,7 @@ class Balance:
 WINDING_CAPACITANCE = 0.1 * NANO
 
 
-@pytest.mark.parametrize("kind", [Ideal, AxleInTime])
+@pytest.mark.parametrize("kind", [Ideal, NetworkInTime])
 def test_the_energy_of_the_source_is_stored_leaks_or_is_discharged(kind):
     """To 1e-9, with leaking films, a ring and a coupling with resistances; leaks by modes of another program.
 
@@ -257,7 +257,7 @@ def test_short_arcs_are_discharges_that_take_no_time():
     )
     network = axle().network
     ideal, short = (
-        march(kind(network, only_mesh, breakdown), before=0, measured=5) for kind in (Ideal, AxleInTime)
+        march(kind(network, only_mesh, breakdown), before=0, measured=5) for kind in (Ideal, NetworkInTime)
     )
     assert short.events[:, ENERGY] == pytest.approx(ideal.events[:, ENERGY], rel=1e-3)
     assert np.all(short.events[:, FILM] == 1)
@@ -284,7 +284,7 @@ def small_circuit(draw):
     fixed = (Film("winding", WINDING, "1", 0.1 * NANO), Film("rotor and frame", "1", HOUSING, 0.5 * NANO))
     shafts = tuple(dict.fromkeys(shaft for of_film in ends for shaft in of_film if shaft != HOUSING))
     breakdown = arc(arc_resistance=resistance, extinction_voltage=extinction, recovery_time=recovery)
-    return AxleInTime(Network(shafts, fixed), films, breakdown)
+    return NetworkInTime(Network(shafts, fixed), films, breakdown)
 
 
 @pytest.mark.slow

@@ -8,17 +8,17 @@ import pytest
 from ehlectric import AxleCase, InputError, load, save, solve, solve_axle, solve_bearing
 from ehlectric.axle.axle_verdict import axle_verdict
 from ehlectric.axle.measurable import _Probable as Probable
-from ehlectric.axle.network import HOUSING, WINDING, Film, Network
 from ehlectric.axle.solution import AxleSolution, Element, named_warnings, solve_elements, thinnest_first
 from ehlectric.axle.summary import axle_summary, ratio_word
 from ehlectric.cases.drive_inputs import Breakdown, Circuit
 from ehlectric.discharge.breakdown_rule import Chance
 from ehlectric.drive.drive_bearings import bearing_element
-from ehlectric.drive.motor_circuit import capacitive_divider
+from ehlectric.drive.network import HOUSING, WINDING, Film, Network
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable
 from ehlectric.tables.axle_tables import remedy_cells
 from tests.axle.axles import ALONE, two_stages
+from tests.helpers.drives import capacitive_divider
 
 NANO = 1e-9
 

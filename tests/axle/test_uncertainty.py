@@ -5,7 +5,6 @@ import pytest
 
 from ehlectric import AxleCase, InputError, solve_axle
 from ehlectric.axle.many_axles import FilmScales, solve_axles
-from ehlectric.axle.network import firsts
 from ehlectric.axle.solution import solve_elements
 from ehlectric.axle.uncertainty import (
     AxleDesign,
@@ -14,6 +13,7 @@ from ehlectric.axle.uncertainty import (
     has_chance,
     uncertainty_of,
 )
+from ehlectric.drive.network import firsts
 from tests.axle.axles import ALONE, two_stages
 from tests.helpers.each import each
 

@@ -14,7 +14,6 @@ from ehlectric.cases.drive_inputs import RingTable
 from ehlectric.drive.drive_cycle import run_drive_cycle
 from ehlectric.drive.drive_netlist_files import drive_netlist
 from ehlectric.drive.drive_record import COLUMNS
-from ehlectric.drive.motor_circuit import drive_system
 from ehlectric.drive.quick_estimate import expected
 from ehlectric.drive.solver import solve
 from ehlectric.drive.summary import drive_summary
@@ -24,7 +23,7 @@ from ehlectric.report.appendix import named
 from ehlectric.report.drive_report import deciding_blocks
 from ehlectric.report.report_texts import limits_of
 from ehlectric.runs.preview import preview_of
-from tests.helpers.drives import arc, element, from_rest, march, motor, small_drive, square
+from tests.helpers.drives import arc, drive_system, element, from_rest, march, motor, small_drive, square
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
 
@@ -131,7 +130,7 @@ def test_the_shaft_has_the_voltage_of_a_divider_by_hand(rpm, ring):
     """Of a sine: winding-rotor capacitance in series with the ring beside rotor, frame and both bearings."""
     circuit = motor(grounding_ring_table=BRUSH).at_speed(rpm * RPM)
     system = drive_system(circuit, [element(300e-12), element(200e-12)])
-    row = system.potential("rotor")
+    row = system.potential("shaft rotor")
     for frequency in (50.0, 1e4, 1e6, 1e8):
         rate = 2j * math.pi * frequency
         # The states are p + k u, so that p = (i w - A)^-1 B u - k u.

@@ -7,10 +7,9 @@ import numpy as np
 from ehlectric.bearing.circuit import Path
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.drive_inputs import Breakdown, Circuit
-from ehlectric.drive.circuit_states import drive_states
-from ehlectric.drive.discharges.films_and_source import Measuring, Segments, films_of
-from ehlectric.drive.discharges.simulation import simulate
+from ehlectric.drive.discharges.films_and_source import Measuring, Segments
 from ehlectric.drive.drive_bearings import BearingElement
+from ehlectric.drive.films_in_time import rotor_network
 from tests.helpers.places import EXAMPLES
 
 MOTOR = {
@@ -92,8 +91,17 @@ def march(
     chunks = segments if isinstance(segments, list) else [segments]
     duration = float(sum(np.sum(one.duration) for one in chunks))
     measuring = Measuring(0.0, duration, highest, limits, trace, at_event)
-    films = films_of(bearings, breakdown)
-    return simulate(drive_states(circuit, bearings, breakdown, ring), films, iter(chunks), measuring, seed)
+    return rotor_network(circuit, bearings, breakdown, ring).march(iter(chunks), measuring, seed)
+
+
+def capacitive_divider(circuit, bearings):
+    """Voltage across the films of each bearing per volt of the source, right after an edge."""
+    return rotor_network(circuit, bearings, arc()).divider
+
+
+def drive_system(circuit, bearings, conductances=(0.0, 0.0)):
+    """State equations of a drive with conductances of the films of both bearings [S]."""
+    return rotor_network(circuit, bearings, arc()).with_films((0, 0), conductances).equations
 
 
 def drive_with_remedy(**changes):

@@ -6,9 +6,6 @@ from .axle_netlist_files import axle_netlist as axle_netlist
 from .axle_netlist_files import write_axle_netlist as write_axle_netlist
 from .many_axles import solve_axles as solve_axles
 from .measurable import AxleModel as AxleModel
-from .network import HOUSING as HOUSING
-from .network import WINDING as WINDING
-from .network import Film as Film
 from .result import AxleResult as AxleResult
 from .result import solve_axle as solve_axle
 from .run import result_of as result_of

@@ -17,8 +17,6 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.axle.films_in_time import AxleInTime, TimedFilm
-from ehlectric.axle.network import HOUSING, Network
 from ehlectric.axle.solution import AxleSolution, SolvedFilms, solve_films
 from ehlectric.bearing import Path
 from ehlectric.cases.axle_case import AxleCase
@@ -27,15 +25,17 @@ from ehlectric.drive import (
     CHARGE,
     ENERGY,
     FILM,
+    HOUSING,
     OFF,
     ON,
     PEAK,
-    SIMULATING,
     VALUES,
     VOLTAGE,
     BearingElement,
+    NetworkInTime,
     Record,
     SourceInTime,
+    TimedFilm,
     bearing_element,
     event_rate,
     spread,
@@ -174,19 +174,12 @@ def simulate_axle(
     solved = solve_films(case) if films is None else films
     timed = _films_in_time(solved, breakdown, _conducting(solution))
     names = {each.name for each in timed}
-    fixed = Network(network.shafts, tuple(each for each in network.elements if each.name not in names))
-    axle = AxleInTime(fixed, tuple(timed), breakdown, source.ring_rate)
+    fixed = replace(network, elements=tuple(each for each in network.elements if each.name not in names))
+    axle = NetworkInTime(fixed, tuple(timed), breakdown, source.ring_rate)
     if not axle.floating:
         return None
     divider = max((abs(value) for value in network.potentials(1.0).values()), default=0.0)
-    whole = source.settling + source.duration
-    record = axle.march(
-        source.chunks(),
-        source.measuring(divider),
-        case.drive.seed,
-        lambda time: progress(round(100.0 * min(time / whole, 1.0)), 100, SIMULATING),
-        lambda text: progress(0, 100, text),
-    )
+    record = axle.record(source, divider, case.drive.seed, progress)
     return AxleDischarges(tuple(each.name for each in axle.active), axle.floating, record)
 
 

@@ -11,12 +11,12 @@ import numpy as np
 
 from ehlectric.arrays import Array, IntArray, Mask
 from ehlectric.axle.many_axles import solve_axles
-from ehlectric.axle.network import firsts, touches, voltage_ratios
 from ehlectric.axle.solution import AxleSolution
 from ehlectric.bearing import duty_csv, edges_of, file_warnings, moves
 from ehlectric.cases.axle_case import AxleCase, changed_axle
 from ehlectric.cases.duty_inputs import Cycle, Duty, read_cycle
 from ehlectric.cases.measurements import AXLE_CYCLE
+from ehlectric.drive import firsts, touches, voltage_ratios
 from ehlectric.errors import InputError
 from ehlectric.quantities.lubrication_states import AT_TIMES, CONDUCTS, INSULATES
 from ehlectric.quantities.result_warnings import ResultWarning

@@ -6,14 +6,16 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from ehlectric.axle.network import HOUSING, WINDING, Film
 from ehlectric.axle.solution import AxleSolution, Element, SolvedFilms, elements_of, solve_films
 from ehlectric.bearing import oil_conductance, oil_relaxation_time, shaft_path
 from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.drive_inputs import Breakdown
 from ehlectric.drive import (
+    HOUSING,
     OPEN,
     SIGNATURE,
+    WINDING,
+    Film,
     Parameter,
     about_source,
     check_targets,

@@ -14,7 +14,6 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.axle.axle_verdict import axle_verdict
-from ehlectric.axle.network import times_strength
 from ehlectric.axle.solution import (
     AxleSolution,
     elements_of,
@@ -41,6 +40,7 @@ from ehlectric.bearing import (
 from ehlectric.cases.axle_case import AxleCase, changed_bearings
 from ehlectric.cases.axle_keys import OF_ELEMENTS, OF_SHAFTS
 from ehlectric.discharge.breakdown_rule import Chance
+from ehlectric.drive import times_strength
 from ehlectric.gear import reference_area_of
 from ehlectric.quantities.lubrication_states import CONDUCTS
 from ehlectric.quantities.rows import value_at

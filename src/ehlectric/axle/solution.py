@@ -20,7 +20,6 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.axle.adjusted_rows import AdjustedRows
-from ehlectric.axle.network import HOUSING, WINDING, Film, Network, rank
 from ehlectric.axle.shaft_loads import BearingLoads, ForceAt, bearing_loads, forces_of_mesh
 from ehlectric.bearing import (
     BearingResult,
@@ -36,6 +35,7 @@ from ehlectric.cases.axle_case import AxleCase, Turning
 from ehlectric.cases.axle_inputs import CONDUCTING, Shaft
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.gear_inputs import Conduction
+from ehlectric.drive import HOUSING, Film, Network, machine, rank
 from ehlectric.errors import ConvergenceError, InputError, within
 from ehlectric.gear import (
     GearSolution,
@@ -150,15 +150,10 @@ class AxleSolution:
             yield weight, self._network(films)
 
     def _network(self, of_elements: Iterable[Film]) -> Network:
-        case, given = self.case, self.case.circuit.capacitances
-        rotor = case.rotor
-        films = [
-            Film("winding", WINDING, rotor, given["winding_rotor_capacitance"]),
-            Film("rotor and frame", rotor, HOUSING, given["rotor_frame_capacitance"]),
-        ]
-        ring = case.circuit.grounding_ring_resistance
-        if ring is not None:
-            films.append(Film("grounding ring", rotor, HOUSING, 0.0, conductance=1.0 / ring))
+        case = self.case
+        of_machine = machine(case.circuit, case.rotor)
+        # Without inductances, what lies at the winding alone has the voltage of the inverter.
+        films = [each for each in of_machine.elements if case.rotor in (each.first, each.second)]
         for shaft in case.shaft:
             if shaft.housing_capacitance is not None:
                 films.append(

@@ -27,7 +27,6 @@ import numpy as np
 from ehlectric.arrays import Array, IntArray
 from ehlectric.axle.film_capacitances import FilmCapacitances
 from ehlectric.axle.many_axles import FilmScales, solve_axles
-from ehlectric.axle.network import firsts, times_strength, voltage_ratios
 from ehlectric.axle.solution import AxleSolution, SolvedFilms, solve_films
 from ehlectric.bearing import (
     FILMS,
@@ -54,6 +53,7 @@ from ehlectric.cases.axle_case import AxleCase, changed_axle, changed_bearings
 from ehlectric.cases.input_keys import is_quantity
 from ehlectric.discharge.breakdown_rule import INTERVAL
 from ehlectric.discharge.discharge_laws import MOST_MARGIN
+from ehlectric.drive import firsts, times_strength, voltage_ratios
 from ehlectric.errors import InputError
 from ehlectric.formulas.sobol import sobol_points
 from ehlectric.formulas.variance_shares import variance_shares

@@ -2,28 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from ehlectric.cases.drive_inputs import Breakdown, Circuit
-from ehlectric.drive.drive_bearings import BearingElement
-from ehlectric.drive.motor_circuit import (
-    FRAME,
-    ROTOR,
-    Complex,
-    Element,
-    Integers,
-    Modes,
-    StateSpace,
-    bearing_elements,
-    film_nodes,
-    modes_of,
-    motor_elements,
-    source_nodes,
-    state_space,
-)
+from ehlectric.drive.circuit_equations import Complex, Integers, Modes, StateSpace, modes_of
 
 # What a film does in a state of the circuit: it insulates, conducts through an arc, or touches.
 INSULATES, BURNS, TOUCHES = range(3)
@@ -113,38 +96,3 @@ class CircuitStates:
 def _with(values: tuple[int, ...], place: int, value: int) -> tuple[int, ...]:
     """Copy of some numbers with another one at a place."""
     return (*values[:place], value, *values[place + 1 :])
-
-
-def states_in_time(
-    fixed: Sequence[Element],
-    films: Sequence[tuple[Nodes, BearingElement]],
-    shafts: Sequence[Nodes],
-    source: Nodes,
-    breakdown: Breakdown,
-    ring: complex | None = None,
-) -> CircuitStates:
-    """Circuit states of films between nodes, with elements that do not change.
-
-    ``shafts``, nodes between which the voltages of shafts lie; ``source``, positive and negative node of the
-    source; ``ring``, rate at which it rings [1/s].
-    """
-    arc = 1.0 / breakdown.arc_resistance if breakdown.arc_resistance else math.inf
-    conductances = [(0.0, arc, 1.0 / film.touch_resistance) for _, film in films]
-
-    def system_in(places: tuple[int, ...], doing: tuple[int, ...]) -> StateSpace:
-        elements = list(fixed)
-        for b, (nodes, film) in enumerate(films):
-            elements += bearing_elements(film, nodes, places[b], conductances[b][doing[b]])
-        return state_space(elements, source)
-
-    positions = [film.capacitance.size for _, film in films]
-    return CircuitStates(system_in, positions, [nodes for nodes, _ in films], shafts, ring)
-
-
-def drive_states(
-    circuit: Circuit, bearings: Sequence[BearingElement], breakdown: Breakdown, ring: complex | None = None
-) -> CircuitStates:
-    """Circuit states of a drive; ``ring``, rate at which its source rings [1/s]."""
-    films = list(zip(film_nodes(bearings), bearings, strict=True))
-    fixed, source = list(motor_elements(circuit)), source_nodes(circuit)
-    return states_in_time(fixed, films, [(ROTOR, FRAME)], source, breakdown, ring)

@@ -13,18 +13,9 @@ from ehlectric.arrays import Array
 from ehlectric.bearing import BearingResult, solve_bearing
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.drive_inputs import Source
+from ehlectric.drive.circuit_equations import FRAME, Element
 from ehlectric.drive.inverter import steps_of
 from ehlectric.drive.measured_source import measured_source
-from ehlectric.drive.motor_circuit import (
-    EARTH,
-    FRAME,
-    ROTOR,
-    SOURCE,
-    WINDING,
-    Element,
-    motor_elements,
-    source_nodes,
-)
 from ehlectric.drive.netlist import (
     SIGNATURE,
     TEXTS,
@@ -38,6 +29,7 @@ from ehlectric.drive.netlist import (
     subcircuit_of,
 )
 from ehlectric.drive.netlist_files import check_targets, write_files
+from ehlectric.drive.network import EARTH, SOURCE, WINDING, machine
 from ehlectric.drive.source_pieces import edges
 from ehlectric.drive.waveform.waveform import Waveform
 from ehlectric.errors import InputError
@@ -56,7 +48,8 @@ _JUMP, _IN_EDGE, _IN_ALL = 1e-9, 20.0, 80_000.0
 # Points of the source on a line.
 _POINTS = 6
 
-_NODES = {FRAME: "0", ROTOR: "shaft", SOURCE: "inverter", WINDING: "winding", EARTH: "earth"}
+_ROTOR = "rotor"
+_NODES = {FRAME: "0", _ROTOR: "shaft", SOURCE: "inverter", WINDING: "winding", EARTH: "earth"}
 _KINDS = {"capacitor": ("C", "F"), "conductor": ("R", "Ohm"), "inductor": ("L", "H")}
 
 
@@ -85,8 +78,9 @@ class DriveNetlist:
         case, bench = self.case, TEXTS["drive_bench"]
         circuit, source = case.running_circuit, case.running_source
         points, step = source_points(source, self.waveform)
-        elements = tuple(_named(motor_elements(circuit)))
-        positive, negative = (_NODES[node] for node in source_nodes(circuit))
+        network = machine(circuit, _ROTOR)
+        elements = tuple(_named(network.circuit()))
+        positive, negative = (_NODES[node] for node in network.ends)
         about = (
             f"title: {case.title or '(none)'}",
             f"common-mode voltage: {about_source(source)}, as points over time",
@@ -243,9 +237,11 @@ def _named(elements: Iterator[Element]) -> Iterator[tuple[str, Element]]:
     """Elements with names after their nodes; a second one between two nodes has a number."""
     seen: Counter[str] = Counter()
     for element in elements:
-        name = f"{_KINDS[element.kind][0]}_{element.first}_{element.second}"
+        first, second = (node.removeprefix("shaft ") for node in (element.first, element.second))
+        name = f"{_KINDS[element.kind][0]}_{first}_{second}"
         seen[name] += 1
-        yield name if seen[name] == 1 else f"{name}_{seen[name]}", element
+        named = replace(element, first=first, second=second)
+        yield name if seen[name] == 1 else f"{name}_{seen[name]}", named
 
 
 def _parameters(name: str, element: Element) -> Iterator[str]:

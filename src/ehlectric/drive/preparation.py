@@ -10,11 +10,9 @@ import numpy as np
 
 from ehlectric.bearing import BearingResult, solve_bearing
 from ehlectric.cases.drive_case import DriveCase
-from ehlectric.drive.circuit_states import CircuitStates, drive_states
-from ehlectric.drive.discharges.films_and_source import Films, films_of
 from ehlectric.drive.drive_bearings import BearingElement, bearing_element
 from ehlectric.drive.drive_cycle import check_drive_cycle
-from ehlectric.drive.motor_circuit import capacitive_divider
+from ehlectric.drive.films_in_time import NetworkInTime, rotor_network
 from ehlectric.drive.source_in_time import SourceInTime
 from ehlectric.errors import InputError, within
 from ehlectric.quantities.inputs import ENDS
@@ -29,7 +27,6 @@ class PreparedDrive:
     case: DriveCase
     bearings: tuple[BearingResult, BearingResult]
     elements: tuple[BearingElement, BearingElement]
-    films: Films
     source: SourceInTime
 
     @property
@@ -48,15 +45,16 @@ class PreparedDrive:
         return self.source.duration
 
     @property
-    def divider(self) -> tuple[float, float]:
-        """Voltage across the films of each bearing per volt of the source, by the capacitances."""
-        return capacitive_divider(self.case.running_circuit, self.elements)
+    def network(self) -> NetworkInTime:
+        """Rotor with both bearings."""
+        circuit, breakdown = self.case.running_circuit, self.case.breakdown
+        return rotor_network(circuit, self.elements, breakdown, self.source.ring_rate)
 
     @property
-    def circuits(self) -> CircuitStates:
-        """States of the circuit, which only the simulation needs."""
-        circuit, breakdown = self.case.running_circuit, self.case.breakdown
-        return drive_states(circuit, self.elements, breakdown, self.source.ring_rate)
+    def divider(self) -> tuple[float, float]:
+        """Voltage across the films of each bearing per volt of the source, at the first position."""
+        first, second = self.network.divider
+        return first, second
 
 
 def prepare(case: DriveCase, *, workers: int | None = None) -> PreparedDrive:
@@ -78,7 +76,7 @@ def prepare(case: DriveCase, *, workers: int | None = None) -> PreparedDrive:
     )
     _check_extinction(case, elements)
     source = SourceInTime.of(case.running_source, case.source, case.breakdown, case.drive.duration)
-    return PreparedDrive(case, results, elements, films_of(elements, case.breakdown), source)
+    return PreparedDrive(case, results, elements, source)
 
 
 @contextmanager

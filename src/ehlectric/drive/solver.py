@@ -8,8 +8,7 @@ import numpy as np
 
 from ehlectric.bearing import life_summary
 from ehlectric.cases.drive_case import DriveCase
-from ehlectric.drive.discharges.simulation import simulate
-from ehlectric.drive.drive_record import SIMULATING, DriveSolution
+from ehlectric.drive.drive_record import DriveSolution
 from ehlectric.drive.preparation import prepare
 from ehlectric.drive.warnings import bearing_warnings
 from ehlectric.quantities.inputs import ENDS
@@ -20,26 +19,16 @@ from ehlectric.runtime.progress import Progress, silent
 def solve(case: DriveCase, progress: Progress = silent, *, workers: int | None = None) -> DriveSolution:
     """Solve the bearings of a drive, and simulate it over time; raises the errors of ``prepare``."""
     ready = prepare(case, workers=workers)
-    source = ready.source
-    whole = source.settling + source.duration
-    record = simulate(
-        ready.circuits,
-        ready.films,
-        source.chunks(),
-        source.measuring(max(ready.divider)),
-        case.drive.seed,
-        lambda time: progress(round(100.0 * min(time / whole, 1.0)), 100, SIMULATING),
-        lambda text: progress(0, 100, text),
-    )
+    record = ready.network.record(ready.source, max(ready.divider), case.drive.seed, progress)
     return DriveSolution(
         case=case,
         elements=ready.elements,
         # The values of its only shaft are in the record.
         record=replace(record, trace=record.trace[:, : 2 + len(ENDS)], shafts=np.zeros((0, 4))),
         divider=ready.divider,
-        highest_source=source.highest,
+        highest_source=ready.source.highest,
         converged=all(bearing.converged for bearing in ready.bearings),
-        prior_warnings=(*source.prior_warnings, *bearing_warnings(ready.bearings)),
+        prior_warnings=(*ready.source.prior_warnings, *bearing_warnings(ready.bearings)),
         lives=tuple(plain(life_summary(bearing.solution)) for bearing in ready.bearings),
         bearings=ready.bearings,
     )

@@ -15,7 +15,7 @@ from ehlectric.cases.plausibility import unusual_machine
 from ehlectric.discharge.discharge_laws import CURRENT_DENSITY_LIMITS, compared_with_limits
 from ehlectric.drive.drive_bearings import BearingElement
 from ehlectric.drive.drive_record import FEW, FILM, ON, DriveSolution
-from ehlectric.drive.motor_circuit import oscillations
+from ehlectric.drive.films_in_time import rotor_network
 from ehlectric.quantities.formats import amount, rpm_text
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.result_warnings import ResultWarning, active
@@ -156,7 +156,8 @@ def _of_conduction(case: DriveCase, bearings: Sequence[BearingElement]) -> Itera
 
 def _of_oscillations(case: DriveCase, bearings: Sequence[BearingElement]) -> Iterator[ResultWarning]:
     """Warning of an inductance that rings with the capacitances for hundreds of periods."""
-    frequency, quality = next(iter(oscillations(case.running_circuit, bearings)), (0.0, 0.0))
+    rotor = rotor_network(case.running_circuit, bearings, case.breakdown)
+    frequency, quality = next(iter(rotor.at_rest.oscillations()), (0.0, 0.0))
     if quality > _UNDAMPED:
         paths = [name for name in ("common_mode", "ground") if getattr(case.circuit, f"{name}_inductance")]
         bare = [name for name in paths if not getattr(case.circuit, f"{name}_resistance")] or paths

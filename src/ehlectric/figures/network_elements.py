@@ -6,8 +6,9 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from ehlectric.axle import WINDING, AxleSolution, Element, Film
+from ehlectric.axle import AxleSolution, Element
 from ehlectric.cases.axle_inputs import LinkKind
+from ehlectric.drive import WINDING, Film
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.lubrication_states import CONDUCTS, NO_LIMIT, TOUCHES
 from ehlectric.readable import readable

@@ -15,7 +15,8 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import FancyBboxPatch, Patch, Rectangle
 
-from ehlectric.axle import HOUSING, AxleResult, AxleSolution
+from ehlectric.axle import AxleResult, AxleSolution
+from ehlectric.drive import HOUSING
 from ehlectric.errors import printable
 from ehlectric.figures.network_elements import NetworkElement, elements_of_network, lanes_of
 from ehlectric.figures.style import broken, legend_above, new_panels, text_colour

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from ehlectric.bearing.circuit import Path
-from ehlectric.drive.motor_circuit import capacitive_divider, motor_elements, state_space
-from tests.helpers.drives import element, motor
+from ehlectric.drive.network import machine
+from tests.helpers.drives import capacitive_divider, element, motor
 from tests.helpers.each import each
 
 INDUCTANCES = (
@@ -39,6 +39,6 @@ def test_inductances_without_a_capacitance_between_them_are_in_series():
     circuit = motor(common_mode_inductance="3 uH", common_mode_resistance="4 ohm", **keys)
     capacitance = 5e-9 + 50e-12 * 500e-12 / 550e-12
     poles = np.roots([5e-6, 5.0, 1.0 / capacitance])
-    rates = np.linalg.eigvals(state_space(list(motor_elements(circuit)), ("source", "frame")).rates)
+    rates = np.linalg.eigvals(machine(circuit, "rotor").equations.rates)
     assert sorted(rates[np.abs(rates) > 1.0].imag) == pytest.approx(sorted(poles.imag), rel=1e-9)
     assert np.max(rates.real[np.abs(rates) > 1.0]) == pytest.approx(poles[0].real, rel=1e-9)

@@ -6,8 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.linalg import expm
 
-from ehlectric.drive.circuit_states import MOVED, drive_states
-from ehlectric.drive.motor_circuit import INVERSE, RATE_ROW, SHAPES, Element, modes_of, state_space
+from ehlectric.drive.circuit_equations import INVERSE, RATE_ROW, SHAPES, Element, modes_of, state_space
+from ehlectric.drive.circuit_states import MOVED
+from ehlectric.drive.films_in_time import rotor_network
 from tests.helpers.drives import arc, element, motor
 
 
@@ -92,11 +93,11 @@ def test_modes_of_shafts_that_nothing_discharges(burning):
 def test_a_film_that_moves_has_its_next_capacitance():
     """The state after each move is the first state of a film whose capacitances begin further along."""
     capacitances = np.array([1e-10, 2e-10, 5e-10])
-    states, state = drive_states(motor(), [element(capacitances), element()], arc()), 0
+    states, state = rotor_network(motor(), [element(capacitances), element()], arc()).states(), 0
     for moves in (1, 2, 3):
         states.make(state, 0, MOVED)
         state = int(states.links[state, 0, MOVED])
         turned = element(np.roll(capacitances, -moves))
-        expected = drive_states(motor(), [turned, element()], arc())
+        expected = rotor_network(motor(), [turned, element()], arc()).states()
         np.testing.assert_array_equal(states.rows[state], expected.rows[0])
     assert state == 0

@@ -7,13 +7,7 @@ import pytest
 
 from ehlectric.bearing.circuit import Path
 from ehlectric.drive.drive_record import CHARGE, ENERGY, FILM, ON, VOLTAGE
-from ehlectric.drive.motor_circuit import (
-    bearing_elements,
-    drive_system,
-    film_nodes,
-    motor_elements,
-    source_nodes,
-)
+from ehlectric.drive.films_in_time import rotor_network
 from tests.helpers.drives import arc, element, from_rest, march, motor, square
 from tests.helpers.ngspice import waveform
 
@@ -41,11 +35,8 @@ CIRCUITS = {
 
 def netlist(circuit, bearings, segments, *, switch=None):
     """Lines of a netlist of the same elements, with the source as points in time."""
-    nodes = film_nodes(bearings)
-    own = [*motor_elements(circuit)]
-    for one, ends in zip(bearings, nodes, strict=True):
-        own += bearing_elements(one, ends, 0, 0.0)
-    positive, negative = source_nodes(circuit)
+    network = rotor_network(circuit, bearings, arc()).at_rest
+    own, (positive, negative) = [*network.circuit()], network.ends
     times = np.concatenate([[0.0], np.cumsum(segments.duration)])
     values = np.append(segments.level, segments.level[-1])
     points = " ".join(f"{t:.12e} {v:.6e}" for t, v in zip(times, values, strict=True))
@@ -59,7 +50,7 @@ def netlist(circuit, bearings, segments, *, switch=None):
         else:
             lines += [f"L{k} {named(one.first)} inner{k} {one.value:.12e}",
                       f"RL{k} inner{k} {named(one.second)} {max(one.resistance, 1e-9):.12e}"]  # fmt: skip
-    first = drive_system(circuit, bearings)
+    first = network.equations
     start = -first.jump * segments.level[0]
     starts = dict(zip(first.nodes, start, strict=False))
     starts[positive] = starts.get(negative, 0.0) + segments.level[0]
@@ -68,7 +59,13 @@ def netlist(circuit, bearings, segments, *, switch=None):
 
 
 def named(node):
-    return "0" if node == "frame" else node
+    return "0" if node == "frame" else node.replace(" ", "_")
+
+
+def film_nodes(circuit, bearings):
+    """Nodes between which the films of each bearing lie."""
+    rotor = rotor_network(circuit, bearings, arc())
+    return [(rotor.at_rest.nodes[each.first], rotor.at_rest.nodes[each.lower]) for each in rotor.films]
 
 
 def film_vector(nodes):
@@ -87,7 +84,7 @@ def test_voltage_without_breakdown_is_that_of_ngspice(name, tmp_path):
     lines.append(".options reltol=1e-7 abstol=1e-12 vntol=1e-9 method=gear maxord=2")
     length = PERIOD * PERIODS
     # Films without a coating have the same voltage.
-    for film, ends in enumerate(dict.fromkeys(film_nodes(bearings))):
+    for film, ends in enumerate(dict.fromkeys(film_nodes(circuit, bearings))):
         times, values = waveform(tmp_path, lines, f"tran 20n {length} 0 4n uic", film_vector(ends))
         theirs = np.interp(record.trace[:, 0], times, values)
         mine = record.trace[:, 2 + film]
@@ -106,7 +103,7 @@ def test_discharges_at_a_fixed_threshold_are_those_of_ngspice(name, tmp_path):
     bearings, breakdown = [first, second], arc(extinction_voltage=extinction, arc_resistance=resistance)
     segments = from_rest(square(VOLTAGE_OF_LINK, PERIOD, RISE, 4), RISE)
     record = march(circuit, bearings, breakdown, segments)
-    upper, lower = map(named, film_nodes(bearings)[0])
+    upper, lower = map(named, film_nodes(circuit, bearings)[0])
     middle, half = 0.5 * (threshold + extinction), 0.5 * (threshold - extinction)
     switch = [
         f"Babs control 0 V=abs(v({upper},{lower}))",

@@ -11,7 +11,7 @@ from scipy.integrate import quad
 from ehlectric.drive.discharges.films_and_source import Segments
 from ehlectric.drive.drive_record import CHARGE, ENERGY, FILM, OFF, ON, PEAK, VOLTAGE
 from ehlectric.errors import InputError
-from tests.helpers.drives import arc, element, march, motor, square
+from tests.helpers.drives import arc, drive_system, element, march, motor, square
 
 
 def level(voltage, duration, count=1):
@@ -136,15 +136,13 @@ def test_charge_and_energy_with_leak_and_inductance_balance():
     """Over the first event: what the arc takes is what the states say, by an independent integration."""
     from scipy.integrate import solve_ivp
 
-    from ehlectric.drive.motor_circuit import drive_system
-
     circuit = motor(common_mode_inductance="1 uH", common_mode_resistance="3 ohm")
     bearings = [element(breakdown=4.0, conductance=1e-5), element(conductance=1e-5)]
     breakdown = arc(extinction_voltage=0.1, recovery_time=2e-8)
     record = march(circuit, bearings, breakdown, ramp(0.0, 1e8, 2e-6, 5))
     event = record.events[0]
-    before, burning = (drive_system(circuit, bearings, (0, 0), (arc, 0.0)) for arc in (0.0, 0.1))
-    rotor = before.potential("rotor")
+    before, burning = (drive_system(circuit, bearings, (arc, 0.0)) for arc in (0.0, 0.1))
+    rotor = before.potential("shaft rotor")
 
     def rates(system):
         return lambda t, x: system.rates @ x + system.force * 1e8 * t

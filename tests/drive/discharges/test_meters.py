@@ -7,8 +7,7 @@ from scipy.linalg import expm
 from ehlectric.bearing.circuit import Path
 from ehlectric.drive.discharges.films_and_source import Segments
 from ehlectric.drive.drive_record import FILM, ON, VOLTAGE
-from ehlectric.drive.motor_circuit import capacitive_divider, drive_system
-from tests.helpers.drives import arc, element, march, motor, square
+from tests.helpers.drives import arc, capacitive_divider, drive_system, element, march, motor, square
 
 PERIOD = 1e-4
 
@@ -163,11 +162,11 @@ class Steps:
     def __init__(self, circuit, bearings, breakdown, dt):
         through_arc = 1.0 / breakdown.arc_resistance
         systems = [
-            drive_system(circuit, bearings, (0, 0), (first, second))
+            drive_system(circuit, bearings, (first, second))
             for first in (0.0, through_arc)
             for second in (0.0, through_arc)
         ]
-        self.rotor = systems[0].potential("rotor")
+        self.rotor = systems[0].potential("shaft rotor")
         self.jump = [system.jump for system in systems]
         self.breakdown, self.dt = breakdown, dt
         self.limits = [one.breakdown[0] for one in bearings]

@@ -5,8 +5,7 @@ import pytest
 
 from ehlectric.bearing.circuit import Path
 from ehlectric.drive.discharges.event_loop import LINES, empty_means
-from ehlectric.drive.motor_circuit import capacitive_divider
-from tests.helpers.drives import arc, element, march, motor, square
+from tests.helpers.drives import arc, capacitive_divider, element, march, motor, square
 
 PERIOD, PERIODS = 1e-4, 20
 

@@ -9,9 +9,8 @@ from ehlectric.drive.discharges.films_and_source import Segments
 from ehlectric.drive.drive_bearings import bearing_element
 from ehlectric.drive.drive_netlist_files import drive_netlist
 from ehlectric.drive.inverter import steps_of
-from ehlectric.drive.motor_circuit import capacitive_divider
 from ehlectric.drive.source_pieces import edges
-from tests.helpers.drives import arc, march, small_drive
+from tests.helpers.drives import arc, capacitive_divider, march, small_drive
 from tests.helpers.ngspice import run_netlist
 
 STRONG = {"bearings.discharge.dielectric_strength": "190 V/um"}

@@ -26,9 +26,9 @@ from ehlectric.app.view_models import (
     Number,
     Table,
 )
-from ehlectric.axle import HOUSING, AxleResult, ratio_word, solve_axle, worst_ratio
+from ehlectric.axle import AxleResult, ratio_word, solve_axle, worst_ratio
 from ehlectric.cases.axle_case import AxleCase
-from ehlectric.drive import SIMULATING
+from ehlectric.drive import HOUSING, SIMULATING
 from ehlectric.errors import InputError, printable
 from ehlectric.figures.network_elements import elements_of_network
 from ehlectric.quantities.formats import amount_text

@@ -17,6 +17,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ehlectric.arrays import Array
+from ehlectric.drive.circuit_equations import CHARGE as CHARGES
+from ehlectric.drive.circuit_equations import JUMP_ROW, UNCHARGE, VOLTAGE_ROWS, Complex, Integers
 from ehlectric.drive.circuit_states import BURNS, DOES, MOVED
 from ehlectric.drive.discharges.compiled import compiled, inlined, inner
 from ehlectric.drive.discharges.voltages_in_time import (
@@ -33,8 +35,6 @@ from ehlectric.drive.discharges.voltages_in_time import (
     unfold,
 )
 from ehlectric.drive.drive_record import CHARGE, COLUMNS, ENERGY, FILM, OFF, ON, PEAK, PLACE, VOLTAGE
-from ehlectric.drive.motor_circuit import CHARGE as CHARGES
-from ehlectric.drive.motor_circuit import JUMP_ROW, UNCHARGE, VOLTAGE_ROWS, Complex, Integers
 
 # Largest number of lines of a spectrum, and the frequency above which it has none [Hz]: edges of 100 ns have
 # their corner at 1/(pi 100 ns) = 3 MHz.

@@ -11,8 +11,8 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.cases.drive_inputs import Breakdown
+from ehlectric.drive.circuit_equations import Complex, Integers
 from ehlectric.drive.drive_bearings import BearingElement
-from ehlectric.drive.motor_circuit import Complex, Integers
 
 
 class Films(NamedTuple):

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array
+from ehlectric.drive.circuit_equations import RATE_ROW
 from ehlectric.drive.circuit_states import CircuitStates
 from ehlectric.drive.discharges.compiled import compile_for
 from ehlectric.drive.discharges.event_loop import (
@@ -75,7 +76,6 @@ from ehlectric.drive.discharges.event_loop import (
 from ehlectric.drive.discharges.films_and_source import Films, Measuring, Segments
 from ehlectric.drive.discharges.voltages_in_time import empty_piece, empty_series
 from ehlectric.drive.drive_record import COLUMNS, FILM, KEPT, OFF, ON, VOLTAGE, Record
-from ehlectric.drive.motor_circuit import RATE_ROW
 from ehlectric.errors import InputError
 from ehlectric.readable import readable
 

@@ -15,8 +15,7 @@ import math
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.drive.discharges.compiled import inner
-from ehlectric.drive.motor_circuit import (
+from ehlectric.drive.circuit_equations import (
     FORCE_ROW,
     INVERSE,
     RATE_ROW,
@@ -25,6 +24,7 @@ from ehlectric.drive.motor_circuit import (
     VOLTAGE_ROWS,
     Complex,
 )
+from ehlectric.drive.discharges.compiled import inner
 
 # Size of lambda t below which phi2 is summed from its series.
 SERIES = 0.1

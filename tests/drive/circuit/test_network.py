@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.axle.network import HOUSING, WINDING, Film, Network, rank
+from ehlectric.drive.network import HOUSING, WINDING, Film, Network, rank
 
 NANO = 1e-9
 

@@ -1,4 +1,4 @@
-"""Network of capacitances of shafts, housing and winding: voltages after an edge, and what a breakdown does.
+"""Network of shafts, housing and machine: voltages after an edge, and what a breakdown does.
 
 Nodes are the shafts; the housing has the potential 0, and the winding is driven by the source. C is the
 matrix of capacitances of the shafts: C_ii the sum of all capacitances at shaft i, -C_ij the capacitance
@@ -23,8 +23,9 @@ with the modes G phi_k = s_k C phi_k and phi_k'C phi_k = 1. Without conductances
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -32,22 +33,29 @@ import scipy
 
 from ehlectric.arrays import Array, IntArray, Mask
 from ehlectric.cases.axle_inputs import HOUSING as HOUSING
-from ehlectric.drive import FRAME, StateSpace, state_space
-from ehlectric.drive import WINDING as WINDING
-from ehlectric.drive import Element as CircuitElement
+from ehlectric.cases.drive_inputs import Circuit
+from ehlectric.drive.circuit_equations import FRAME, Element, StateSpace, state_space
 from ehlectric.errors import InputError
+
+# Nodes of the machine beside its shafts and its housing, which is the frame. Earth is a node of its own where
+# the frame has an inductance to it, and the inverter where it has one to the winding.
+SOURCE, WINDING, EARTH = "source", "winding", "earth"
 
 
 @dataclass(frozen=True)
 class Film:
-    """Element between two nodes that insulates or conducts: a bearing, a gear mesh or a link."""
+    """Element between two nodes that insulates or conducts: a bearing, a gear mesh, a link, or an element of
+    the machine.
+    """
 
     name: str
     first: str
     second: str
-    capacitance: float  # [F]
+    capacitance: float = 0.0  # [F]
     conducts: bool = False
     conductance: float = 0.0  # [S]
+    inductance: float = 0.0  # [H]
+    resistance: float = 0.0  # in series with the inductance [Ohm]
 
 
 @dataclass(frozen=True)
@@ -63,15 +71,19 @@ class Breakdown:
 
 @dataclass(frozen=True)
 class Network:
-    """Shafts between a winding and a housing, with the elements that connect them."""
+    """Shafts between a source and a housing, with the elements that connect them."""
 
     shafts: tuple[str, ...]
     elements: tuple[Film, ...]
+    # Positive and negative node of the voltage of the inverter.
+    source: tuple[str, str] = (WINDING, HOUSING)
 
     def potentials(self, edge: float, rise_time: float = 0.0) -> dict[str, float]:
-        """Potentials of the shafts right after an edge of the source [V], which were 0 before.
+        """Potentials of the shafts and of rings under a coating right after an edge of the source [V]; they
+        were 0 before.
 
         ``rise_time`` of the edge [s], in which conductances discharge the shafts; without it they do not.
+        Inductances are neglected: they have the whole edge at first, and the capacitances share it later.
         Raises InputError if a shaft has no path of capacitances to the housing.
 
         Examples
@@ -117,42 +129,117 @@ class Network:
 
     @cached_property
     def nodes(self) -> dict[str, str]:
-        """Nodes of the circuit by the names of shafts, housing and winding.
+        """Nodes of the circuit by the names of shafts, housing, machine and rings.
 
         Shafts that conducting elements connect are one node.
         """
-        nodes = {shaft: f"shaft {shaft}" for shaft in self.shafts} | {HOUSING: FRAME}
+        others = dict.fromkeys(name for each in self.elements for name in (each.first, each.second))
+        nodes = {name: name for name in (*self.source, *others)}
+        nodes |= {shaft: f"shaft {shaft}" for shaft in self.shafts} | {HOUSING: FRAME}
         for element in self.elements:
             if element.conducts:
                 kept, gone = sorted((nodes[element.first], nodes[element.second]), key=lambda n: n != FRAME)
                 nodes = {name: kept if node == gone else node for name, node in nodes.items()}
-        return nodes | {WINDING: WINDING}
+        return nodes
 
-    def circuit(self) -> Iterator[CircuitElement]:
-        """Capacitors and conductors of all elements that do not conduct, between their nodes."""
+    @property
+    def ends(self) -> tuple[str, str]:
+        """Positive and negative node of the source in the circuit."""
+        return self.nodes[self.source[0]], self.nodes[self.source[1]]
+
+    def circuit(self) -> Iterator[Element]:
+        """Capacitors, conductors and inductors of all elements that do not conduct, between their nodes."""
         for element in self.elements:
             first, second = self.nodes[element.first], self.nodes[element.second]
-            if first != second:
-                yield CircuitElement("capacitor", first, second, element.capacitance)
-                if element.conductance:
-                    yield CircuitElement("conductor", first, second, element.conductance)
+            if first == second:
+                continue
+            if element.inductance:
+                yield Element("inductor", first, second, element.inductance, element.resistance)
+            elif element.capacitance or not element.conductance:
+                yield Element("capacitor", first, second, element.capacitance)
+            if element.conductance:
+                yield Element("conductor", first, second, element.conductance)
+
+    @property
+    def equations(self) -> StateSpace:
+        """State equations of the network with its inductances."""
+        return state_space([*self.circuit()], self.ends)
+
+    def oscillations(self) -> list[tuple[float, float]]:
+        """Frequency [Hz] and quality factor of each oscillation, the least damped one first.
+
+        There are none without inductances.
+        """
+        if self._without_inductances is self:
+            return []
+        damped = [
+            (float(rate.imag) / (2.0 * math.pi), abs(rate) / max(-2.0 * float(rate.real), 1e-300))
+            for rate in np.linalg.eigvals(self.equations.rates)
+            if rate.imag > 0.0
+        ]
+        return sorted(damped, key=lambda oscillation: -oscillation[1])
+
+    @cached_property
+    def _without_inductances(self) -> Network:
+        """Network in which inductances conduct."""
+        shorted = tuple(replace(each, conducts=True) if each.inductance else each for each in self.elements)
+        return self if shorted == self.elements else replace(self, elements=shorted)
 
     @cached_property
     def system(self) -> StateSpace:
-        """State equations of the network; the winding is driven."""
-        elements = [*self.circuit()]
-        connected = {node for each in elements for node in (each.first, each.second)} | {FRAME}
+        """State equations of the network without inductances; the source is driven."""
+        if self._without_inductances is not self:
+            return self._without_inductances.system
+        connected = {node for each in self.circuit() for node in (each.first, each.second)} | {FRAME}
         try:
             if connected.issuperset(self.nodes[shaft] for shaft in self.shafts):
-                return state_space(elements, (WINDING, FRAME))
+                return self.equations
         except ValueError:
             pass
         raise InputError.worded("shaft", "a shaft has no path of capacitances to the housing")
 
     def _named(self, values: Array) -> dict[str, float]:
-        """Values of the free nodes of the circuit by the shafts; 0 for the housing."""
+        """Values of the free nodes of the circuit by the shafts and rings; 0 for the housing."""
         by_node = dict(zip(self.system.nodes, values.tolist(), strict=True))
-        return {shaft: by_node.get(self.nodes[shaft], 0.0) for shaft in self.shafts}
+        return {
+            name: by_node.get(node, 0.0)
+            for name, node in self._without_inductances.nodes.items()
+            if name in self.shafts or node in by_node
+        }
+
+
+def machine(circuit: Circuit, rotor: str) -> Network:
+    """Network of a machine and of its connection to the inverter, without bearings; ``rotor`` is the name of
+    its shaft.
+    """
+    nodes = {
+        "winding_rotor_capacitance": ("winding", WINDING, rotor),
+        "rotor_frame_capacitance": ("rotor and frame", rotor, HOUSING),
+        "winding_frame_capacitance": ("winding and frame", WINDING, HOUSING),
+    }
+    elements = [Film(*nodes[key], value) for key, value in circuit.capacitances.items()]
+    if circuit.grounding_ring_resistance is not None:
+        conductance = 1.0 / circuit.grounding_ring_resistance
+        elements.append(Film("grounding ring", rotor, HOUSING, conductance=conductance))
+    series, ground = circuit.common_mode_inductance or 0.0, circuit.ground_inductance or 0.0
+    resistance = circuit.common_mode_resistance
+    cable, earthed = circuit.cable_capacitance, circuit.frame_earth_capacitance
+    # Frame and earth are two nodes if something is parallel to the inductance between them. Otherwise it is
+    # in series with the one between inverter and winding.
+    parted = bool(ground and (cable or earthed))
+    if not parted:
+        series, resistance = series + ground, resistance + circuit.ground_resistance
+    if series:
+        elements.append(Film("common mode", SOURCE, WINDING, inductance=series, resistance=resistance))
+    if parted:
+        damping = circuit.ground_resistance
+        elements.append(Film("ground", HOUSING, EARTH, inductance=ground, resistance=damping))
+    negative = EARTH if parted else HOUSING
+    if cable is not None:
+        elements.append(Film("cable", WINDING, negative, cable))
+    if parted and earthed is not None:
+        elements.append(Film("frame and earth", HOUSING, EARTH, earthed))
+    return Network((rotor,), tuple(elements), (SOURCE if series else WINDING, negative))
 
 
 def rank(voltages: Mapping[str, float], limits: Mapping[str, float]) -> list[tuple[str, float]]:

@@ -1,12 +1,11 @@
-"""Circuit of a motor around its bearings: capacitive divider, state equations, and modes in each state.
+"""Elements of a circuit, its state equations, and its modes.
 
 All quantities are in SI units.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
@@ -14,23 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
-from ehlectric.cases.drive_inputs import Circuit
-from ehlectric.drive.drive_bearings import BearingElement
-from ehlectric.quantities.inputs import ENDS
-
-
-def capacitive_divider(circuit: Circuit, bearings: Sequence[BearingElement]) -> tuple[float, float]:
-    """Voltage across the films of each bearing per volt of the source, right after an edge.
-
-    Inductances are neglected: they have the whole edge at first, and the capacitances share it later. The
-    rolling elements are at their first position.
-
-    Returns share of each bearing, dimensionless, from 0 to 1.
-    """
-    plain = circuit.model_copy(update={"common_mode_inductance": None, "ground_inductance": None})
-    first, second = modes_of(drive_system(plain, bearings), film_nodes(bearings)).source_share
-    return abs(float(first)), abs(float(second))
-
 
 # The node whose potential is zero.
 FRAME = "frame"
@@ -157,111 +139,6 @@ def _ends(element: Element, nodes: Sequence[str]) -> Array:
         if node != FRAME:
             ends[nodes.index(node)] += sign
     return ends
-
-
-# Nodes. The frame is the node of reference; earth is another one where the frame has an inductance to it.
-SOURCE, WINDING, ROTOR, EARTH = "source", "winding", "rotor", "earth"
-
-
-# Nodes of the capacitances of the machine, by their keys.
-_PLATES = {
-    "winding_rotor_capacitance": (WINDING, ROTOR),
-    "rotor_frame_capacitance": (ROTOR, FRAME),
-    "winding_frame_capacitance": (WINDING, FRAME),
-}
-
-
-def film_nodes(elements: Sequence[BearingElement]) -> list[tuple[str, str]]:
-    """Nodes between which the films of each bearing lie: a coating lies between them and the frame."""
-    return [
-        (ROTOR, f"ring_{end}" if bearing.path.coated else FRAME)
-        for end, bearing in zip(ENDS, elements, strict=True)
-    ]
-
-
-def source_nodes(circuit: Circuit) -> tuple[str, str]:
-    """Positive and negative node of the inverter's common-mode voltage."""
-    return SOURCE if _reactor(circuit) else WINDING, EARTH if _parted(circuit) else FRAME
-
-
-def _parted(circuit: Circuit) -> bool:
-    """Whether earth and frame are two nodes: something is parallel to the inductance between them."""
-    across_ground = circuit.cable_capacitance or circuit.frame_earth_capacitance
-    return circuit.ground_inductance is not None and across_ground is not None
-
-
-def _reactor(circuit: Circuit) -> bool:
-    """Whether an inductance lies between inverter and winding; that to earth is in series without cable."""
-    alone = circuit.ground_inductance is not None and not _parted(circuit)
-    return circuit.common_mode_inductance is not None or alone
-
-
-def motor_elements(circuit: Circuit) -> Iterator[Element]:
-    """Elements of the motor and of its connection to the inverter, without bearings."""
-    for key, value in circuit.capacitances.items():
-        yield Element("capacitor", *_PLATES[key], value)
-    if circuit.grounding_ring_resistance is not None:
-        yield Element("conductor", ROTOR, FRAME, 1.0 / circuit.grounding_ring_resistance)
-    series, ground = circuit.common_mode_inductance or 0.0, circuit.ground_inductance or 0.0
-    if _parted(circuit):
-        if series:
-            yield Element("inductor", SOURCE, WINDING, series, circuit.common_mode_resistance)
-        yield Element("inductor", FRAME, EARTH, ground, circuit.ground_resistance)
-        if circuit.cable_capacitance is not None:
-            yield Element("capacitor", WINDING, EARTH, circuit.cable_capacitance)
-        if circuit.frame_earth_capacitance is not None:
-            yield Element("capacitor", FRAME, EARTH, circuit.frame_earth_capacitance)
-        return
-    if series or ground:
-        resistance = circuit.common_mode_resistance + circuit.ground_resistance
-        yield Element("inductor", SOURCE, WINDING, series + ground, resistance)
-    if circuit.cable_capacitance is not None:
-        yield Element("capacitor", WINDING, FRAME, circuit.cable_capacitance)
-
-
-def drive_system(
-    circuit: Circuit,
-    bearings: Sequence[BearingElement],
-    places: Sequence[int] = (0, 0),
-    conductances: Sequence[float] = (0.0, 0.0),
-) -> StateSpace:
-    """State equations with the elements of each bearing at a place, and a conductance of its films [S]."""
-    elements = list(motor_elements(circuit))
-    for b, nodes in enumerate(film_nodes(bearings)):
-        elements += bearing_elements(bearings[b], nodes, places[b], conductances[b])
-    return state_space(elements, source_nodes(circuit))
-
-
-def bearing_elements(
-    bearing: BearingElement, nodes: tuple[str, str], place: int, conductance: float
-) -> Iterator[Element]:
-    """Elements of a bearing with its elements at a place, and a conductance of its films parallel to the oil.
-    ``conductance``, conductance of an arc or of touching asperities [S].
-    """
-    yield Element("capacitor", *nodes, float(bearing.capacitance[place]))
-    if bearing.conductance + conductance > 0.0:
-        yield Element("conductor", *nodes, bearing.conductance + conductance)
-    if bearing.path.coated:
-        yield Element("capacitor", nodes[1], FRAME, float(bearing.path.coating))
-        if math.isfinite(bearing.path.resistance):
-            yield Element("conductor", nodes[1], FRAME, float(1.0 / bearing.path.resistance))
-    if bearing.path.parallel:
-        yield Element("capacitor", nodes[0], FRAME, float(bearing.path.parallel))
-
-
-def oscillations(circuit: Circuit, bearings: Sequence[BearingElement]) -> list[tuple[float, float]]:
-    """Frequency [Hz] and quality factor of each oscillation of the circuit with films that insulate. Returns
-    the least damped oscillation first; none in a circuit without inductances.
-    """
-    if circuit.common_mode_inductance is None and circuit.ground_inductance is None:
-        return []
-    rates = np.linalg.eigvals(drive_system(circuit, bearings).rates)
-    damped = [
-        (float(rate.imag) / (2.0 * math.pi), abs(rate) / max(-2.0 * float(rate.real), 1e-300))
-        for rate in rates
-        if rate.imag > 0.0
-    ]
-    return sorted(damped, key=lambda oscillation: -oscillation[1])
 
 
 Complex = NDArray[np.complex128]
