@@ -216,7 +216,6 @@ REFUSED = [
     ("link", lambda _: [{"between": ["rotor", "housing"], "kind": "ring"}], "link.1.resistance", "missing"),
     ("link", lambda _: [{"between": ["rotor", "housing"], "kind": "spline"}], "link.1.kind", "housing"),
     ("drive", lambda row: {**row, "torque": 0.0}, "drive.torque", "0"),
-    ("circuit", lambda row: {**row, "ground_inductance": 1e-6}, "circuit.ground_inductance", "not used"),
 ]
 
 

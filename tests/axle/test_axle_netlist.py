@@ -5,12 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.linalg import expm
+from scipy.signal import StateSpace, lsim
 
 from ehlectric import AxleCase, InputError, write_axle_netlist
 from ehlectric.axle.axle_discharges import _films_in_time
 from ehlectric.axle.axle_netlist_files import AxleNetlist, _distinct, axle_netlist
 from ehlectric.axle.solution import solve_films
-from ehlectric.drive import Measuring, Segments, write_files
+from ehlectric.drive import WINDING, source_points, write_files
+from ehlectric.drive.discharges.films_and_source import Measuring, Segments
 from ehlectric.drive.films_in_time import NetworkInTime
 from tests.axle.axles import two_stages
 from tests.axle.test_films_in_time import axle
@@ -177,6 +179,45 @@ def test_the_bench_of_an_axle_with_a_ring_and_conducting_meshes(tmp_path):
     potentials = axle_netlist(case).solution.potentials()
     for shaft in SHAFTS:
         assert found[f"{shaft}_highest"] == pytest.approx(potentials[shaft], rel=0.01)
+
+
+# A choke and a ground connection, whose oscillations the source excites.
+INDUCTIVE = {
+    "winding_frame_capacitance": "5 nF",
+    "common_mode_inductance": "1 mH",
+    "common_mode_resistance": "200 ohm",
+    "ground_inductance": "10 uH",
+    "ground_resistance": "5 ohm",
+    "cable_capacitance": "1 nF",
+    "frame_earth_capacitance": "300 pF",
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("earthed", [True, False])
+def test_the_bench_of_an_axle_with_inductances(earthed, tmp_path):
+    """Voltages from peak to peak are those of the state equations, integrated by SciPy."""
+    keys = {
+        key: INDUCTIVE[key] for key in INDUCTIVE if earthed or not key.startswith(("cable", "frame_earth"))
+    }
+    case = two_stages(**{f"circuit.{key}": value for key, value in keys.items()}, breakdown=None, remedies=[])
+    write_axle_netlist(case, tmp_path / "axle.lib", bench=tmp_path / "bench.cir")
+    found = run_netlist(tmp_path / "bench.cir")
+    network = axle_netlist(case).solution.network()
+    system, points = network.equations, source_points(case.source.at_speed(case.drive.speed), None)[0]
+    times = np.linspace(0.0, points[-1][0], 80_001)
+    volts = np.interp(times, *np.array(points).T)
+    states = np.eye(len(system.force))
+    whole = StateSpace(system.rates, system.force[:, None], states, np.zeros((len(states), 1)))
+    # Leaks hold the shafts at 0 V before, and the winding has the voltage of the source.
+    start = system.jump * volts[0]
+    start[: len(system.nodes)] += [volts[0] * (node == WINDING) for node in system.nodes]
+    _, at, _ = lsim(whole, volts, times, X0=start)
+    voltages = at - np.outer(volts, system.jump)
+    for shaft in SHAFTS:
+        across = voltages @ system.potential(network.nodes[shaft])
+        assert found[f"{shaft}_peak_to_peak"] == pytest.approx(np.ptp(across), rel=2e-3), shaft
+    assert found["rotor_peak_to_peak"] > 1.2 * network.potentials(np.ptp(volts))["rotor"]
 
 
 def test_elements_of_the_netlist(tmp_path):

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.linalg import eigh
 
-from ehlectric.drive import Measuring, Segments
+from ehlectric.drive.discharges.films_and_source import Measuring, Segments
 from ehlectric.drive.drive_record import ENERGY, FILM, OFF, ON, VOLTAGE
 from ehlectric.drive.films_in_time import NetworkInTime, TimedFilm
 from ehlectric.drive.network import HOUSING, WINDING, Film, Network

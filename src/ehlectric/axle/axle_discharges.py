@@ -22,23 +22,18 @@ from ehlectric.bearing import Path
 from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.drive_inputs import Breakdown
 from ehlectric.drive import (
-    CHARGE,
     ENERGY,
-    FILM,
     HOUSING,
-    OFF,
-    ON,
-    PEAK,
     VALUES,
-    VOLTAGE,
     BearingElement,
     NetworkInTime,
     Record,
     SourceInTime,
     TimedFilm,
     bearing_element,
-    event_rate,
-    spread,
+    event_rows,
+    rates,
+    statistics,
 )
 from ehlectric.errors import InputError, printable, within
 from ehlectric.gear import GearSolution, state_at
@@ -56,9 +51,6 @@ _BURNS = 1.001
 
 # Share of time with metallic contact below which it is neglected.
 _NEVER = 1e-6
-
-# Columns of a record by the names of the table of events.
-_RECORDED = {"time": ON, "duration": OFF, **VALUES}
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,32 +77,23 @@ class AxleDischarges:
         return {
             "duration": self.record.duration,
             "events": int(np.sum(counts)),
-            **_rates(counts, self.record.duration),
+            **rates(counts, self.record.duration),
             "power": float(np.sum(self.record.sums[:, ENERGY])) / self.record.duration,
             "elements": [self._element(b, name) for b, name in enumerate(self.names)],
             "shafts": [self._shaft(k, name) for k, name in enumerate(self.shafts)],
         }
 
     def _element(self, b: int, name: str) -> dict[str, Any]:
-        record, number = self.record, int(np.sum(self.record.counts[b]))
-        rows = record.events[record.events[:, FILM] == b]
-        values: dict[str, Any] = {}
-        for key, column in {"voltage": VOLTAGE, "charge": CHARGE, "energy": ENERGY, "current": PEAK}.items():
-            mean, largest = (
-                (float(record.sums[b, column]) / number, float(record.largest[b, column]))
-                if number
-                else (None, None)
-            )
-            of_events = spread(np.abs(rows[:, column]), mean, largest)
-            values |= {f"{key}_{place}": value for place, value in of_events.items()}
+        record = self.record
+        columns = {"current" if key == "peak_current" else key: column for key, column in VALUES.items()}
         return {
             "element": name,
-            "events": number,
-            **_rates(record.counts[b], record.duration),
+            "events": int(np.sum(record.counts[b])),
+            **rates(record.counts[b], record.duration),
             "power": float(record.sums[b, ENERGY]) / record.duration,
             "peak_voltage": float(record.peak[b]),
             "rms_voltage": float(record.rms[b]),
-            **values,
+            **statistics(record, b, columns),
         }
 
     def _shaft(self, k: int, name: str) -> dict[str, Any]:
@@ -126,13 +109,7 @@ class AxleDischarges:
 
     def events(self) -> list[dict[str, Any]]:
         """Return the discharges in the order of time, SI units; the first 200 000 of them."""
-        rows = self.record.events
-        events = []
-        for row in rows[np.argsort(rows[:, ON], kind="stable")]:
-            values = {name: float(row[column]) for name, column in _RECORDED.items()}
-            values["duration"] -= values["time"]
-            events.append({"element": self.names[int(row[FILM])], **values})
-        return events
+        return event_rows(self.record, "element", self.names)
 
     @cached_property
     def trace(self) -> tuple[Array, Array, Mapping[str, Array]]:
@@ -143,15 +120,6 @@ class AxleDischarges:
         first = 2 + len(self.names)
         shafts = {name: table[:, first + k] for k, name in enumerate(self.shafts)}
         return table[:, 0], table[:, 1], shafts
-
-
-def _rates(counts: Array, duration: float) -> dict[str, float]:
-    rate = event_rate(counts, duration)
-    return {
-        "events_per_second": rate.mean,
-        "events_per_second_low": rate.low,
-        "events_per_second_high": rate.high,
-    }
 
 
 def simulate_axle(

@@ -11,9 +11,11 @@ from ehlectric.bearing import oil_conductance, oil_relaxation_time, shaft_path
 from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.drive_inputs import Breakdown
 from ehlectric.drive import (
+    EARTH,
     HOUSING,
     OPEN,
     SIGNATURE,
+    SOURCE,
     WINDING,
     Film,
     Parameter,
@@ -21,6 +23,7 @@ from ehlectric.drive import (
     check_targets,
     comment,
     filled,
+    inductor_lines,
     name_of,
     number,
     point_lines,
@@ -60,11 +63,10 @@ class AxleNetlist:
     def nodes(self) -> dict[str, str]:
         """Names of the nodes in the netlist by the names of shafts, winding and housing."""
         shafts = [shaft.name for shaft in self.case.shaft]
-        return {
-            WINDING: "winding",
-            HOUSING: "housing",
-            **dict(zip(shafts, _distinct(shafts, "shaft", ("winding", "housing", "0")), strict=True)),
-        }
+        names = {WINDING: "winding", HOUSING: "housing"}
+        if self.case.circuit.inductive:
+            names |= {SOURCE: "inverter", EARTH: "earth"}
+        return names | dict(zip(shafts, _distinct(shafts, "shaft", (*names.values(), "0")), strict=True))
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -77,7 +79,7 @@ class AxleNetlist:
             *([filled(_TEXTS["conducting"], names=", ".join(conducting))] if conducting else []),
             *([filled(_TEXTS["touching"], names=", ".join(touching))] if touching else []),
             *([] if self.leaks else [filled(_TEXTS["no_leak"], open=number(OPEN))]),
-            _TEXTS["left_out"],
+            _TEXTS["left_out_with_inductances" if self.case.circuit.inductive else "left_out"],
         )
 
     @property
@@ -95,6 +97,10 @@ class AxleNetlist:
                 continue
             if film.capacitance:
                 yield Parameter(f"C_{name}", film.capacitance, "F", film.name)
+            if film.inductance:
+                yield Parameter(f"L_{name}", film.inductance, "H", film.name)
+            if film.resistance:
+                yield Parameter(f"RL_{name}", film.resistance, "Ohm", f"in series with {film.name}")
             if film.conductance:
                 yield Parameter(f"R_{name}", 1.0 / film.conductance, "Ohm", film.name)
             if film.name in self.leaks:
@@ -149,6 +155,8 @@ class AxleNetlist:
         if film.conducts:
             yield f"R_{name} {ends} {{R_metal}}"
             return
+        if film.inductance:
+            yield from inductor_lines(name, ends, damped=bool(film.resistance))
         if film.conductance:
             yield f"R_{name} {ends} {{R_{name}}}"
         if not film.capacitance:
@@ -164,7 +172,9 @@ class AxleNetlist:
         """Lines of a test bench, which includes the file of the subcircuits: the inverter at the winding."""
         source = self.case.source.at_speed(self.case.drive.speed)
         points, step = source_points(source, None)
-        shafts = [node for name, node in self.nodes.items() if name not in (WINDING, HOUSING)]
+        nodes = {name: "0" if name == HOUSING else node for name, node in self.nodes.items()}
+        shafts = [nodes[shaft.name] for shaft in self.case.shaft]
+        positive, negative = (nodes[name] for name in self.solution.network().source)
         about = (
             f"title: {self.case.title or '(none)'}",
             f"common-mode voltage: {about_source(source)}, as points over time",
@@ -180,7 +190,9 @@ class AxleNetlist:
             comments=[line for part in about for line in comment(part)],
             library=library,
             points=list(point_lines(points)),
-            shafts=" ".join(shafts),
+            positive=positive,
+            negative=negative,
+            pins=" ".join(nodes.values()),
             step=number(step),
             duration=f"{points[-1][0]:.12g}",
             measures=list(measures),

@@ -27,6 +27,10 @@ from ehlectric.readable import readable
 _IF = {"always": "all meshes conduct", "never": "no mesh conducts"}
 
 
+# Largest voltage of an undamped oscillation divided by the voltage without inductances.
+_RINGS = 2.0
+
+
 class _Chance(Protocol):
     """Probabilities of an element."""
 
@@ -107,6 +111,8 @@ def axle_verdict(
         doubts=bool(solution.bounded) and _level_of(largest) != "green",
         touching=any(name not in limits for name, _ in ranking),
     )
+    if solution.case.circuit.inductive and level == "green" and margin < _RINGS:
+        level, code = "yellow", code_of("yellow", likely=False)
     # The margin of touching summits does not depend on the strength.
     doubts: tuple[Statement, ...] = () if touching else tuple(strength_doubt(solution.case.discharge, margin))
     facts: tuple[Fact, ...] = () if touching else (Fact("first.breakdown_voltage", limits[first]),)
@@ -213,6 +219,8 @@ def _reasons(solution: AxleSolution, first: str) -> Iterator[Statement]:
     films = [name for name in ranking if name in limits]
     if films and films[0] != first:
         yield _first_film(solution, films[0], "axle-first-film")
+    if solution.case.circuit.inductive:
+        yield Statement.of("axle-rings")
     others = list(_others(solution, first)) if solution.case.mesh else []
     if solution.case.mesh and not others:
         yield Statement.of("axle-first-in-all")

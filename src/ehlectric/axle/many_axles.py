@@ -17,6 +17,7 @@ from ehlectric.axle.solution import (
     bearing_elements,
     load_of,
     loads_of_axles,
+    machine_notes,
     mesh_element,
     named_warnings,
     naming_torque,
@@ -145,7 +146,9 @@ def _together(axle: _Axle, solved: Sequence[_Solved]) -> Outcome:
             ),
         )
     )
-    return AxleSolution(axle.case, axle.turning, tuple(element for element, _ in known), tuple(warnings))
+    elements = tuple(element for element, _ in known)
+    solution = AxleSolution(axle.case, axle.turning, elements, tuple(warnings))
+    return replace(solution, warnings=(*solution.warnings, *machine_notes(solution)))
 
 
 def _mounted(place: int, axle: _Axle, of_oil: _OfOil) -> Iterator[_Mounted]:

@@ -243,13 +243,14 @@ class AxleResult(Shown):
 
 # Keys that the result of an axle does not use: of all bearings, of the drive file, and of the files of gears.
 _NOT_OF_BEARINGS = ("summits.radius", "coating.breakdown_voltage", "coating.strength")
-_NOT_OF_AXLES = (
+_NOT_OF_AXLES = tuple(f"discharge.{key}" for key in ("external_capacitance", "peak_current", "pit"))
+# Keys that act behind an inductance: of the winding, and of frame and earth.
+_BEHIND_INDUCTANCES = (
     *(
         f"circuit.{key}"
         for key in ("winding_frame_capacitance", "frame_earth_capacitance", "cable_capacitance")
     ),
     *(f"circuit.machine.liner_{key}" for key in ("width", "thickness", "permittivity")),
-    *(f"discharge.{key}" for key in ("external_capacitance", "peak_current", "pit")),
 )
 _NOT_OF_PAIRS = (
     *("gear.contact.voltage", "gear.contact.weibull_shape", "gear.operation.boundary_friction"),
@@ -259,7 +260,8 @@ _NOT_OF_PAIRS = (
 
 def unused_keys(case: AxleCase) -> Iterator[ResultWarning]:
     """Yield notes about given keys that the result of an axle does not use."""
-    if keys := given_keys(case, _NOT_OF_AXLES):
+    behind = () if case.circuit.inductive else _BEHIND_INDUCTANCES
+    if keys := given_keys(case, (*behind, *_NOT_OF_AXLES)):
         yield unused_note("axle", keys)
     for name, bearing in zip(case.names_of_bearings(), case.tables_of_bearings, strict=True):
         if bearing.life is not None:

@@ -35,7 +35,7 @@ from ehlectric.cases.axle_case import AxleCase, Turning
 from ehlectric.cases.axle_inputs import CONDUCTING, Shaft
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.gear_inputs import Conduction
-from ehlectric.drive import HOUSING, Film, Network, machine, rank
+from ehlectric.drive import HOUSING, Film, Network, machine, oscillation_warning, rank, ring_warning
 from ehlectric.errors import ConvergenceError, InputError, within
 from ehlectric.gear import (
     GearSolution,
@@ -151,9 +151,9 @@ class AxleSolution:
 
     def _network(self, of_elements: Iterable[Film]) -> Network:
         case = self.case
-        of_machine = machine(case.circuit, case.rotor)
-        # Without inductances, what lies at the winding alone has the voltage of the inverter.
-        films = [each for each in of_machine.elements if case.rotor in (each.first, each.second)]
+        of_machine, inductive = machine(case.running_circuit, case.rotor), case.circuit.inductive
+        # Without inductances, the inverter's voltage lies across all elements that are not at the rotor.
+        films = [each for each in of_machine.elements if inductive or case.rotor in (each.first, each.second)]
         for shaft in case.shaft:
             if shaft.housing_capacitance is not None:
                 films.append(
@@ -170,7 +170,8 @@ class AxleSolution:
                     0.0 if link.resistance is None else 1.0 / link.resistance,
                 )
             )
-        return Network(tuple(shaft.name for shaft in case.shaft), (*films, *of_elements))
+        shafts = tuple(shaft.name for shaft in case.shaft)
+        return Network(shafts, (*films, *of_elements), of_machine.source)
 
     def films(self, conduction: Conduction = "by-film") -> tuple[Film, ...]:
         """Bearings and meshes as elements of the network."""
@@ -525,7 +526,18 @@ def elements_of(films: SolvedFilms) -> AxleSolution:
     of_axle = axle_warnings(case, films.turning, films.loads)
     warnings = named_warnings((*of_axle, *thinnest_first(elements, of_elements)))
     solution = AxleSolution(case, films.turning, tuple(elements), tuple(warnings))
-    return replace(solution, warnings=(*solution.warnings, *_bound_warning(solution)))
+    return replace(
+        solution, warnings=(*solution.warnings, *_bound_warning(solution), *machine_notes(solution))
+    )
+
+
+def machine_notes(solution: AxleSolution) -> Iterator[ResultWarning]:
+    """Warnings about the machine of an axle: its grounding ring, and what rings in its circuit."""
+    case = solution.case
+    yield from ring_warning(case.circuit, case.drive.speed)
+    if case.circuit.inductive:
+        yield ResultWarning.of("edge-rings")
+        yield from oscillation_warning(case.circuit, solution.network())
 
 
 def _bound_warning(solution: AxleSolution) -> Iterator[ResultWarning]:

@@ -63,9 +63,6 @@ from ehlectric.runtime.display import headline, is_number
 # Relative difference of speeds along two paths that is rounding.
 _ROUNDING = 1e-9
 
-# Keys of the circuit and the source that the static answer does not contain.
-_NOT_OF_AXLES = ("common_mode_inductance", "ground_inductance", "grounding_ring_table")
-
 # Tables whose keys displace their alternatives, also keys of all bearings.
 _DISPLACED = ("source", "circuit", "lubricant", "discharge", "breakdown")
 _SHARED_ALTERNATIVES = {"bearings": ALTERNATIVES["bearing"]}
@@ -203,6 +200,11 @@ class AxleCase(CaseFile, book="axle_file"):
     def quick(self) -> AxleCase:
         """Axle with films from the atlas or from formulas instead of solved ones."""
         return self.replace({"drive.contacts": "atlas"}) if self.solves_films else self
+
+    @property
+    def running_circuit(self) -> Circuit:
+        """Circuit at the speed of the rotor, with the resistance that its grounding ring has there."""
+        return self.circuit.at_speed(self.drive.speed)
 
     @property
     def edge(self) -> float:
@@ -382,9 +384,9 @@ class AxleCase(CaseFile, book="axle_file"):
     def _check(self) -> Self:
         self._check_names()
         self._check_bearings()
-        for key in _NOT_OF_AXLES:
-            if getattr(self.circuit, key) is not None:
-                raise InputError.worded(f"circuit.{key}", "is not used by an axle")
+        if self.mesh:
+            with within("drive"):
+                self.drive.check_not_zero("torque", "no mesh carries a load")
         if self.source.dc_link is None:
             raise InputError.missing("source.dc_link", "a voltage; an axle takes no measured waveform")
         turning = self.turning()
@@ -601,6 +603,8 @@ class AxleCase(CaseFile, book="axle_file"):
 
     def _speeds(self, table: dict[str, Any]) -> Iterator[tuple[dict[str, Any], str]]:
         yield table["drive"], "speed"
+        if self.circuit.grounding_ring_table is not None:
+            yield table["circuit"]["grounding_ring_table"], "speed"
         for mesh in table.get("mesh", ()):
             yield mesh["pair"]["gear"]["operation"], "pinion_speed"
 

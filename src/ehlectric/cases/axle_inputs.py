@@ -90,12 +90,14 @@ class AxleOperation(Table, book="axle.drive"):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        for key, problem in (("speed", "the axle does not turn"), ("torque", "no mesh carries a load")):
-            if getattr(self, key) == 0.0:
-                raise InputError(
-                    key, got=f"0: {problem}", takes="a value with a sign, about the positive z axis"
-                )
+        self.check_not_zero("speed", "the axle does not turn")
         return self
+
+    def check_not_zero(self, key: str, problem: str) -> None:
+        """Check that a number is not 0, which is a ``problem``."""
+        if getattr(self, key) == 0.0:
+            takes = "a value with a sign, about the positive z axis"
+            raise InputError(key, got=f"0: {problem}", takes=takes)
 
 
 class Adjustment(Table, book="axle.adjustment"):

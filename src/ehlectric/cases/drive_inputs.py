@@ -268,6 +268,11 @@ class Circuit(Table, book="circuit"):
         return self
 
     @property
+    def inductive(self) -> bool:
+        """Whether it has an inductance, behind which the winding does not follow the inverter at once."""
+        return self.common_mode_inductance is not None or self.ground_inductance is not None
+
+    @property
     def estimated(self) -> tuple[str, ...]:
         """Keys of the capacitances that are not given, and follow from the geometry of the machine."""
         return (

@@ -255,8 +255,17 @@ def _parameters(name: str, element: Element) -> Iterator[str]:
 def _element(name: str, element: Element) -> Iterator[str]:
     """Lines of an element; an inductor has its resistance behind it."""
     first, second = _NODES[element.first], _NODES[element.second]
-    if element.kind != "inductor" or not element.resistance:
+    if element.kind == "inductor":
+        ends = f"{first} {second}"
+        yield from inductor_lines(name.removeprefix("L_"), ends, damped=bool(element.resistance))
+    else:
         yield f"{name} {first} {second} {{{name}}}"
-        return
-    yield f"{name} {first} inner_{name} {{{name}}}"
-    yield f"R{name} inner_{name} {second} {{R{name}}}"
+
+
+def inductor_lines(name: str, ends: str, *, damped: bool) -> Iterator[str]:
+    """Lines of an inductor between two nodes, with the resistance behind it if it is ``damped``."""
+    first, second = ends.split()
+    inner = f"inner_L_{name}" if damped else second
+    yield f"L_{name} {first} {inner} {{L_{name}}}"
+    if damped:
+        yield f"RL_{name} {inner} {second} {{RL_{name}}}"

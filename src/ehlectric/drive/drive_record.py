@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -147,6 +147,42 @@ def spread(values: Array, mean: float | None, largest: float | None) -> dict[str
     """
     median, high = np.percentile(values, [50.0, 95.0]).tolist() if values.size else (None, None)
     return {"mean": mean, "median": median, "high": high, "largest": largest}
+
+
+# Ends of the keys of a rate and of its bounds, by the names of its fields.
+BOUNDS: Mapping[str, str] = {"mean": "", "low": "_low", "high": "_high"}
+
+
+def rates(counts: Array, duration: float) -> dict[str, float]:
+    """Rate of discharges with its bounds of 95 % by their keys; arguments as for ``event_rate``."""
+    rate = event_rate(counts, duration)
+    return {f"events_per_second{bound}": getattr(rate, name) for name, bound in BOUNDS.items()}
+
+
+def statistics(record: Record, b: int, columns: Mapping[str, int]) -> dict[str, float | None]:
+    """Statistics of the events of a film, by the names of their ``columns`` in the record."""
+    count, rows = int(np.sum(record.counts[b])), record.events[record.events[:, FILM] == b]
+    values: dict[str, float | None] = {}
+    for name, column in columns.items():
+        mean = float(record.sums[b, column]) / count if count else None
+        largest = float(record.largest[b, column]) if count else None
+        of_events = spread(np.abs(rows[:, column]), mean, largest)
+        values |= {f"{name}_{key}": value for key, value in of_events.items()}
+    return values
+
+
+# Columns of a record by the names of the table of events.
+_RECORDED = {"time": ON, "duration": OFF, **VALUES}
+
+
+def event_rows(record: Record, head: str, names: Sequence[str]) -> list[dict[str, Any]]:
+    """Discharges in the order of time, SI units; ``head``, column with the name of the film of each."""
+    rows = []
+    for row in record.events[np.argsort(record.events[:, ON], kind="stable")]:
+        values = {name: float(row[column]) for name, column in _RECORDED.items()}
+        values["duration"] -= values["time"]
+        rows.append({head: names[int(row[FILM])], **values})
+    return rows
 
 
 @dataclass(frozen=True, eq=False)

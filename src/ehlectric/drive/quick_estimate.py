@@ -53,7 +53,7 @@ def expected(case: DriveCase, summary: Mapping[str, Any]) -> Verdict:
     if not margins:
         return Verdict("green", CODES_OF_LEVELS["green"], Statement.of("ceramics-insulate"))
     circuit = case.running_circuit
-    if circuit.common_mode_inductance is not None or circuit.ground_inductance is not None:
+    if circuit.inductive:
         return no_verdict(Statement.of("inductance"), code=_UNSIMULATED)
     end = min(margins, key=lambda name: margins[name])
     margin, about = margins[end], summary[end]

@@ -13,7 +13,7 @@ import numpy as np
 
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.drive.drive_cycle import DriveDuty, run_drive_cycle
-from ehlectric.drive.drive_record import FILM, OFF, ON, VALUES, DriveSolution
+from ehlectric.drive.drive_record import DriveSolution, event_rows
 from ehlectric.drive.stored import dataset_of
 from ehlectric.drive.summary import drive_summary, whole_summary, with_cycle
 from ehlectric.drive.verdict_rule import drive_verdict
@@ -32,9 +32,6 @@ from ehlectric.version import __version__
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
-
-# Columns of a record, by the names of the table of events.
-_RECORDED = {"time": ON, "duration": OFF, **VALUES}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -118,13 +115,7 @@ class DriveResult(Shown):
 
         ``voltage`` and ``charge`` have the sign of the shaft against the housing.
         """
-        rows = self.solution.record.events
-        events = []
-        for row in rows[np.argsort(rows[:, ON], kind="stable")]:
-            values = {name: float(row[column]) for name, column in _RECORDED.items()}
-            values["duration"] -= values["time"]
-            events.append({"bearing": ENDS[int(row[FILM])], **values})
-        return events
+        return event_rows(self.solution.record, "bearing", ENDS)
 
     def to_dataframe(self) -> pd.DataFrame:
         """Return the discharges as a table of pandas; ``attrs["units"]`` contains the units of columns."""

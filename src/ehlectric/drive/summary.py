@@ -14,16 +14,17 @@ from ehlectric.cases.drive_case import DriveCase
 from ehlectric.discharge.discharge_laws import CURRENT_DENSITY_LIMITS
 from ehlectric.drive.drive_bearings import BearingElement
 from ehlectric.drive.drive_record import (
+    BOUNDS,
     ENERGY,
     FILM,
     OFF,
     ON,
     VALUES,
     DriveSolution,
-    Rate,
     Record,
-    event_rate,
+    rates,
     spread,
+    statistics,
 )
 from ehlectric.drive.inverter import edge_rate
 from ehlectric.drive.verdict_rule import drive_verdict
@@ -38,9 +39,6 @@ if TYPE_CHECKING:
     from ehlectric.drive.preparation import PreparedDrive
 
 SCHEMA = "ehlectric.drive/1"
-
-# Ends of the keys of a rate and of its bounds, by the names of its fields.
-_BOUNDS: Mapping[str, str] = {"mean": "", "low": "_low", "high": "_high"}
 
 
 def drive_summary(solution: DriveSolution) -> dict[str, Any]:
@@ -102,14 +100,9 @@ def both_summary(solution: DriveSolution) -> dict[str, Any]:
     counts = np.sum(record.counts, axis=0)
     return {
         "events": int(np.sum(counts)),
-        **_rates(event_rate(counts, record.duration)),
+        **rates(counts, record.duration),
         "power": float(np.sum(record.sums[:, ENERGY])) / record.duration,
     }
-
-
-def _rates(rate: Rate) -> dict[str, float]:
-    """Rate of discharges with its bounds of 95 %."""
-    return {f"events_per_second{bound}": getattr(rate, name) for name, bound in _BOUNDS.items()}
 
 
 def end_summary(solution: DriveSolution, b: int) -> dict[str, Any]:
@@ -174,28 +167,20 @@ def checked_summary(ready: PreparedDrive) -> dict[str, Any]:
 
 def _events(record: Record, b: int, edges: float | None) -> dict[str, Any]:
     """Rate and distributions of the events of a film."""
-    rate, count = event_rate(record.counts[b], record.duration), int(np.sum(record.counts[b]))
-    events = record.events[record.events[:, FILM] == b]
+    count, rows = int(np.sum(record.counts[b])), record.events[record.events[:, FILM] == b]
     values: dict[str, Any] = {
         "events": count,
-        **_rates(rate),
+        **rates(record.counts[b], record.duration),
         "events_per_second_positive": float(record.positive[b]) / record.duration,
         "events_per_second_negative": (count - float(record.positive[b])) / record.duration,
-        "events_per_edge": None if edges is None else rate.mean / edges,
+        "events_per_edge": None if edges is None else count / record.duration / edges,
         "power": float(record.sums[b, ENERGY]) / record.duration,
+        **statistics(record, b, VALUES),
     }
-    for name, column in VALUES.items():
-        total, largest = float(record.sums[b, column]), float(record.largest[b, column])
-        values |= _spread(name, np.abs(events[:, column]), count, total, largest)
-    lasting = events[:, OFF] - events[:, ON]
-    total = float(record.sums[b, OFF] - record.sums[b, ON])
-    return values | _spread("time", lasting, count, total, float(np.max(lasting, initial=0.0)))
-
-
-def _spread(name: str, values: np.ndarray, count: int, total: float, largest: float) -> dict[str, Any]:
-    """Statistics of a value of ``count`` events, of which the first ones are known one by one."""
-    statistics = spread(values, total / count, largest) if count else spread(values, None, None)
-    return {f"{name}_{key}": value for key, value in statistics.items()}
+    lasting = rows[:, OFF] - rows[:, ON]
+    mean = float(record.sums[b, OFF] - record.sums[b, ON]) / count if count else None
+    times = spread(lasting, mean, float(np.max(lasting, initial=0.0)) if count else None)
+    return values | {f"time_{key}": value for key, value in times.items()}
 
 
 def _densities(solution: DriveSolution, b: int) -> dict[str, Any]:
@@ -220,7 +205,7 @@ def with_cycle(tables: dict[str, Any], duty: DriveDuty) -> dict[str, Any]:
 
 
 # Keys of the tables "drive" and "duty" that a remedy has: sums of both bearings.
-_OF_BOTH = ("events", *(f"events_per_second{bound}" for bound in _BOUNDS.values()), "power")
+_OF_BOTH = ("events", *(f"events_per_second{bound}" for bound in BOUNDS.values()), "power")
 _OF_CYCLE = ("discharges", "energy", "left_out_share")
 
 

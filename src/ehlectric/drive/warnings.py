@@ -11,11 +11,13 @@ from ehlectric.arrays import Array
 from ehlectric.bearing import BearingResult, conducts, lambda_text
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.drive_case import NOT_IN_DRIVES, NOT_OF_DISCHARGES, DriveCase
+from ehlectric.cases.drive_inputs import Circuit
 from ehlectric.cases.plausibility import unusual_machine
 from ehlectric.discharge.discharge_laws import CURRENT_DENSITY_LIMITS, compared_with_limits
 from ehlectric.drive.drive_bearings import BearingElement
 from ehlectric.drive.drive_record import FEW, FILM, ON, DriveSolution
 from ehlectric.drive.films_in_time import rotor_network
+from ehlectric.drive.network import Network
 from ehlectric.quantities.formats import amount, rpm_text
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.result_warnings import ResultWarning, active
@@ -103,8 +105,9 @@ def machine_warnings(case: DriveCase, bearings: Sequence[BearingElement]) -> Ite
         yield ResultWarning.of("capacitances-estimated", capacitances=values)
     for table in ("source", "circuit", "breakdown"):
         yield from active(unusual_machine({f"{table}.{key}": value for key, value in getattr(case, table)}))
-    yield from _of_ring(case)
-    yield from _of_oscillations(case, bearings)
+    circuit = case.running_circuit
+    yield from ring_warning(case.circuit, case.running_speed)
+    yield from oscillation_warning(circuit, rotor_network(circuit, bearings, case.breakdown).at_rest)
     yield from _of_conduction(case, bearings)
 
 
@@ -115,9 +118,9 @@ def _of_remedies(case: DriveCase) -> Iterator[ResultWarning]:
             yield ResultWarning.of("remedy-not-applicable", title=remedy.title, keys=", ".join(keys))
 
 
-def _of_ring(case: DriveCase) -> Iterator[ResultWarning]:
-    """Note of a speed beyond the table of the grounding ring."""
-    table, speed = case.circuit.grounding_ring_table, case.running_speed
+def ring_warning(circuit: Circuit, speed: float) -> Iterator[ResultWarning]:
+    """Note of a speed [rad/s] beyond the table of the grounding ring."""
+    table = circuit.grounding_ring_table
     if table is None or table.covers(speed):
         return
     ends = table.speed[0], table.speed[-1]
@@ -128,7 +131,7 @@ def _of_ring(case: DriveCase) -> Iterator[ResultWarning]:
         first=rpm_text(ends[0]),
         last=rpm_text(ends[1]),
         resistance=amount(table.at_speed(speed), "ohm"),
-        end=rpm_text(ends[speed > ends[1]]),
+        end=rpm_text(ends[abs(speed) > ends[1]]),
     )
 
 
@@ -154,13 +157,12 @@ def _of_conduction(case: DriveCase, bearings: Sequence[BearingElement]) -> Itera
         )
 
 
-def _of_oscillations(case: DriveCase, bearings: Sequence[BearingElement]) -> Iterator[ResultWarning]:
+def oscillation_warning(circuit: Circuit, network: Network) -> Iterator[ResultWarning]:
     """Warning of an inductance that rings with the capacitances for hundreds of periods."""
-    rotor = rotor_network(case.running_circuit, bearings, case.breakdown)
-    frequency, quality = next(iter(rotor.at_rest.oscillations()), (0.0, 0.0))
+    frequency, quality = next(iter(network.oscillations()), (0.0, 0.0))
     if quality > _UNDAMPED:
-        paths = [name for name in ("common_mode", "ground") if getattr(case.circuit, f"{name}_inductance")]
-        bare = [name for name in paths if not getattr(case.circuit, f"{name}_resistance")] or paths
+        paths = [name for name in ("common_mode", "ground") if getattr(circuit, f"{name}_inductance")]
+        bare = [name for name in paths if not getattr(circuit, f"{name}_resistance")] or paths
         keys = " and ".join(f"circuit.{name}_resistance" for name in bare)
         # Above this, only the oil damps it.
         shown = "above 10 000" if quality > 1e4 else f"of {quality:.0f}"

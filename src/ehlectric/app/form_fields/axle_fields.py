@@ -359,6 +359,12 @@ def _of_drive(title: str, keys: Iterable[str], shown: Iterable[str]) -> Group:
 # Groups of the inverter, the machine and the oil.
 _MACHINE = ("circuit.winding_rotor_capacitance", "circuit.rotor_frame_capacitance")
 _RING = ("circuit.grounding_ring_resistance",)
+_WINDING = ("circuit.winding_frame_capacitance",)
+_CHOKE = ("circuit.common_mode_inductance", "circuit.common_mode_resistance")
+_GROUND = (
+    *("circuit.cable_capacitance", "circuit.frame_earth_capacitance", "circuit.ground_inductance"),
+    "circuit.ground_resistance",
+)
 _SOURCE = (
     *("source.dc_link", "source.rise_time", "source.modulation", "source.switching_frequency"),
     *("source.frequency_way", "source.pole_pairs", "source.fundamental_frequency", "source.modulation_index"),
@@ -385,8 +391,9 @@ def _simulated() -> Group:
 _COMMON = {group.title: group for group in BEARING_GROUPS}
 _OF_MACHINE = (
     _of_drive("Source", _SOURCE, _SOURCE[:2]),
-    _of_drive("Machine", _MACHINE, _MACHINE),
+    _of_drive("Machine", (*_MACHINE, *_WINDING), _MACHINE),
     replace(_of_drive("Ring, choke and ground", _RING, _RING), title="Grounding ring on the rotor"),
+    replace(_of_drive("Ring, choke and ground", (*_CHOKE, *_GROUND), _CHOKE), title="Choke and ground"),
     _COMMON["Oil"],
     Group("Breakdown", _COMMON["Breakdown"].fields[:1], note=_COMMON["Breakdown"].note),
     _simulated(),
