@@ -7,10 +7,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from ehlectric import AxleCase, solve_axle
+from ehlectric.axle import loads_on_shafts, solve_axles
 from ehlectric.axle.shaft_loads import ForceAt, bearing_loads, forces_of_mesh
+from ehlectric.axle.solution import solve_elements
 from ehlectric.errors import InputError
 from ehlectric.gear import GearPair
 from ehlectric.gear.geometry import gear_pair
+from tests.axle.axles import ALONE, two_stages
 from tests.gear.pairs import FIRST_STAGE, SECOND_STAGE
 
 # Distances along z [m]: bearings of the three shafts, and their gears.
@@ -86,3 +90,97 @@ def test_the_power_of_the_forces_is_the_power_of_the_shafts():
 def test_bearings_at_one_place_are_refused():
     with pytest.raises(InputError, match="one place"):
         bearing_loads([], (0.1, 0.1))
+
+
+def by_vectors(forces, places):
+    """Reactions of two bearings on a shaft, the first one locating: six equations of equilibrium, solved."""
+    # Unknown: forces of A along x, y and z, and of B along x and y on the shaft; moments about the origin.
+    matrix, right = np.zeros((5, 5)), np.zeros(5)
+    for column, (place, way) in enumerate([(places[0], 0), (places[0], 1), (places[0], 2), (places[1], 0),
+                                           (places[1], 1)]):  # fmt: skip
+        unit = np.eye(3)[way]
+        matrix[:3, column] = unit
+        matrix[3:, column] = np.cross([0.0, 0.0, place], unit)[:2]
+    for force, at in forces:
+        right[:3] -= force
+        right[3:] -= np.cross([0.0, 0.0, at], force)[:2]
+    return np.linalg.solve(matrix, right)
+
+
+@pytest.mark.parametrize(("down", "place"), [(-90.0, 0.06), (20.0, -0.03)])
+def test_weight_and_forces_load_the_bearings(down, place):
+    """Vector statics of a rotor of 12 kg with a belt beyond its bearings and a spring; signs included."""
+    shaft = {"name": "rotor", "rotor": True, "mass": "12 kg", "mass_at": f"{place} m"}
+    loads = ("radial_load", "axial_load")
+    bearings = [
+        {key: value for key, value in bearing.items() if key not in loads} | {"locating": number == 0}
+        for number, bearing in enumerate(ALONE["bearing"])
+    ]
+    force = [
+        {"shaft": "rotor", "at": "120 mm", "x": "300 N", "y": "-50 N"},
+        {"shaft": "rotor", "at": "0 mm", "z": "-80 N"},
+    ]
+    drive = ALONE["drive"] | {"torque": 0.0, "gravity_direction": f"{down} deg"}
+    case = AxleCase.from_dict(ALONE | {"drive": drive, "shaft": [shaft], "bearing": bearings, "force": force})
+    weight = 12.0 * 9.80665 * np.array([math.cos(math.radians(down)), math.sin(math.radians(down)), 0.0])
+    given = [(weight, place), (np.array([300.0, -50.0, 0.0]), 0.12), (np.array([0.0, 0.0, -80.0]), 0.0)]
+    first, second = np.split(by_vectors(given, (0.0, 0.08)), [3])
+    found = loads_on_shafts(case)["rotor"]
+    # Bearings carry what the shaft puts on them, against their forces on the shaft.
+    assert found.first == pytest.approx(-first[:2], rel=1e-9)
+    assert found.second == pytest.approx(-second, rel=1e-9)
+    assert found.axial == pytest.approx(-first[2], rel=1e-12)
+    elements = solve_elements(case).elements
+    radial = [float(np.hypot(*first[:2])), float(np.hypot(*second))]
+    assert [each.radial_load for each in elements] == pytest.approx(radial, rel=1e-6)
+    assert [each.axial_load for each in elements] == pytest.approx([-80.0, 0.0], rel=1e-6)
+    changed = case.replace({"force.1.x": "600 N", "shaft.rotor.mass": "24 kg"})
+    assert (changed.force[0].x, changed.shaft[0].mass) == (600.0, 24.0)
+    assert [each.radial_load for each in solve_elements(changed).elements] != pytest.approx(radial, rel=0.1)
+
+
+# Masses of the shafts of the e-axle of the examples, in the middle of their bearings.
+MASSES = {"rotor": (12.0, 0.04), "intermediate": (5.0, 0.055), "output": (15.0, 0.06)}
+
+
+def with_masses(**changes):
+    masses = {f"shaft.{name}.mass": mass for name, (mass, _) in MASSES.items()}
+    places = {f"shaft.{name}.mass_at": place for name, (_, place) in MASSES.items()}
+    return two_stages(**{"remedies": []} | masses | places | changes)
+
+
+def test_an_axle_that_coasts_has_the_loads_of_its_weight():
+    """Half of the weight of each shaft on both of its bearings; small torques give almost the same answer."""
+    coasting, light = (solve_elements(with_masses(**{"drive.torque": torque})) for torque in (0.0, 1e-4))
+    halves = [0.5 * mass * 9.80665 for mass, _ in MASSES.values() for _ in range(2)]
+    bearings, meshes = coasting.elements[:6], coasting.elements[6:]
+    assert [each.radial_load for each in bearings] == pytest.approx(halves, rel=1e-6)
+    assert [each.kind for each in meshes] == ["mesh", "mesh"]
+    # Films fill half of the backlash of 60 and 80 um, less the height of the summits.
+    strength = two_stages().discharge.dielectric_strength
+    gaps = [each.breakdown_voltage / strength for each in meshes]
+    assert gaps == pytest.approx([30e-6, 40e-6], rel=0.03)
+    assert [code for code in (w.code for w in coasting.warnings) if code == "mesh-loose"] == ["mesh-loose"]
+    for one, other in zip(coasting.elements, light.elements, strict=True):
+        assert other.capacitance == pytest.approx(one.capacitance, rel=0.01)
+    (together,) = solve_axles([coasting.case])
+    assert together.voltages() == pytest.approx(coasting.voltages(), rel=1e-9)
+    assert {w.code for w in together.warnings} == {w.code for w in coasting.warnings}
+
+
+def test_a_shaft_without_weight_does_not_coast():
+    with pytest.raises(InputError, match=r"drive\.torque") as refused:
+        solve_elements(
+            with_masses(**{"drive.torque": 0.0, "shaft.output.mass": None, "shaft.output.mass_at": None})
+        )
+    assert refused.value.key == "drive.torque"
+
+
+def test_rows_of_a_cycle_that_coast_are_answered(tmp_path):
+    """The row with no torque has the voltages of this axle."""
+    cycle = tmp_path / "cycle.csv"
+    cycle.write_text("time [s],torque [N m],speed [rpm]\n0,80,14000\n1,0,14000\n2,-30,14000\n")
+    duty = solve_axle(with_masses(duty={"file": str(cycle)}), probable=False).duty
+    assert duty.known.tolist() == [True, True, True]
+    coasting = solve_elements(with_masses(**{"drive.torque": 0.0, "drive.speed": "14000 rpm"}))
+    assert duty.voltages[1] == pytest.approx([*coasting.voltages().values()], rel=1e-9)

@@ -17,6 +17,7 @@ from ehlectric.axle.solution import (
     bearing_elements,
     load_of,
     loads_of_axles,
+    loose_warning,
     machine_notes,
     mesh_element,
     named_warnings,
@@ -30,7 +31,7 @@ from ehlectric.cases.gear_case import GearCase, changed_pair
 from ehlectric.cases.input_keys import is_quantity
 from ehlectric.cases.table_edits import flattened
 from ehlectric.errors import ConvergenceError, InputError, within
-from ehlectric.gear import GearSolution, gear_warnings, open_area, reference_area_of, solve_gear_pairs
+from ehlectric.gear import GearSolution, gear_warnings, open_area, reference_area_of, solve_loose_pairs
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.runtime.display import is_number
 
@@ -296,7 +297,7 @@ def _solved_meshes(axles: Mapping[int, _Axle]) -> dict[tuple[int, int], _Solved]
             except InputError as error:
                 solved[place, number] = error
     whole = any(axle.scales is None for axle in axles.values())
-    for (place, number), outcome in zip(places, solve_gear_pairs(pairs, unloaded=whole), strict=True):
+    for (place, number), outcome in zip(places, solve_loose_pairs(pairs, unloaded=whole), strict=True):
         case = axles[place].case
         if isinstance(outcome, InputError):
             solved[place, number] = outcome.under(f"mesh.{number + 1}.pair")
@@ -306,7 +307,8 @@ def _solved_meshes(axles: Mapping[int, _Axle]) -> dict[tuple[int, int], _Solved]
             element = mesh_element(case.names_of_meshes()[number], case.mesh[number].gears, outcome)
             scales = axles[place].scales
             if scales is None:
-                solved[place, number] = element, tuple(gear_warnings(outcome, in_axle=True))
+                loose = loose_warning(outcome, case.torque_of_gear(number, axles[place].turning))
+                solved[place, number] = element, (*loose, *gear_warnings(outcome, in_axle=True))
             else:
                 solved[place, number] = _scaled_mesh(element, outcome, scales), ()
     return solved

@@ -35,6 +35,7 @@ from ehlectric.cases.axle_case import AxleCase, Turning
 from ehlectric.cases.axle_inputs import CONDUCTING, Shaft
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.gear_inputs import Conduction
+from ehlectric.constants import GRAVITY
 from ehlectric.drive import HOUSING, Film, Network, machine, oscillation_warning, rank, ring_warning
 from ehlectric.errors import ConvergenceError, InputError, within
 from ehlectric.gear import (
@@ -43,7 +44,7 @@ from ehlectric.gear import (
     gear_pair,
     gear_warnings,
     insulating_part,
-    solve_gear_pair,
+    solve_loose_pairs,
     state_at,
 )
 from ehlectric.quantities.formats import CELSIUS, amount, speed_text
@@ -63,7 +64,10 @@ _NO_CAPACITANCE = 1e-6
 # Forces that are no load of a bearing [N].
 _NO_FORCE = 1e-6
 
-# Largest load of all bearings that a torque near 0 gives [N].
+# Quotient of two torques that differ by more than rounding.
+_LARGER = 1.0 + 1e-9
+
+# Largest load of the bearings of a shaft that a torque near 0 gives [N].
 _SMALL = 1e-3
 
 
@@ -323,7 +327,7 @@ class AxleSolution:
 
 
 def forces_on_shafts(case: AxleCase) -> dict[str, list[tuple[str, ForceAt]]]:
-    """Forces of the meshes on each shaft with gears, each with the name of the other shaft."""
+    """Forces on each shaft whose loads follow from statics, with its words: of meshes, weight, others."""
     turning = case.turning()
     forces: dict[str, list[tuple[str, ForceAt]]] = {}
     for number, mesh in enumerate(case.mesh):
@@ -333,12 +337,20 @@ def forces_on_shafts(case: AxleCase) -> dict[str, list[tuple[str, ForceAt]]]:
         torque = case.torque_of_gear(number, turning)
         both = forces_of_mesh(pair, torque, gear.hand or "right", mesh.direction, (mesh.at[0], mesh.at[1]))
         for name, other, force in zip(mesh.gears, mesh.gears[::-1], both, strict=True):
-            forces.setdefault(name, []).append((other, force))
+            forces.setdefault(name, []).append((f"mesh with {other}", force))
+    down, axis = case.drive.gravity_direction, np.array([0.0, 0.0, 1.0])
+    for shaft in case.shaft:
+        if shaft.mass is not None and shaft.mass_at is not None:
+            weight = shaft.mass * GRAVITY * np.array([math.cos(down), math.sin(down), 0.0])
+            forces.setdefault(shaft.name, []).append(("weight", ForceAt(weight, shaft.mass_at * axis)))
+    for number, each in enumerate(case.force, 1):
+        force = ForceAt(np.array([each.x, each.y, each.z]), each.at * axis)
+        forces.setdefault(each.shaft, []).append((f"force {number}", force))
     return forces
 
 
 def loads_on_shafts(case: AxleCase) -> dict[str, BearingLoads]:
-    """Loads of the bearings of each shaft with gears, by the name of the shaft."""
+    """Loads of the bearings of each shaft with gears, a mass or forces, by the name of the shaft."""
     (loads,) = loads_of_axles([case])
     if isinstance(loads, Exception):
         raise loads
@@ -460,7 +472,10 @@ def solve_films(case: AxleCase, progress: Progress = silent) -> SolvedFilms:
         progress(len(bearings), count, names[len(bearings) - 1])
     for number in range(len(case.mesh)):
         with within(f"mesh.{number + 1}.pair"):
-            meshes.append(solve_gear_pair(case.gear_case(number, turning)))
+            (outcome,) = solve_loose_pairs([case.gear_case(number, turning)])
+            if isinstance(outcome, Exception):
+                raise outcome
+        meshes.append(outcome)
         done = len(bearings) + len(meshes)
         progress(done, count, names[done - 1])
     return SolvedFilms(case, turning, loads, tuple(bearings), tuple(axial), tuple(meshes))
@@ -520,9 +535,11 @@ def elements_of(films: SolvedFilms) -> AxleSolution:
             (name, tuple(each for each in result.warnings if each.code != "capacitance-bound"))
         )
         elements += bearing_elements(result.solution, [(name, bearing.shaft, axial)])
-    for name, mesh, gears in zip(case.names_of_meshes(), case.mesh, films.meshes, strict=True):
+    for number, (name, mesh) in enumerate(zip(case.names_of_meshes(), case.mesh, strict=True)):
+        gears = films.meshes[number]
         elements.append(mesh_element(name, mesh.gears, gears))
-        of_elements.append((name, tuple(gear_warnings(gears, in_axle=True))))
+        loose = loose_warning(gears, case.torque_of_gear(number, films.turning))
+        of_elements.append((name, (*loose, *gear_warnings(gears, in_axle=True))))
     of_axle = axle_warnings(case, films.turning, films.loads)
     warnings = named_warnings((*of_axle, *thinnest_first(elements, of_elements)))
     solution = AxleSolution(case, films.turning, tuple(elements), tuple(warnings))
@@ -664,7 +681,7 @@ def load_of(case: AxleCase, number: int, loads: Mapping[str, BearingLoads]) -> t
         return 0.0, 0.0
     on_shaft = loads[bearing.shaft]
     place = case.bearings_of(bearing.shaft).index(number)
-    largest = max(max(*each.radial, abs(each.axial)) for each in loads.values())
+    largest = max(*on_shaft.radial, abs(on_shaft.axial))
     if (
         not bearing.loaded
         and max(on_shaft.radial[place], abs(on_shaft.axial)) <= _NO_FORCE
@@ -674,7 +691,8 @@ def load_of(case: AxleCase, number: int, loads: Mapping[str, BearingLoads]) -> t
             "drive.torque",
             got=f"{readable(case.drive.torque)} N m, with which gears load the bearings of {bearing.shaft} "
             f"by at most {_NO_FORCE:g} N",
-            takes="a larger torque: a bearing without a load has no film that is computed",
+            takes="a larger torque; or the mass of the shaft, or a table [[force]]: a bearing without a load "
+            "has no film that is computed",
         )
     radial = on_shaft.radial[place]
     radial = radial if radial > _NO_FORCE else 0.0
@@ -721,6 +739,13 @@ def bearing_elements(solution: BearingSolution, mounted: Sequence[tuple[str, str
             mounted, rows, strict=True
         )
     ]
+
+
+def loose_warning(gears: GearSolution, torque: float) -> Iterator[ResultWarning]:
+    """Warning of a mesh that has a larger torque than its own [N m], as films would fill its backlash."""
+    solved = abs(gears.case.gear.operation.pinion_torque)
+    if solved > _LARGER * abs(torque):
+        yield ResultWarning.of("mesh-loose", torque=amount(abs(torque), "N m"), solved=amount(solved, "N m"))
 
 
 def mesh_element(name: str, gears: tuple[str, ...], solution: GearSolution) -> Element:

@@ -25,6 +25,7 @@ from ehlectric.cases.axle_inputs import (
     Link,
     MountedBearing,
     Shaft,
+    ShaftForce,
     SharedKeys,
 )
 from ehlectric.cases.axle_keys import ADJUSTED, element_keys, shaft_keys
@@ -82,6 +83,9 @@ _LEAST_OVERLAP = 1e-6
 # Properties in which two gears differ, and their units.
 _UNITS_OF_GEARS = {"normal_module": "m", "teeth": "", "normal_pressure_angle": "rad", "helix_angle": "rad"}
 
+# Torque of a gear that stands for none [N m]: oil then fills the backlash.
+_NO_TORQUE = 1e-6
+
 # Load with which the keys of a bearing are checked before its loads are known [N].
 _CHECK_LOAD = 100.0
 
@@ -105,8 +109,8 @@ class AxleCase(CaseFile, book="axle_file"):
     ----------
     drive : mapping
         Speed and torque of the rotor, and temperature of the oil.
-    shaft, bearing, mesh, link : sequence of mapping
-        Shafts; bearings on them; gear meshes between them; rings, couplings and other links.
+    shaft, bearing, mesh, link, force : sequence of mapping
+        Shafts; bearings on them; gear meshes between them; rings, couplings and other links; further forces.
     bearings : mapping, optional
         Keys of all bearings, which the keys of a bearing replace.
     source, circuit : mapping
@@ -140,7 +144,7 @@ class AxleCase(CaseFile, book="axle_file"):
 
         def __init__(self, **tables: Any) -> None: ...
 
-    _numbered: ClassVar[tuple[str, ...]] = ("shaft", "bearing", "mesh", "link", "remedies")
+    _numbered: ClassVar[tuple[str, ...]] = ("shaft", "bearing", "mesh", "link", "force", "remedies")
 
     title: Title = ""
     drive: AxleOperation
@@ -149,6 +153,7 @@ class AxleCase(CaseFile, book="axle_file"):
     bearings: SharedKeys = Field(default_factory=dict)
     mesh: tuple[AxleMesh, ...] = ()
     link: tuple[Link, ...] = ()
+    force: tuple[ShaftForce, ...] = ()
     source: Source
     circuit: Circuit
     breakdown: Breakdown | None = None
@@ -189,6 +194,15 @@ class AxleCase(CaseFile, book="axle_file"):
     def rotor(self) -> str:
         """Name of the shaft of the rotor."""
         return next(shaft.name for shaft in self.shaft if shaft.rotor)
+
+    @property
+    def loaded_shafts(self) -> set[str]:
+        """Names of the shafts whose bearing loads follow from statics: with gears, a mass or a force."""
+        return {
+            *(name for mesh in self.mesh for name in mesh.gears),
+            *(shaft.name for shaft in self.shaft if shaft.mass is not None),
+            *(force.shaft for force in self.force),
+        }
 
     @property
     def solves_films(self) -> bool:
@@ -307,7 +321,7 @@ class AxleCase(CaseFile, book="axle_file"):
 
     def gear_operation(self, number: int, turning: Mapping[str, Turning]) -> dict[str, float | str]:
         """Return the values of ``gear.operation`` that the axle replaces in the file of a mesh."""
-        mesh, torque = self.mesh[number], self.torque_of_gear(number, turning)
+        mesh, torque = self.mesh[number], self.torque_of_gear(number, turning) or _NO_TORQUE
         speed = turning[mesh.gears[0]].speed
         of_file = mesh.pair.gear.operation
         bulk = of_file.bulk_temperature
@@ -384,7 +398,7 @@ class AxleCase(CaseFile, book="axle_file"):
     def _check(self) -> Self:
         self._check_names()
         self._check_bearings()
-        if self.mesh:
+        if self.mesh and not (self.force or any(shaft.mass is not None for shaft in self.shaft)):
             with within("drive"):
                 self.drive.check_not_zero("torque", "no mesh carries a load")
         if self.source.dc_link is None:
@@ -402,10 +416,11 @@ class AxleCase(CaseFile, book="axle_file"):
                     got=f"a {kind} bearing",
                     takes="one that carries radial loads",
                 )
-        helical = {name for mesh in self.mesh if mesh.pair.gear.helix_angle for name in mesh.gears}
+        axial = {name for mesh in self.mesh if mesh.pair.gear.helix_angle for name in mesh.gears}
+        axial |= {force.shaft for force in self.force if force.z}
         for shaft in self.shaft:
             if self._check_adjusted(shaft) is None:
-                self._check_locating(shaft, helical=shaft.name in helical)
+                self._check_locating(shaft, axial=shaft.name in axial)
         self._check_measured()
         for span in self.ranges or ():
             self.check_shared(span.key)
@@ -455,6 +470,7 @@ class AxleCase(CaseFile, book="axle_file"):
             raise InputError(f"shaft.{number}.rotor", got=got, takes="one: [circuit] acts on it")
         places = (
             *((f"bearing.{n}.shaft", bearing.shaft, False) for n, bearing in enumerate(self.bearing, 1)),
+            *((f"force.{n}.shaft", force.shaft, False) for n, force in enumerate(self.force, 1)),
             *((f"mesh.{n}.gears", name, False) for n, mesh in enumerate(self.mesh, 1) for name in mesh.gears),
             *(
                 (f"link.{n}.between", name, True)
@@ -483,15 +499,15 @@ class AxleCase(CaseFile, book="axle_file"):
                     takes="two: the loads of more bearings do not follow from statics",
                 )
 
-    def _check_locating(self, shaft: Shaft, *, helical: bool) -> None:
+    def _check_locating(self, shaft: Shaft, *, axial: bool) -> None:
         """Check that one bearing carries the axial force of a shaft."""
         numbers = self.bearings_of(shaft.name)
         locating = sum(self.bearing[number].locating for number in numbers)
-        if locating > 1 or (helical and locating != 1):
+        if locating > 1 or (axial and locating != 1):
             raise InputError(
                 f"bearing.{numbers[-1] + 1}.locating",
                 got=f"{locating} of the bearings of shaft {shaft.name!r}",
-                takes="one, which carries the axial force of the helical gears",
+                takes="one, which carries the axial force of the shaft",
             )
 
     def _kind_of(self, number: int) -> str:
@@ -545,10 +561,10 @@ class AxleCase(CaseFile, book="axle_file"):
                 takes="two of one kind, which are adjusted against each other, or a pair at one place: the "
                 "axial load of a single inclined row depends on a second one",
             )
-        if not any(shaft.name in mesh.gears for mesh in self.mesh):
+        if shaft.name not in self.loaded_shafts:
             raise InputError.worded(
                 f"bearing.{numbers[0] + 1}.axial_load",
-                f"missing; shaft {shaft.name!r} has no gears that load its bearings",
+                f"missing; shaft {shaft.name!r} has no gears, no mass and no force that load its bearings",
             )
         locating = [number for number in numbers if self.bearing[number].locating]
         if locating:
@@ -591,15 +607,17 @@ class AxleCase(CaseFile, book="axle_file"):
                 )
 
     def _check_loads(self) -> None:
-        """Check that bearings of shafts with gears have no load, and all others have one."""
-        meshing = {name for mesh in self.mesh for name in mesh.gears}
+        """Check that bearings have no load if it follows from statics, and all others have one."""
+        loaded = self.loaded_shafts
         for number, bearing in enumerate(self.bearing, 1):
             load = "axial" if "axial_load" in bearing.keys and "radial_load" not in bearing.keys else "radial"
             key, name = f"bearing.{number}.{load}_load", bearing.shaft
-            if name in meshing and bearing.loaded:
-                raise InputError.worded(key, f"shaft {name!r} has gears, from which its loads follow")
-            if name not in meshing and not bearing.loaded:
-                raise InputError.worded(key, f"missing; shaft {name!r} has no gears that load its bearings")
+            if name in loaded and bearing.loaded:
+                text = f"shaft {name!r} has gears, a mass or a force, from which its loads follow"
+                raise InputError.worded(key, text)
+            if name not in loaded and not bearing.loaded:
+                text = f"missing; shaft {name!r} has no gears, no mass and no force that load its bearings"
+                raise InputError.worded(key, text)
 
     def _speeds(self, table: dict[str, Any]) -> Iterator[tuple[dict[str, Any], str]]:
         yield table["drive"], "speed"
@@ -630,6 +648,7 @@ class AxleCase(CaseFile, book="axle_file"):
             New values by dotted key, as in ``{"drive.torque": "-30 N m"}``. ``bearing.SHAFT.KEY`` is a key
             of all bearings of a shaft, and ``shaft.SHAFT.KEY`` a key of the shaft. ``mesh.NUMBER.KEY`` is a
             key of the gear file of a mesh, from 1, and ``mesh.gear.KEY`` a key of all gear files.
+            ``force.NUMBER.KEY`` is a key of a force, from 1.
             ``link.KIND.KEY`` is a key of all links of a kind, and ``link.NUMBER.KEY`` a key of a link;
             ``"none"`` as their resistance removes links. The tables of a list are also given as a whole, as
             in ``{"link": []}``.
@@ -648,6 +667,7 @@ class AxleCase(CaseFile, book="axle_file"):
             "shaft": self._change_shaft,
             "mesh": self._change_mesh,
             "link": self._change_links,
+            "force": self._change_force,
         }
         inner = {key: value for key, value in flat.items() if "." in key and key.split(".")[0] in lists}
         set_keys(table, {key: value for key, value in flat.items() if key not in inner})
@@ -668,7 +688,7 @@ class AxleCase(CaseFile, book="axle_file"):
             return self.replace({**remedy.changes, "remedies": []})
 
     def places_of(self, key: str) -> list[int]:
-        """Return the places of the bearings, shafts, meshes or links that a dotted key changes, from 0.
+        """Return the places, from 0, of the bearings, shafts, meshes, links or forces that a key changes.
 
         Raises InputError if the axle does not have one.
         """
@@ -685,6 +705,9 @@ class AxleCase(CaseFile, book="axle_file"):
             places = [number - 1 for number in map(int, numbers) if place in (str(number), "gear")]
             takes = f"mesh.NUMBER.KEY with one of {', '.join(numbers)} as the number, or mesh.gear.KEY"
             takes = takes if numbers else "no mesh"
+        elif name == "force":
+            places = [number for number in range(len(self.force)) if place == str(number + 1)]
+            takes = f"force.NUMBER.KEY, from 1 to {len(self.force)}" if self.force else "no force"
         else:
             links = [*enumerate(self.link)]
             places = [number for number, link in links if place in (str(number + 1), link.kind)]
@@ -724,6 +747,11 @@ class AxleCase(CaseFile, book="axle_file"):
                 mesh.pop(_CONTACT, None)
             with within("mesh" if of_all else f"mesh.{number + 1}"):
                 mesh["pair"] = GearCase.from_dict(mesh["pair"]).replace(changes).to_dict()
+
+    def _change_force(self, table: dict[str, Any], key: str, change: Mapping[str, Any]) -> None:
+        """Change a key of a force in the tables of a case."""
+        (number,) = self.places_of(key)
+        table["force"][number] |= change
 
     def _change_links(self, table: dict[str, Any], key: str, change: Mapping[str, Any]) -> None:
         """Change a key in a link, or in all links of a kind, in the tables of a case; or remove links."""

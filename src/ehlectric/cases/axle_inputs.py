@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal, Self
 
@@ -87,6 +88,7 @@ class AxleOperation(Table, book="axle.drive"):
     contacts: Contacts | None = None
     duration: float | None = None
     seed: int = 0
+    gravity_direction: float = -0.5 * math.pi
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -119,7 +121,16 @@ class Shaft(Table, book="axle.shaft"):
     name: Title
     rotor: bool = False
     housing_capacitance: float | None = None
+    mass: float | None = None
+    mass_at: float | None = None
     adjustment: Adjustment | None = None
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        for key, other in (("mass", "mass_at"), ("mass_at", "mass")):
+            if getattr(self, key) is not None and getattr(self, other) is None:
+                raise InputError.missing(other, f"a value; {key} is given")
+        return self
 
 
 class MountedBearing(Table, book="axle.bearing"):
@@ -164,6 +175,22 @@ class AxleMesh(Table, book="axle.mesh"):
             raise InputError.worded(
                 "pair.gear.hand", 'missing; "left" or "right" of gear 1 determines the axial force'
             )
+        return self
+
+
+class ShaftForce(Table, book="axle.force"):
+    """Force on a shaft at a place on its axis, with its components along x, y and z."""
+
+    shaft: str
+    at: float
+    x: float = 0.0
+    y: float = 0.0
+    z: float = 0.0
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if not any((self.x, self.y, self.z)):
+            raise InputError.missing("x", "a force; or y, or z")
         return self
 
 

@@ -41,10 +41,10 @@ _DRAWN, _HEAD = 0.02 / _HIGH, 10.0
 
 @dataclass(frozen=True)
 class PlacedForce:
-    """Force on a shaft at a bearing or a mesh, for the torque of the case and for the other sign."""
+    """Force on a shaft at a place, for the torque of the case and for the other sign."""
 
     name: str
-    kind: str  # "bearing" or "mesh"
+    kind: str  # "bearing", "mesh" or "force"
     place: float  # along z [m]
     forces: tuple[tuple[float, float, float], ...]  # in x, y and z [N]
 
@@ -62,27 +62,31 @@ class PlacedForce:
         return f"{name}\n{across} N", f"{name}\n{along} N"
 
 
+# Markers of the places of forces by their kinds.
+_MARKERS = {"bearing": "^", "mesh": "s", "force": "D"}
+
 # Axial force that is rounding [N].
 _NO_FORCE = 1e-6
 
 
 def placed_forces(case: AxleCase) -> dict[str, list[PlacedForce]]:
-    """Forces on all shafts with gears: forces of the meshes, and reactions of the bearings.
+    """Forces on all shafts whose loads follow from statics: of the meshes, weight, further forces, and
+    reactions of the bearings.
 
     The second force of each place belongs to the torque with the other sign.
     """
     both = case, case.replace({"drive.torque": -case.drive.torque})
     forces, loads = [forces_on_shafts(each) for each in both], [loads_on_shafts(each) for each in both]
     placed: dict[str, list[PlacedForce]] = {}
-    for shaft, of_meshes in forces[0].items():
+    for shaft, of_shaft in forces[0].items():
         rows = [
             PlacedForce(
-                f"mesh with {mesh}",
-                "mesh",
+                words,
+                "mesh" if words.startswith("mesh") else "force",
                 float(force.point[2]),
                 tuple(_vector(of_sign[shaft][number][1].force) for of_sign in forces),
             )
-            for number, (mesh, force) in enumerate(of_meshes)
+            for number, (words, force) in enumerate(of_shaft)
         ]
         for place, number in enumerate(case.bearings_of(shaft)):
             bearing = case.bearing[number]
@@ -121,10 +125,13 @@ def shaft_forces(result: AxleResult) -> Axes:
             Line2D([], [], color=colour, lw=2.0, label=f"{amount(value, 'N m')} of the rotor")
             for colour, value in zip(_COLOURS, (torque, -torque), strict=True)
         ),
-        Line2D([], [], color=BLACK, ls="none", marker="^", label="bearing"),
-        Line2D([], [], color=BLACK, ls="none", marker="s", label="gear"),
+        Line2D([], [], color=BLACK, ls="none", marker=_MARKERS["bearing"], label="bearing"),
+        Line2D([], [], color=BLACK, ls="none", marker=_MARKERS["mesh"], label="gear"),
     ]
-    legend_above(panels[0], handles, columns=4)
+    if any(each.kind == "force" for of_shaft in placed.values() for each in of_shaft):
+        label = "weight or force"
+        handles.append(Line2D([], [], color=BLACK, ls="none", marker=_MARKERS["force"], label=label))
+    legend_above(panels[0], handles, columns=len(handles))
     return panels[0]
 
 
@@ -134,7 +141,7 @@ def _draw(ax: Axes, forces: Sequence[PlacedForce], way: int, high: float) -> Non
     length = float(np.ptp(places))
     ax.axhline(0.0, color=BLACK, lw=1.5, zorder=1.0)
     for each, place in zip(forces, places, strict=True):
-        marker = "^" if each.kind == "bearing" else "s"
+        marker = _MARKERS[each.kind]
         ax.plot(place, 0.0, ls="none", marker=marker, ms=8.0, color=BLACK, zorder=3.0)
         for number, (colour, force) in enumerate(zip(_COLOURS, each.forces, strict=True)):
             side = 2 * number - 1

@@ -27,8 +27,8 @@ from .solution import drawing_of as drawing_of
 from .solution import open_area as open_area
 from .solution import reference_area_of as reference_area_of
 from .solving import capacitances_over_films as capacitances_over_films
-from .solving import solve_gear_pair as solve_gear_pair
 from .solving import solve_gear_pairs as solve_gear_pairs
+from .solving import solve_loose_pairs as solve_loose_pairs
 from .stored import SCHEMA as SCHEMA
 from .summary import gear_summary as gear_summary
 from .warnings import gear_warnings as gear_warnings

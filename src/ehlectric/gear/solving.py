@@ -11,7 +11,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.cases.case_oil import Lubricant
-from ehlectric.cases.gear_case import GearCase
+from ehlectric.cases.gear_case import GearCase, changed_pair
 from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.film import Groups
 from ehlectric.gear.contact_path import POINTS
@@ -68,6 +68,34 @@ def solve_gear_pair(case: GearCase) -> GearSolution:
     if isinstance(outcome, GearSolution):
         return outcome
     raise outcome
+
+
+class FilledError(InputError):
+    """Error of a mesh whose films would fill more than half of the backlash."""
+
+    least: float  # torque of gear 1 at which they fill half of it [N m]
+
+
+# Times that the torque of a mesh is raised until its films fill half of the backlash, and how far beyond.
+_RAISED, _BEYOND = 4, 1.0 + 1e-6
+
+
+def solve_loose_pairs(cases: Sequence[GearCase], *, unloaded: bool = True) -> list[Outcome]:
+    """Meshes of many gear pairs as ``solve_gear_pairs`` solves them, also almost without a torque.
+
+    If the films of a mesh would fill more than half of the backlash, the oil on both sides of the teeth keeps
+    them in its middle. Its solution then has the torque at which films fill half of it.
+    """
+    given, outcomes = [*cases], [*solve_gear_pairs(cases, unloaded=unloaded)]
+    for _ in range(_RAISED):
+        filled = {place: each for place, each in enumerate(outcomes) if isinstance(each, FilledError)}
+        for place, error in filled.items():
+            torque = math.copysign(_BEYOND * error.least, given[place].gear.operation.pinion_torque)
+            given[place] = changed_pair(given[place], {"gear.operation.pinion_torque": torque})
+        solved = solve_gear_pairs([given[place] for place in filled], unloaded=unloaded)
+        for place, outcome in zip(filled, solved, strict=True):
+            outcomes[place] = outcome
+    return outcomes
 
 
 def capacitances_over_films(solution: GearSolution, factors: Array) -> Array:
@@ -163,7 +191,7 @@ def check_room(solution: GearSolution) -> None:
         return
     least = 2.0 * abs(torque) * film / solution.backlash
     assumed = " (assumed without gear.normal_backlash)" if solution.pair.normal_backlash is None else ""
-    raise InputError(
+    error = FilledError(
         "gear.operation.pinion_torque",
         got=f"{amount(torque, 'N m')}, which gives a film of {amount(film, 'm')} in a normal backlash of "
         f"{amount(solution.backlash, 'm')}{assumed}",
@@ -171,6 +199,8 @@ def check_room(solution: GearSolution) -> None:
         "lower viscosity: below this torque the oil on both sides of the teeth keeps them in the middle of "
         "the backlash, and they may rattle",
     )
+    error.least = least
+    raise error
 
 
 def _ranges(groups: Groups) -> tuple[float, float, float, float]:

@@ -163,7 +163,8 @@ def end_and_key(key: str) -> tuple[str, str]:
     """Name of the bearing of a drive before a dotted key, and the key in a bearing file.
 
     Keys of an axle have the name of a shaft, a number or a kind before them: "bearing.SHAFT", "shaft.SHAFT",
-    "mesh.NUMBER" and "link.KIND", and "bearing.*" and "mesh.*" for all bearings and all gear files.
+    "mesh.NUMBER", "force.NUMBER" and "link.KIND". "bearing.*" and "mesh.*" stand for all bearings and for all
+    gear files.
 
     Examples
     --------
@@ -186,7 +187,7 @@ def end_and_key(key: str) -> tuple[str, str]:
         return _ALL_MESHES, rest
     if first == "mesh" and name.isdecimal():
         return f"mesh.{name}", inner
-    if first in ("shaft", "link") and f"axle.{first}" in inputs():
+    if first in ("shaft", "link", "force") and f"axle.{first}" in inputs():
         return f"{first}.{name}", f"axle.{first}.{inner}"
     if first == "bearing" and name not in bearing and f"bearing.{name}" not in inputs():
         return f"bearing.{name}", f"bearing.{inner}"
@@ -210,7 +211,7 @@ def with_end(end: str, inner: str) -> str:
     kind = end.partition(".")[0]
     if end == _ALL_MESHES:
         return f"mesh.{inner}"
-    if kind in ("bearing", "shaft", "link"):
+    if kind in ("bearing", "shaft", "link", "force"):
         name = inner.removeprefix("axle.").removeprefix(f"{kind}.")
         return f"{BOTH if end == _ALL_BEARINGS else end}.{name}"
     return f"{end}.{inner}" if end else inner

@@ -107,7 +107,7 @@ def _check_axle(key: str, case: AxleCase) -> None:
     case.check_shared(key)
     place, inner = end_and_key(key)
     kind, _, name = place.partition(".")
-    if kind in ("bearing", "shaft", "mesh", "link") and name != "*":
+    if kind in ("bearing", "shaft", "mesh", "link", "force") and name != "*":
         case.places_of(key)
     elif not name and key in AxleCase.known_keys():
         raise InputError.worded(key, "cannot vary", takes="a key of the operating point, a bearing or a mesh")

@@ -38,7 +38,7 @@ HOUSING = "housing"
 MEASURED = "measured"
 
 # Lists of tables of an axle.
-LISTS = ("shaft", "bearing", "mesh", "link")
+LISTS = ("shaft", "bearing", "mesh", "link", "force")
 
 # Keys of a gear file that the axle replaces, without their mesh.
 REPLACED_IN_GEAR_FILES = (
@@ -112,6 +112,7 @@ def shape_of(inputs: Inputs) -> tuple[Any, ...]:
         tuple(_shafts_of_bearings(inputs)),
         tuple(_pair_of(mesh, "gears") for mesh in _tables(inputs, "mesh")),
         len(_tables(inputs, "link")),
+        len(_tables(inputs, "force")),
     )
 
 
@@ -129,6 +130,7 @@ def axle_groups(inputs: Inputs) -> tuple[Group, ...]:
     lost = [n for n, bearing in enumerate(bearings, 1) if str(bearing.get("shaft", "")) not in names]
     groups += [_bearing_group(n, f"Bearing {n} without a shaft", names) for n in lost]
     groups += [_mesh_group(n, names) for n in range(1, len(_tables(inputs, "mesh")) + 1)]
+    groups += [_force_group(n, names) for n in range(1, len(_tables(inputs, "force")) + 1)]
     groups += [_link_group(n, [*names, HOUSING]) for n in range(1, len(_tables(inputs, "link")) + 1)]
     return (*groups, *_OF_MACHINE)
 
@@ -327,6 +329,19 @@ def _mesh_group(number: int, names: Iterable[str]) -> Group:
 def mesh_title(number: int) -> str:
     """Title of the group of a mesh."""
     return f"Gear mesh {number}"
+
+
+def force_title(number: int) -> str:
+    """Title of the group of a force."""
+    return f"Force {number}"
+
+
+def _force_group(number: int, names: Iterable[str]) -> Group:
+    fields = (
+        replace(field, kind="choice", choices=tuple(names)) if field.key.endswith(".shaft") else field
+        for field in _fields("Force", "axle.force", f"force.{number}")
+    )
+    return Group(force_title(number), tuple(fields))
 
 
 def link_title(number: int) -> str:
@@ -546,11 +561,12 @@ def _renamed(inputs: Inputs, old: str, new: str) -> Inputs:
         return new if value == old else value
 
     changes: dict[str, Any] = {}
-    for name, keys in (("bearing", ("shaft",)), ("mesh", ("gears",)), ("link", ("between",))):
+    keys_of_names = {"bearing": "shaft", "mesh": "gears", "link": "between", "force": "shaft"}
+    for name, of_names in keys_of_names.items():
         tables = _tables(inputs, name)
         if tables:
             changes[name] = [
-                {key: renamed(value) if key in keys else value for key, value in table.items()}
+                {key: renamed(value) if key == of_names else value for key, value in table.items()}
                 for table in tables
             ]
     remedies = _tables(inputs, "remedies")
@@ -633,6 +649,7 @@ def without_shaft(inputs: Inputs, number: int) -> Inputs:
         f"shaft.{number}": None,
         "bearing": [each for each in _tables(inputs, "bearing") if each.get("shaft") != name] or None,
         "link": [each for each in _tables(inputs, "link") if name not in _pair_of(each, "between")] or None,
+        "force": [each for each in _tables(inputs, "force") if each.get("shaft") != name] or None,
         "remedies": [each for each in _tables(inputs, "remedies") if not _refers(each, name)] or None,
     }
     return _with_measured(inputs, inputs.changed(changes), removed)
@@ -659,7 +676,7 @@ def without_table(inputs: Inputs, name: str, number: int) -> Inputs:
         for key, value in given.items() if isinstance(given, Mapping) else ():
             first, _, rest = key.partition(".")
             place, _, inner = rest.partition(".")
-            if first == name and place.isdecimal() and name in ("mesh", "link"):
+            if first == name and place.isdecimal() and name in ("mesh", "link", "force"):
                 if int(place) == number:
                     continue
                 key = f"{name}.{int(place) - (int(place) > number)}.{inner}"
@@ -686,6 +703,21 @@ def with_mesh(inputs: Inputs) -> Inputs:
     meshes, names = _tables(inputs, "mesh"), names_of(inputs)
     copied = deepcopy(meshes[-1]) if meshes else {"at": ["0 mm", "0 mm"], "pair": {}}
     return inputs.changed({"mesh": [*meshes, {**copied, "gears": names[-2:]}]})
+
+
+def with_force(inputs: Inputs) -> Inputs:
+    """Inputs with a further force, on the last shaft, whose bearings then have no loads of their own."""
+    name = names_of(inputs)[-1]
+    force = {"shaft": name, "at": "0 mm", "x": "100 N"}
+    bearings = [
+        {
+            key: value
+            for key, value in each.items()
+            if f"bearing.{key}" not in _LOADS or each.get("shaft") != name
+        }
+        for each in _tables(inputs, "bearing")
+    ]
+    return inputs.changed({"force": [*_tables(inputs, "force"), force], "bearing": bearings})
 
 
 def with_link(inputs: Inputs) -> Inputs:

@@ -14,6 +14,7 @@ from ehlectric.app.form_fields.axle_fields import (
     LISTS,
     SIMULATED,
     axle_groups,
+    force_title,
     link_title,
     mesh_title,
     names_of,
@@ -24,6 +25,7 @@ from ehlectric.app.form_fields.axle_fields import (
     shape_of,
     summary_of,
     with_bearing,
+    with_force,
     with_link,
     with_mesh,
     with_shaft,
@@ -340,12 +342,15 @@ class AxlePage(AnswerPage[AxleAnswer]):
             with self.form.group(mesh_title(number)):
                 GearFileField(self.session, number, self.go_to)
             self._remove(mesh_title(number), "mesh", number)
+        for number in range(1, _count(inputs, "force") + 1):
+            self._remove(force_title(number), "force", number)
         for number in range(1, _count(inputs, "link") + 1):
             self._remove(link_title(number), "link", number)
         with self._place, ui.element("div").classes("buttons"):
             self._button("Add a shaft with bearings and a mesh", "add-shaft", with_shaft)
             self._button("Add a gear mesh", "add-mesh", with_mesh)
             self._button("Add a ring, seal or coupling", "add-link", with_link)
+            self._button("Add a force", "add-force", with_force)
 
     def _remove(self, title: str, name: str, number: int) -> None:
         with self.form.group(title):
