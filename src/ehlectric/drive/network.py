@@ -37,8 +37,8 @@ from ehlectric.cases.drive_inputs import Circuit
 from ehlectric.drive.circuit_equations import FRAME, Element, StateSpace, state_space
 from ehlectric.errors import InputError
 
-# Nodes of the machine beside its shafts and its housing, which is the frame. Earth is a node of its own where
-# the frame has an inductance to it, and the inverter where it has one to the winding.
+# Nodes of the machine in addition to its shafts and its housing, which is the frame. Earth is a node of its
+# own where the frame has an inductance to it, and the inverter where it has one to the winding.
 SOURCE, WINDING, EARTH = "source", "winding", "earth"
 
 

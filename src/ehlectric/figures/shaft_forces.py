@@ -131,7 +131,7 @@ def shaft_forces(result: AxleResult) -> Axes:
     if any(each.kind == "force" for of_shaft in placed.values() for each in of_shaft):
         label = "weight or force"
         handles.append(Line2D([], [], color=BLACK, ls="none", marker=_MARKERS["force"], label=label))
-    legend_above(panels[0], handles, columns=len(handles))
+    legend_above(panels[0], handles, columns=4)
     return panels[0]
 
 
@@ -148,6 +148,8 @@ def _draw(ax: Axes, forces: Sequence[PlacedForce], way: int, high: float) -> Non
             at, value = place + side * _ASIDE * length, force[way]
             if abs(value) >= _DRAWN * high:
                 _draw_arrow(ax, at, value, colour, min(1.0, abs(value) / (_SHORT * high)))
+            elif abs(value) < _NO_FORCE and each.kind == "force":
+                continue
             ax.annotate(
                 f"{readable(abs(value), 3)} N",
                 (at, value),
