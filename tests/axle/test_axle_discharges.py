@@ -246,3 +246,13 @@ def test_a_value_that_the_axle_itself_lacks_is_named_once():
     text = str(caught.value)
     assert text.startswith("breakdown: missing")
     assert [text.count(f"mesh.{number}.contact_resistance") for number in (1, 2)] == [1, 1]
+
+
+def test_a_mesh_discharges_between_its_shafts():
+    """The first mesh of the e-axle of the examples, which insulates; the second one conducts for good."""
+    keys = {"bearings.contact_resistance": "1 ohm", "mesh.1.contact_resistance": "1 ohm"}
+    discharges = solve_axle(
+        two_stages(**{"drive.duration": "0.5 ms", "remedies": [], "breakdown": COUPLED["breakdown"]} | keys)
+    ).discharges
+    rows = {row["element"]: row for row in discharges.summary()["elements"]}
+    assert rows["mesh of rotor and intermediate"]["events"] > 0

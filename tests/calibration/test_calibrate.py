@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from functools import partial
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -14,6 +15,7 @@ from tests.helpers.share import share_of
 import ehlectric
 from ehlectric import BearingCase, DriveCase, GearCase, InputError
 from ehlectric.calibration import given_points
+from ehlectric.calibration.causes import CauseSearch
 from ehlectric.calibration.models import model_of
 from ehlectric.calibration.range_update import _Compared, _quantiles, given_values
 from ehlectric.cases.measured_inputs import Measured, measured_points
@@ -524,3 +526,17 @@ def test_check_accepts_what_calibrate_accepts(measured, changes):
     assert len({*texts}) == refused
     assert len(texts) == 2 * refused
     assert all(text.startswith(f"measured.{next(iter(measured))}: ") for text in texts)
+
+
+def test_a_line_that_is_refused_everywhere_has_no_points():
+    """Predictions before the first refused point: of all points that are accepted, and none of none."""
+
+    def predict(at):
+        if np.max(at) > 0.5:
+            raise InputError("bearing.radial_load", got="too much", takes="less")
+        return 2.0 * at
+
+    search = SimpleNamespace(predict=predict, values=np.zeros(2))
+    at = np.array([[0.1, 0.2], [0.3, 0.4], [0.6, 0.7]])
+    assert CauseSearch._before_refusal(search, at).tolist() == [[0.2, 0.4], [0.6, 0.8]]
+    assert CauseSearch._before_refusal(search, at[2:]).shape == (0, 2)

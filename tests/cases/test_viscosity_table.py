@@ -11,6 +11,7 @@ from ehlectric import Case
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case_oil import Lubricant, named_oil, oil
 from ehlectric.errors import InputError
+from ehlectric.lubricant.viscosity_fit import fit_warnings
 from tests.helpers.bearings import BALLS
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
@@ -318,3 +319,11 @@ def test_the_report_of_an_oil_names_its_table():
     source = named.source("roelands_z")
     assert (source.kind, source.citation) == ("fitted", "viscosity table of oil_viscosity.csv")
     assert "40 rows" in source.note
+
+
+def test_a_note_states_the_share_of_the_coefficient_beyond_a_table():
+    """30 % of the coefficient above 20 MPa, 0.02 GPa, as given."""
+    numbers = {"rows": 5, "rms": 0.01, "worst": 0.02, "highest": 20e6, "share": 0.3}
+    (note,) = (each for each in fit_warnings(1e9, 0.1, **numbers) if each.code == "viscosity-table-short")
+    assert "30 %" in str(note)
+    assert "0.02 GPa" in str(note)

@@ -10,7 +10,7 @@ from ehlectric.drive.drive_bearings import bearing_element
 from ehlectric.drive.drive_record import FILM, OFF, ON
 from ehlectric.drive.netlist import equivalent_of
 from ehlectric.drive.preparation import prepare
-from ehlectric.drive.result import solve_drive
+from ehlectric.drive.result import _parts, solve_drive
 from ehlectric.drive.solver import solve
 from ehlectric.drive.warnings import bearing_warnings
 from ehlectric.quantities.inputs import ENDS
@@ -196,3 +196,13 @@ def test_fast_edges_discharge_both_ends_at_once(rise, together):
     drive = small_drive(**{"source.rise_time": rise, "drive.temperature": "80 degC"})
     codes = {one.code for one in solve_drive(drive, workers=1).warnings}
     assert ("both-ends-discharge" in codes) is together
+
+
+def test_the_progress_of_several_simulations_is_a_part_of_the_whole():
+    """Two drives: the second begins at 50 %, and is half done at 75 %."""
+    reported = []
+    first, second = _parts(lambda done, of, text: reported.append((done, of, text)), 2)
+    first(50, 100, "a")
+    second(0, 100, "b")
+    second(50, 100, "c")
+    assert reported == [(25, 100, "a"), (50, 100, "b"), (75, 100, "c")]

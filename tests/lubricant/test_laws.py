@@ -194,3 +194,8 @@ def test_slope_is_the_quotient_of_differences(law, parameters):
     pressure = np.array([1e7, 3e8, 1e9])
     (low, high), step = (law(pressure + sign * 1e4, **parameters)[0] for sign in (-1.0, 1.0)), 2e4
     assert law(pressure, **parameters)[1] == pytest.approx((high - low) / step, rel=1e-5, abs=1e-16)
+
+
+def test_clausius_mossotti_is_large_just_below_its_pole():
+    """By hand: (5 + 2 + 2 4 1.6)/(5 + 2 - 4 1.6) = 33; the pole is at a density ratio of 7/4."""
+    assert electrical_laws.clausius_mossotti(1.6, relative_permittivity=5.0) == pytest.approx(33.0)

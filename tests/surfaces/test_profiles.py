@@ -213,3 +213,9 @@ def test_continued_profiles_have_no_step(extend):
     np.testing.assert_allclose(height(middle), profile.heights[100:300], atol=1e-18)
     if extend == "flat":
         assert np.all(height(np.array([-3e-4, 3e-4])) == 0.0)
+
+
+def test_a_repeated_profile_has_the_mean_of_both_ends_at_its_joint():
+    profile = Profile(1e-6, 1e-7 * np.random.default_rng(5).standard_normal(200))
+    ends = 0.5 * (profile.heights[0] + profile.heights[-1])
+    assert continued(profile, "repeat")(0.5 * profile.length) == pytest.approx(ends, rel=1e-6)

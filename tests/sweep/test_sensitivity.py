@@ -12,7 +12,7 @@ from scipy.stats import sobol_indices
 from ehlectric import InputError
 from ehlectric.sweep.points import Range
 from ehlectric.sweep.result import SweepResults
-from ehlectric.sweep.sensitivity_indices import LEVEL, indices, intervals, sensitivity
+from ehlectric.sweep.sensitivity_indices import LEVEL, _of_means, indices, intervals, sensitivity
 from tests.helpers.sweep_models import LOAD, SPEED, breakdown, grid, sobol
 
 VALUE = "model.y"
@@ -255,3 +255,17 @@ def test_rows_with_a_film_that_is_not_to_be_used_are_counted():
     found = sensitivity(without(dataclasses.replace(results, points=tuple(points)), (32 + 7,)), VALUE)
     assert (found.doubtful, found.used, found.dropped) == (2, 31, 1)
     assert found.to_dict()["rows_doubtful"] == 2
+
+
+def test_indices_do_not_depend_on_the_zero_of_the_value():
+    """The means of a value and of the value plus 3, without centring, give equal indices."""
+    a, b, *mixed = np.random.default_rng(3).standard_normal((4, 64))
+    columns = []
+    for shift in (0.0, 3.0):
+        first, second, others = a + shift, b + shift, np.array(mixed) + shift
+        change = others - first
+        rows = [[first, second, first**2, second**2], second * change, change, change**2]
+        columns.append(np.mean(np.concatenate(rows), axis=1)[np.newaxis])
+    one, other = (_of_means(means) for means in columns)
+    assert other[0] == pytest.approx(one[0], rel=1e-9)
+    assert other[1] == pytest.approx(one[1], rel=1e-9)

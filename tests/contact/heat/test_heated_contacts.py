@@ -1,6 +1,7 @@
 """Contacts with heat and shear from their case to their files: what is solved, told, stored and drawn."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -8,7 +9,13 @@ import pytest
 from ehlectric import Case, InputError, load, solve
 from ehlectric.app.compute.contact_answers import answer_of
 from ehlectric.contact.conditions import resolve
-from ehlectric.contact.contact_heat import heat_warnings, hot_oil, oil_over_temperature, physics_of
+from ehlectric.contact.contact_heat import (
+    _has_values,
+    heat_warnings,
+    hot_oil,
+    oil_over_temperature,
+    physics_of,
+)
 from ehlectric.contact.film_warnings import film_warnings
 from ehlectric.contact.preparation import prepare
 from ehlectric.contact.run import save
@@ -483,3 +490,17 @@ def test_warning_about_a_rise_that_the_grid_does_not_resolve(hot):
         text = told(hot, **rise, temperature_rise_error=1.0)["heat-unresolved"]
         assert ("spike" in text) == blamed
     assert told(hot, temperature_rise_error=0.1, max_temperature_rise=10.0) == {}
+
+
+def test_laws_need_values_up_to_the_largest_pressure_only():
+    """A law that ends at 1 GPa is enough for a film of 1 GPa, and not for one of 1.1 GPa."""
+
+    def until_1_gpa(pressure):
+        if np.max(pressure) > 1e9:
+            raise ValueError
+        return np.ones_like(pressure), None
+
+    laws = dict.fromkeys(("log_viscosity", "density_ratio", "thermal_conductivity_law"), until_1_gpa)
+    oil = SimpleNamespace(**laws, heat_capacity_law=None, viscosity=0.1)
+    assert _has_values(lambda _: oil, 350.0, 1e9)
+    assert not _has_values(lambda _: oil, 350.0, 1.1e9)

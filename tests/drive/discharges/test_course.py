@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from ehlectric.drive.circuit_equations import FORCE_ROW, RATE_ROW, VOLTAGE_ROWS
 from ehlectric.drive.discharges.compiled import compiled
 from ehlectric.drive.discharges.voltages_in_time import (
     FORCE,
@@ -15,6 +16,7 @@ from ehlectric.drive.discharges.voltages_in_time import (
     START,
     WEIGHTS,
     all_at,
+    begin,
     empty_piece,
     empty_series,
     move,
@@ -38,6 +40,23 @@ def three_ways(piece, series, duration, times, found):
             for m in range(piece.shape[1]):
                 found[1, k, b] += (piece[WEIGHTS + b, m] * piece[NOW, m]).real
         all_at(series, times[k], found[0, k])
+
+
+@compiled
+def filled(rows, squares, x, source, ring, piece):
+    begin(rows, squares, 0, x, source[0], source[1], ring, piece)
+
+
+@pytest.mark.parametrize(("rate", "force", "slope"), [(-2e5, 3e6, 4e9), (-1e3, -2e4, 5e7), (0.0, 1e3, -1e6)])
+def test_the_curvature_of_a_mode_is_its_second_derivative(rate, force, slope):
+    """y' = r y + f + s t has y'' = r (r y + f) + s at the begin, of a voltage 0.5 y."""
+    rows, squares = np.zeros((1, VOLTAGE_ROWS + 2, 3), dtype=complex), np.ones((1, 4, 1, 1), dtype=complex)
+    rows[0, RATE_ROW, 0], rows[0, FORCE_ROW, 0], rows[0, VOLTAGE_ROWS, 0] = rate, 1.0, 0.5
+    piece = empty_piece(1, 1)
+    ring = np.zeros(2, dtype=complex)
+    filled(rows, squares, np.array([0.7]), np.array([force, slope]), ring, piece)
+    curvature = abs(0.5 * (rate * (rate * 0.7 + force) + slope))
+    assert piece[WEIGHTS + 1, 0].real == pytest.approx(curvature, rel=1e-12)
 
 
 @given(
