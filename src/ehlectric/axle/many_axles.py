@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from itertools import repeat
 from typing import Any
 
@@ -27,6 +28,8 @@ from ehlectric.axle.solution import (
 from ehlectric.bearing import Detail, codes_of, is_quick, many_of, solve_bearing, solved_parts
 from ehlectric.cases.axle_case import AxleCase, Turning
 from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.case_oil import Lubricant
+from ehlectric.cases.discharge_inputs import AxleDischarge
 from ehlectric.cases.gear_case import GearCase, changed_pair
 from ehlectric.cases.input_keys import is_quantity
 from ehlectric.cases.table_edits import flattened
@@ -41,6 +44,9 @@ Outcome = AxleSolution | InputError | ConvergenceError
 # Element with its warnings, or why it has no film.
 _Solved = tuple[Element, tuple[ResultWarning, ...]] | InputError | ConvergenceError
 
+
+# Oils whose values are kept.
+_OILS = 64
 
 # Key of the roughness, which films within their error are compared with.
 _ROUGHNESS = "bearing.composite_rq"
@@ -110,7 +116,6 @@ def solve_axles(
     outcomes: dict[int, Outcome] = {}
     axles: dict[int, _Axle] = {}
     mounted: list[_Mounted] = []
-    of_oil = _OfOil()
     given = list(cases)
     for place, (case, scale, loads) in enumerate(zip(given, scales, loads_of_axles(given), strict=False)):
         if isinstance(loads, Exception):
@@ -118,7 +123,7 @@ def solve_axles(
             continue
         try:
             axle = _Axle(case, case.turning(), loads, scale)
-            mounted += _mounted(place, axle, of_oil)
+            mounted += _mounted(place, axle)
             axles[place] = axle
         except InputError as error:
             outcomes[place] = error
@@ -152,10 +157,10 @@ def _together(axle: _Axle, solved: Sequence[_Solved]) -> Outcome:
     return replace(solution, warnings=(*solution.warnings, *machine_notes(solution)))
 
 
-def _mounted(place: int, axle: _Axle, of_oil: _OfOil) -> Iterator[_Mounted]:
+def _mounted(place: int, axle: _Axle) -> Iterator[_Mounted]:
     """Bearings of an axle with the values of their files."""
     case = axle.case
-    shared, text = of_oil.parts(case)
+    shared, text = _of_oil(case.lubricant, case.discharge, case.drive.contacts)
     for number, bearing in enumerate(case.bearing):
         radial, axial = load_of(case, number, axle.loads)
         keys = {"radial_load": radial, "axial_load": abs(axial)} | case.keys_of_bearing(number)
@@ -173,25 +178,15 @@ def _mounted(place: int, axle: _Axle, of_oil: _OfOil) -> Iterator[_Mounted]:
         yield _Mounted(place, number, axle, radial, axial, values | shared, texts)
 
 
-class _OfOil:
-    """Values of the oil and its strength in bearing files, once for each object of a case."""
-
-    def __init__(self) -> None:
-        self._known: dict[tuple[int, int], tuple[dict[str, float], str, AxleCase]] = {}
-
-    def parts(self, case: AxleCase) -> tuple[dict[str, float], str]:
-        """Numbers of quantities by dotted key, and a text with everything else."""
-        # The case stays in the table, so that no other object gets its number.
-        objects = id(case.lubricant), id(case.discharge)
-        if objects not in self._known:
-            tables = {
-                name: getattr(case, name).model_dump(mode="json", exclude_none=True)
-                for name in ("lubricant", "discharge")
-            }
-            values, names = _split(tables)
-            self._known[objects] = values, f"{names!r}, {[*values]}", case
-        values, text, _ = self._known[objects]
-        return values, f"{text}, {case.drive.contacts}"
+@lru_cache(_OILS)
+def _of_oil(
+    lubricant: Lubricant, discharge: AxleDischarge, contacts: str | None
+) -> tuple[dict[str, float], str]:
+    """Oil and strength of bearing files: numbers of quantities by dotted key, and a text with all else."""
+    given = {"lubricant": lubricant, "discharge": discharge}
+    tables = {name: each.model_dump(mode="json", exclude_none=True) for name, each in given.items()}
+    values, names = _split(tables)
+    return values, f"{names!r}, {[*values]}, {contacts}"
 
 
 def _split(tables: Mapping[str, Any]) -> tuple[dict[str, float], dict[str, Any]]:
@@ -287,7 +282,7 @@ def _solved_meshes(axles: Mapping[int, _Axle]) -> dict[tuple[int, int], _Solved]
     solved: dict[tuple[int, int], _Solved] = {}
     places: list[tuple[int, int]] = []
     pairs: list[GearCase] = []
-    # Pairs with the oil of the axle, by the objects that they are made of.
+    # Pairs with the oil of the axle, by what they are made of.
     known: dict[tuple[Any, ...], GearCase] = {}
     for place, axle in axles.items():
         for number in range(len(axle.case.mesh)):
@@ -333,12 +328,12 @@ def _scaled_mesh(element: Element, solution: GearSolution, scales: FilmScales) -
 def _pair(axle: _Axle, number: int, known: dict[tuple[Any, ...], GearCase]) -> GearCase:
     """Gear pair of a mesh at the operating point of its axle."""
     case = axle.case
-    objects = (id(case.mesh[number].pair), id(case.lubricant), id(case.discharge), case.drive.contacts)
-    if objects not in known:
-        known[objects] = case.gear_case(number, axle.turning)
+    parts = case.mesh[number], case.lubricant, case.discharge, case.drive.contacts
+    if parts not in known:
+        known[parts] = case.gear_case(number, axle.turning)
     numbers = case.gear_operation(number, axle.turning).items()
     with within(f"mesh.{number + 1}.pair"):
         return changed_pair(
-            known[objects],
+            known[parts],
             {f"gear.operation.{key}": value for key, value in numbers if is_number(value)},
         )
