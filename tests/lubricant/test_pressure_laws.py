@@ -472,3 +472,10 @@ def test_of_many_oils_one_does_not_rise_with_pressure():
     alpha = np.array([2e-8, 0.0, -1e-9])
     law = partial(barus, pressure_viscosity_coefficient=alpha)
     assert reciprocal_asymptotic_alpha(law) == pytest.approx([2e-8, 0.0, 0.0], rel=1e-9)
+
+
+def test_a_note_states_the_largest_pressure_of_the_measurements():
+    """Larsson and Andersson (2000) measured up to 1.1 GPa."""
+    (note,) = heat_laws._beyond_larsson("larsson", 1.2e9, 0.1)
+    assert "1.1 GPa" in str(note)
+    assert [*heat_laws._beyond_larsson("larsson", 1.0e9, 0.1)] == []
