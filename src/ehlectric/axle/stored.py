@@ -18,7 +18,7 @@ from ehlectric.axle.axle_duty import STATES, AxleDuty
 from ehlectric.axle.solution import AxleSolution, Element
 from ehlectric.axle.stored_discharges import discharge_attributes, discharge_variables
 from ehlectric.cases.axle_case import AxleCase
-from ehlectric.cases.axle_inputs import HOUSING
+from ehlectric.cases.axle_keys import HOUSING
 from ehlectric.quantities.result_warnings import CODES_OF_TEXTS, TEXTS, ResultWarning, warnings_of
 from ehlectric.runtime.file_rules import UnfitError, case_of, is_list, is_number, is_table, is_text, json_of
 from ehlectric.runtime.files import plain

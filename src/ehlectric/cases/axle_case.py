@@ -18,7 +18,6 @@ from pydantic.fields import FieldInfo
 
 from ehlectric.cases.amounts import Amount
 from ehlectric.cases.axle_inputs import (
-    HOUSING,
     Adjustment,
     AxleMesh,
     AxleOperation,
@@ -28,7 +27,7 @@ from ehlectric.cases.axle_inputs import (
     ShaftForce,
     SharedKeys,
 )
-from ehlectric.cases.axle_keys import ADJUSTED, element_keys, shaft_keys
+from ehlectric.cases.axle_keys import ADJUSTED, HOUSING, element_keys, shaft_keys
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.bearing_inputs import Bearing, base_of, typed_base
 from ehlectric.cases.bearing_kinds import KINDS_OF_BEARINGS

@@ -8,14 +8,12 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import BeforeValidator, ConfigDict, model_validator
 
+from ehlectric.cases.axle_keys import HOUSING
 from ehlectric.cases.bearing_inputs import Bearing
 from ehlectric.cases.defaults import Contacts
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.table import Table, Title, any_of, similar_keys
 from ehlectric.errors import InputError, for_all, shown
-
-# Name of the node whose potential is 0.
-HOUSING = "housing"
 
 LinkKind = Literal["ring", "brush", "seal", "spline", "coupling", "insulated"]
 

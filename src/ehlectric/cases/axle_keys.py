@@ -5,6 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
+# Name of the node whose potential is 0.
+HOUSING = "housing"
+
 # Kinds of bearings of which two on a shaft are adjusted against each other.
 ADJUSTED = ("angular-contact ball", "tapered roller")
 

@@ -32,7 +32,7 @@ import numpy as np
 import scipy
 
 from ehlectric.arrays import Array, IntArray, Mask
-from ehlectric.cases.axle_inputs import HOUSING as HOUSING
+from ehlectric.cases.axle_keys import HOUSING as HOUSING
 from ehlectric.cases.drive_inputs import Circuit
 from ehlectric.drive.circuit_equations import FRAME, Element, StateSpace, state_space
 from ehlectric.errors import InputError

@@ -105,9 +105,10 @@ def machine_warnings(case: DriveCase, bearings: Sequence[BearingElement]) -> Ite
         yield ResultWarning.of("capacitances-estimated", capacitances=values)
     for table in ("source", "circuit", "breakdown"):
         yield from active(unusual_machine({f"{table}.{key}": value for key, value in getattr(case, table)}))
-    circuit = case.running_circuit
     yield from ring_warning(case.circuit, case.running_speed)
-    yield from oscillation_warning(circuit, rotor_network(circuit, bearings, case.breakdown).at_rest)
+    if case.circuit.inductive:
+        rotor = rotor_network(case.running_circuit, bearings, case.breakdown)
+        yield from oscillation_warning(case.circuit, rotor.at_rest)
     yield from _of_conduction(case, bearings)
 
 

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 
 from ehlectric.arrays import Array
 from ehlectric.axle import AxleDischarges, AxleResult
-from ehlectric.cases.axle_inputs import HOUSING
+from ehlectric.cases.axle_keys import HOUSING
 from ehlectric.errors import printable
 from ehlectric.figures.category_maps import colours_of_names
 from ehlectric.figures.data import Along, Curve, Panel
