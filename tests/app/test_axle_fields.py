@@ -10,6 +10,7 @@ from ehlectric.app.form_fields.axle_fields import (
     request_of_rows,
     summary_of,
     with_bearing,
+    with_force,
     with_link,
     with_shaft,
     without_shaft,
@@ -18,6 +19,7 @@ from ehlectric.app.form_fields.axle_fields import (
 from ehlectric.app.form_fields.field_defaults import default_of
 from ehlectric.app.form_fields.field_rules import changed
 from ehlectric.app.form_fields.measured_fields import measured_fields
+from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.frame import AXLE
 from ehlectric.cases.axle_case import AxleCase
 from ehlectric.errors import InputError
@@ -40,8 +42,22 @@ def test_every_element_has_a_group_with_its_fields():
     assert all(key.startswith(("bearings.", "breakdown.")) for key in rest), rest
 
 
+def test_a_force_follows_its_shaft():
+    """Its name, its removal, and the loads of bearings that then follow from statics."""
+    loaded = with_force(AXLE)
+    assert loaded.value("force") == [{"shaft": "output", "at": "0 mm", "x": "100 N"}]
+    assert [group.title for group in axle_groups(loaded)].count("Force 1") == 1
+    renamed = changed(loaded, {"shaft.3.name": "wheel"})
+    assert renamed.value("force.1.shaft") == "wheel"
+    assert without_shaft(renamed, 3).value("force") is None
+    assert without_table(loaded, "force", 1) == AXLE
+    bearings = [{"shaft": "a", "base": "6208", "radial_load": "1 kN"} for _ in range(2)]
+    alone = with_force(Inputs({"shaft": [{"name": "a"}], "bearing": bearings}))
+    assert [bearing.keys() & {"radial_load"} for bearing in alone.value("bearing")] == [set(), set()]
+
+
 def test_added_elements_make_a_valid_axle():
-    for inputs in (with_shaft(AXLE), with_link(AXLE), with_shaft(with_shaft(AXLE))):
+    for inputs in (with_shaft(AXLE), with_link(AXLE), with_force(AXLE), with_shaft(with_shaft(AXLE))):
         AxleCase.from_written(inputs.table)
     assert without_shaft(with_shaft(AXLE), 4) == AXLE
     lost = without_table(AXLE, "bearing", 6)
