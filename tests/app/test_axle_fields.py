@@ -52,6 +52,11 @@ def test_a_force_follows_its_shaft():
     assert without_shaft(renamed, 3).value("force") is None
     assert without_table(loaded, "force", 1) == AXLE
     bearings = [{"shaft": "a", "base": "6208", "radial_load": "1 kN"} for _ in range(2)]
+    remedies = [{"title": "belt", "changes": {"force.2.x": "20 N"}}]
+    both = with_force(AXLE).changed({"force.1.shaft": "rotor"})
+    both = with_force(both).changed({"remedies": remedies})
+    assert without_shaft(both, 1).value("remedies") == [{"title": "belt", "changes": {"force.1.x": "20 N"}}]
+    assert with_force(Inputs({})).value("force.1.shaft") == ""
     alone = with_force(Inputs({"shaft": [{"name": "a"}], "bearing": bearings}))
     assert [bearing.keys() & {"radial_load"} for bearing in alone.value("bearing")] == [set(), set()]
 

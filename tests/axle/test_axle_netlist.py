@@ -11,7 +11,7 @@ from ehlectric import AxleCase, InputError, write_axle_netlist
 from ehlectric.axle.axle_discharges import _films_in_time
 from ehlectric.axle.axle_netlist_files import AxleNetlist, _distinct, axle_netlist
 from ehlectric.axle.solution import solve_films
-from ehlectric.drive import WINDING, source_points, write_files
+from ehlectric.drive import source_points, write_files
 from ehlectric.drive.discharges.films_and_source import Measuring, Segments
 from ehlectric.drive.films_in_time import NetworkInTime
 from tests.axle.axles import two_stages
@@ -211,7 +211,7 @@ def test_the_bench_of_an_axle_with_inductances(earthed, tmp_path):
     whole = StateSpace(system.rates, system.force[:, None], states, np.zeros((len(states), 1)))
     # Leaks hold the shafts at 0 V before, and the winding has the voltage of the source.
     start = system.jump * volts[0]
-    start[: len(system.nodes)] += [volts[0] * (node == WINDING) for node in system.nodes]
+    start[: len(system.nodes)] += [volts[0] * (node == "winding") for node in system.nodes]
     _, at, _ = lsim(whole, volts, times, X0=start)
     voltages = at - np.outer(volts, system.jump)
     for shaft in SHAFTS:

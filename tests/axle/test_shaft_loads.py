@@ -1,13 +1,14 @@
 """Loads of the bearings of three shafts, by statics: a separate program, equilibrium and symmetry."""
 
 import math
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric import AxleCase, solve_axle
+from ehlectric import AxleCase, Sweep, evaluate, run_sweep, solve_axle
 from ehlectric.axle import loads_on_shafts, solve_axles
 from ehlectric.axle.shaft_loads import ForceAt, bearing_loads, forces_of_mesh
 from ehlectric.axle.solution import solve_elements
@@ -184,3 +185,46 @@ def test_rows_of_a_cycle_that_coast_are_answered(tmp_path):
     assert duty.known.tolist() == [True, True, True]
     coasting = solve_elements(with_masses(**{"drive.torque": 0.0, "drive.speed": "14000 rpm"}))
     assert duty.voltages[1] == pytest.approx([*coasting.voltages().values()], rel=1e-9)
+
+
+def loaded(**changes):
+    """Rotor of 10 kg without given loads, with a force of 300 N +- 30 N."""
+    bearings = [
+        {key: value for key, value in bearing.items() if key not in ("radial_load", "axial_load")}
+        for bearing in ALONE["bearing"]
+    ]
+    shaft = [{"name": "rotor", "rotor": True, "mass": "10 kg +- 2 kg", "mass_at": "20 mm"}]
+    force = [{"shaft": "rotor", "at": "50 mm", "x": "300 N +- 30 N"}]
+    return AxleCase.from_dict(ALONE | {"bearing": bearings, "shaft": shaft, "force": force} | changes)
+
+
+def test_mass_and_force_with_an_uncertainty_have_ranges():
+    ranges = {each.key: (each.low, each.high) for each in loaded().ranges}
+    assert ranges == {"shaft.rotor.mass": (8.0, 12.0), "force.1.x": (270.0, 330.0)}
+    keys = [each.key for each in solve_axle(loaded()).uncertainty.inputs]
+    assert {"shaft.rotor.mass", "force.1.x"} <= {*keys}
+
+
+def test_forces_and_the_direction_of_gravity_vary(tmp_path):
+    """A force through 0 N, where weight is left; a direction along x adds to the force."""
+    case = loaded().replace(ranges=None)
+    margins = evaluate(case, {"force.1.x": [-300.0, 0.0, 300.0]})["first.margin"].values
+    assert np.all(np.isfinite(margins))
+    assert margins[0] == pytest.approx(margins[2], rel=1e-9)
+    varied = Sweep.from_dict({"case": case, "vary": {"drive.gravity_direction": ["-90 deg", "0 deg"]}})
+    with ThreadPoolExecutor(1) as executor:
+        column = run_sweep(varied, tmp_path, executor).to_dataframe()["elements.rotor_2.radial_load"]
+    weight = 10.0 * 9.80665 * 20.0 / 80.0
+    assert column.tolist() == pytest.approx([math.hypot(187.5, weight), 187.5 + weight], rel=1e-6)
+
+
+@pytest.mark.parametrize("name", ["winding", "source", "earth", "ring"])
+def test_a_shaft_may_have_the_name_of_a_part_of_the_machine(name):
+    """The voltage is that of a shaft with another name."""
+    keys = {"common_mode_inductance": "1 mH", "ground_inductance": "1 uH", "cable_capacitance": "1 nF"}
+    found = []
+    for shaft in ("rotor", name):
+        tables = ALONE | {"shaft": [{"name": shaft, "rotor": True}], "circuit": ALONE["circuit"] | keys}
+        tables["bearing"] = [bearing | {"shaft": shaft} for bearing in ALONE["bearing"]]
+        found.append(solve_elements(AxleCase.from_dict(tables)).potentials()[shaft])
+    assert found[1] == found[0] > 1.0

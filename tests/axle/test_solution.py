@@ -1,5 +1,6 @@
 """Static answer of an axle: today's divider, voltages by hand, films and ranks."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -8,6 +9,7 @@ import pytest
 from ehlectric import AxleCase, InputError, load, save, solve, solve_axle, solve_bearing
 from ehlectric.axle.axle_verdict import axle_verdict
 from ehlectric.axle.measurable import _Probable as Probable
+from ehlectric.axle.result import unused_keys
 from ehlectric.axle.solution import AxleSolution, Element, named_warnings, solve_elements, thinnest_first
 from ehlectric.axle.summary import axle_summary, ratio_word
 from ehlectric.cases.drive_inputs import Breakdown, Circuit
@@ -354,6 +356,41 @@ def test_a_warning_of_many_elements_has_the_numbers_of_the_thinnest_film():
 
 @pytest.mark.parametrize("torque", ["1e-9 N m", "-1e-8 N m"])
 def test_a_torque_that_loads_no_bearing_is_named(torque):
-    with pytest.raises(InputError, match="load the bearings of rotor") as caught:
+    with pytest.raises(InputError, match="bearings of rotor carry") as caught:
         solve_elements(two_stages(remedies=[]).replace({"drive.torque": torque}))
     assert caught.value.key == "drive.torque"
+
+
+@pytest.mark.parametrize("resistance", ["0 ohm", "50 ohm", "100 kohm"])
+def test_the_overshoot_of_a_choke(resistance):
+    """Of L, R and C of winding and rotor by hand: 1 + exp(-pi D/sqrt(1 - D^2)), D = R/2 sqrt(C/L)."""
+    keys = {"common_mode_inductance": "1 mH", "common_mode_resistance": resistance}
+    axle = solve_elements(AxleCase.from_dict(ALONE | {"circuit": ALONE["circuit"] | keys}))
+    winding, frame = (
+        axle.case.circuit.capacitances[f"{key}_capacitance"] for key in ("winding_rotor", "rotor_frame")
+    )
+    below = frame + sum(each.capacitance for each in axle.elements)
+    capacitance = winding * below / (winding + below)
+    damping = 0.5 * axle.case.circuit.common_mode_resistance * math.sqrt(capacitance / 1e-3)
+    expected = 1.0 if damping >= 1.0 else 1.0 + math.exp(-math.pi * damping / math.sqrt(1.0 - damping**2))
+    assert axle.overshoot == pytest.approx(expected, rel=1e-6)
+    assert ("edge-rings" in [each.code for each in axle.warnings]) == (expected > 1.05)
+
+
+@pytest.mark.parametrize(
+    ("circuit", "drive", "words"),
+    [
+        ({"cable_capacitance": "1 nF"}, {}, "without an inductance"),
+        (
+            {"common_mode_inductance": "1 mH", "frame_earth_capacitance": "1 nF"},
+            {},
+            "circuit.ground_inductance",
+        ),
+        ({}, {"gravity_direction": "0 deg"}, "without the mass"),
+    ],
+)
+def test_keys_that_need_another_key_are_named(circuit, drive, words):
+    tables = {"circuit": ALONE["circuit"] | circuit, "drive": ALONE["drive"] | drive}
+    notes = [str(note) for note in unused_keys(AxleCase.from_dict(ALONE | tables))]
+    assert len(notes) == 1
+    assert words in notes[0]

@@ -27,10 +27,6 @@ from ehlectric.readable import readable
 _IF = {"always": "all meshes conduct", "never": "no mesh conducts"}
 
 
-# Largest voltage of an undamped oscillation divided by the voltage without inductances.
-_RINGS = 2.0
-
-
 class _Chance(Protocol):
     """Probabilities of an element."""
 
@@ -104,15 +100,15 @@ def axle_verdict(
     interval = None if touching else strength_interval(margin)
     chance = None if uncertainty is None else uncertainty.chance
     level, code = _level(solution, margin, chance, touching=touching)
-    # The probability holds for capacitances that are upper bounds, with which the voltages are lower.
+    # The probability holds for capacitances that are upper bounds, with which the voltages are lower, and
+    # without the oscillations of inductances.
     level, code = doubted(
         level,
         code,
-        doubts=bool(solution.bounded) and _level_of(largest) != "green",
+        doubts=(bool(solution.bounded) and _level_of(largest) != "green")
+        or (solution.rings and margin < solution.overshoot),
         touching=any(name not in limits for name, _ in ranking),
     )
-    if solution.case.circuit.inductive and level == "green" and margin < _RINGS:
-        level, code = "yellow", code_of("yellow", likely=False)
     # The margin of touching summits does not depend on the strength.
     doubts: tuple[Statement, ...] = () if touching else tuple(strength_doubt(solution.case.discharge, margin))
     facts: tuple[Fact, ...] = () if touching else (Fact("first.breakdown_voltage", limits[first]),)
@@ -219,8 +215,8 @@ def _reasons(solution: AxleSolution, first: str) -> Iterator[Statement]:
     films = [name for name in ranking if name in limits]
     if films and films[0] != first:
         yield _first_film(solution, films[0], "axle-first-film")
-    if solution.case.circuit.inductive:
-        yield Statement.of("axle-rings")
+    if solution.rings:
+        yield Statement.of("axle-rings", times=solution.overshoot)
     others = list(_others(solution, first)) if solution.case.mesh else []
     if solution.case.mesh and not others:
         yield Statement.of("axle-first-in-all")

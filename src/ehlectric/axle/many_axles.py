@@ -18,9 +18,9 @@ from ehlectric.axle.solution import (
     bearing_elements,
     load_of,
     loads_of_axles,
-    loose_warning,
     machine_notes,
     mesh_element,
+    mesh_warnings,
     named_warnings,
     naming_torque,
     thinnest_first,
@@ -34,7 +34,7 @@ from ehlectric.cases.gear_case import GearCase, changed_pair
 from ehlectric.cases.input_keys import is_quantity
 from ehlectric.cases.table_edits import flattened
 from ehlectric.errors import ConvergenceError, InputError, within
-from ehlectric.gear import GearSolution, gear_warnings, open_area, reference_area_of, solve_loose_pairs
+from ehlectric.gear import GearSolution, open_area, reference_area_of, solve_loose_pairs
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.runtime.display import is_number
 
@@ -302,8 +302,8 @@ def _solved_meshes(axles: Mapping[int, _Axle]) -> dict[tuple[int, int], _Solved]
             element = mesh_element(case.names_of_meshes()[number], case.mesh[number].gears, outcome)
             scales = axles[place].scales
             if scales is None:
-                loose = loose_warning(outcome, case.torque_of_gear(number, axles[place].turning))
-                solved[place, number] = element, (*loose, *gear_warnings(outcome, in_axle=True))
+                torque = case.torque_of_gear(number, axles[place].turning)
+                solved[place, number] = element, tuple(mesh_warnings(outcome, torque))
             else:
                 solved[place, number] = _scaled_mesh(element, outcome, scales), ()
     return solved

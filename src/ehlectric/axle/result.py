@@ -258,11 +258,23 @@ _NOT_OF_PAIRS = (
 )
 
 
+def _unused_of_axle(case: AxleCase) -> Iterator[ResultWarning]:
+    """Notes about keys of the drive, the circuit and the discharges that the result does not use."""
+    inductive, ground = case.circuit.inductive, case.circuit.ground_inductance
+    unused = {
+        "axle": _NOT_OF_AXLES,
+        "inductance": () if inductive else _BEHIND_INDUCTANCES,
+        "ground": ("circuit.frame_earth_capacitance",) if inductive and ground is None else (),
+        "mass": () if any(shaft.mass for shaft in case.shaft) else ("drive.gravity_direction",),
+    }
+    for situation, listed in unused.items():
+        if keys := given_keys(case, listed):
+            yield unused_note(situation, keys)
+
+
 def unused_keys(case: AxleCase) -> Iterator[ResultWarning]:
     """Yield notes about given keys that the result of an axle does not use."""
-    behind = () if case.circuit.inductive else _BEHIND_INDUCTANCES
-    if keys := given_keys(case, (*behind, *_NOT_OF_AXLES)):
-        yield unused_note("axle", keys)
+    yield from _unused_of_axle(case)
     for name, bearing in zip(case.names_of_bearings(), case.tables_of_bearings, strict=True):
         if bearing.life is not None:
             # Load ratings also determine the geometry of a bearing that the library lacks.

@@ -61,6 +61,9 @@ _SAME_TEMPERATURE = 0.5
 # Part of a capacitance that stands for none, so that each shaft keeps its path to the housing.
 _NO_CAPACITANCE = 1e-6
 
+# Overshoot from which it is stated.
+_RINGS = 1.05
+
 # Forces that are no load of a bearing [N].
 _NO_FORCE = 1e-6
 
@@ -309,6 +312,21 @@ class AxleSolution:
         return tuple(ends)
 
     @cached_property
+    def overshoot(self) -> float:
+        """Largest voltage after an edge with the inductances, over the voltage without them, for the least
+        damped oscillation of the circuit: 1 without one, and 2 without damping.
+        """
+        _, quality = next(iter(self.network().oscillations()), (0.0, 0.5))
+        # The first turn of a step response with the damping ratio 1/(2 Q).
+        damping = 0.5 / quality
+        return 1.0 + math.exp(-math.pi * damping / math.sqrt(1.0 - damping**2)) if damping < 1.0 else 1.0
+
+    @property
+    def rings(self) -> bool:
+        """Whether the circuit has an oscillation that raises the voltages after an edge noticeably."""
+        return self.overshoot > _RINGS
+
+    @cached_property
     def first_ratios(self) -> tuple[float, float]:
         """Smallest and largest U/V_b of the first element, over the capacitances that are upper bounds."""
         firsts = [each.discharging()[:1] for each in (self, *self.ends_of_bounds)]
@@ -500,11 +518,13 @@ def naming_torque(case: AxleCase, number: int, of_bearing: BearingCase) -> Itera
             raise
         name = case.names_of_bearings()[number]
         radial, axial = amount(loads.radial_load, "N"), amount(loads.axial_load, "N")
+        geared = mounted.shaft in case.geared_shafts
+        cause = f"{readable(case.drive.torque)} N m" if geared else "forces and weight"
         text = (
-            f"got {readable(case.drive.torque)} N m, with which {name} carries {radial} of radial load and "
+            f"got {cause}, with which {name} carries {radial} of radial load and "
             f"{axial} of axial load; {error.key}: {error.text.removesuffix(f' ({name})')}"
         )
-        raise error.with_text("drive.torque", text) from None
+        raise error.with_text("drive.torque" if geared else "force", text) from None
 
 
 def _is_solved(case: BearingCase) -> bool:
@@ -538,8 +558,8 @@ def elements_of(films: SolvedFilms) -> AxleSolution:
     for number, (name, mesh) in enumerate(zip(case.names_of_meshes(), case.mesh, strict=True)):
         gears = films.meshes[number]
         elements.append(mesh_element(name, mesh.gears, gears))
-        loose = loose_warning(gears, case.torque_of_gear(number, films.turning))
-        of_elements.append((name, (*loose, *gear_warnings(gears, in_axle=True))))
+        torque = case.torque_of_gear(number, films.turning)
+        of_elements.append((name, tuple(mesh_warnings(gears, torque))))
     of_axle = axle_warnings(case, films.turning, films.loads)
     warnings = named_warnings((*of_axle, *thinnest_first(elements, of_elements)))
     solution = AxleSolution(case, films.turning, tuple(elements), tuple(warnings))
@@ -552,8 +572,9 @@ def machine_notes(solution: AxleSolution) -> Iterator[ResultWarning]:
     """Warnings about the machine of an axle: its grounding ring, and what rings in its circuit."""
     case = solution.case
     yield from ring_warning(case.circuit, case.drive.speed)
+    if solution.rings:
+        yield ResultWarning.of("edge-rings", times=solution.overshoot)
     if case.circuit.inductive:
-        yield ResultWarning.of("edge-rings")
         yield from oscillation_warning(case.circuit, solution.network())
 
 
@@ -672,9 +693,9 @@ def _named(names: Sequence[str]) -> str:
 
 
 def load_of(case: AxleCase, number: int, loads: Mapping[str, BearingLoads]) -> tuple[float, float]:
-    """Radial load and axial force of a bearing from the meshes [N]; 0 on a shaft without gears.
+    """Radial load and axial force of a bearing by statics [N]; 0 on a shaft with given loads.
 
-    Raises InputError for a torque that loads no bearing of the shaft.
+    Raises InputError for forces that load no bearing of the shaft.
     """
     bearing = case.bearing[number]
     if bearing.shaft not in loads:
@@ -682,17 +703,14 @@ def load_of(case: AxleCase, number: int, loads: Mapping[str, BearingLoads]) -> t
     on_shaft = loads[bearing.shaft]
     place = case.bearings_of(bearing.shaft).index(number)
     largest = max(*on_shaft.radial, abs(on_shaft.axial))
-    if (
-        not bearing.loaded
-        and max(on_shaft.radial[place], abs(on_shaft.axial)) <= _NO_FORCE
-        and largest < _SMALL
-    ):
+    if max(on_shaft.radial[place], abs(on_shaft.axial)) <= _NO_FORCE and largest < _SMALL:
+        geared = bearing.shaft in case.geared_shafts
+        cause = f"{readable(case.drive.torque)} N m" if geared else "forces and weight"
         raise InputError(
-            "drive.torque",
-            got=f"{readable(case.drive.torque)} N m, with which gears load the bearings of {bearing.shaft} "
-            f"by at most {_NO_FORCE:g} N",
-            takes="a larger torque; or the mass of the shaft, or a table [[force]]: a bearing without a load "
-            "has no film that is computed",
+            "drive.torque" if geared else "force",
+            got=f"{cause}, with which the bearings of {bearing.shaft} carry at most {_SMALL:g} N",
+            takes=f"{'a larger torque' if geared else 'other forces'}; or the mass of the shaft, or a table "
+            "[[force]]: a bearing without a load has no film that is computed",
         )
     radial = on_shaft.radial[place]
     radial = radial if radial > _NO_FORCE else 0.0
@@ -741,10 +759,15 @@ def bearing_elements(solution: BearingSolution, mounted: Sequence[tuple[str, str
     ]
 
 
-def loose_warning(gears: GearSolution, torque: float) -> Iterator[ResultWarning]:
-    """Warning of a mesh that has a larger torque than its own [N m], as films would fill its backlash."""
+def mesh_warnings(gears: GearSolution, torque: float) -> Iterator[ResultWarning]:
+    """Warnings of a mesh with a torque [N m], also of one that has a larger torque in its solution."""
     solved = abs(gears.case.gear.operation.pinion_torque)
-    if solved > _LARGER * abs(torque):
+    loose = solved > _LARGER * abs(torque)
+    for warning in gear_warnings(gears, in_axle=True):
+        # The teeth are in the middle of the backlash.
+        if not (loose and warning.code == "film-fills-backlash"):
+            yield warning
+    if loose:
         yield ResultWarning.of("mesh-loose", torque=amount(abs(torque), "N m"), solved=amount(solved, "N m"))
 
 

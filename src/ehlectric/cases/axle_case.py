@@ -167,7 +167,12 @@ class AxleCase(CaseFile, book="axle_file"):
     @classmethod
     def _with_uncertainties(cls, tables: Any) -> Any:
         """Inputs that are written with their uncertainty have their middle, and ``ranges`` has their ends."""
-        return with_stated_ranges(tables, _quantity_of) if isinstance(tables, Mapping) else tables
+        if not isinstance(tables, Mapping):
+            return tables
+        stated = with_stated_ranges(tables, _quantity_of)
+        if isinstance(stated.get("ranges"), Mapping):
+            stated["ranges"] = {_named(key, stated): ends for key, ends in stated["ranges"].items()}
+        return stated
 
     @field_validator("ranges", mode="plain")
     @classmethod
@@ -195,10 +200,15 @@ class AxleCase(CaseFile, book="axle_file"):
         return next(shaft.name for shaft in self.shaft if shaft.rotor)
 
     @property
+    def geared_shafts(self) -> set[str]:
+        """Names of the shafts with gears."""
+        return {name for mesh in self.mesh for name in mesh.gears}
+
+    @property
     def loaded_shafts(self) -> set[str]:
         """Names of the shafts whose bearing loads follow from statics: with gears, a mass or a force."""
         return {
-            *(name for mesh in self.mesh for name in mesh.gears),
+            *self.geared_shafts,
             *(shaft.name for shaft in self.shaft if shaft.mass is not None),
             *(force.shaft for force in self.force),
         }
@@ -267,9 +277,9 @@ class AxleCase(CaseFile, book="axle_file"):
             if not any(keys[load] for load in loads):
                 raise InputError(
                     "bearing.at",
-                    got="a place at which the gears of the shaft do not load the bearing",
-                    takes="another place of this bearing or of a gear: a bearing without a load has no film "
-                    "that is computed",
+                    got="a place at which the forces on the shaft do not load the bearing",
+                    takes="another place of this bearing, of a gear or of a force: a bearing without a load "
+                    "has no film that is computed",
                 )
             return BearingCase.from_dict(table | {"discharge": self._discharge()})
 
@@ -763,6 +773,24 @@ class AxleCase(CaseFile, book="axle_file"):
             raise InputError(key, got=f"{len(chosen)} links", takes="link.NUMBER.between, of one link")
         for link in chosen:
             link.update(change)
+
+
+def _named(key: str, tables: Mapping[str, Any]) -> str:
+    """Key of a shaft with its name instead of its number, from 1, in the list of shafts; or any other key.
+
+    Examples
+    --------
+    >>> _named("shaft.2.mass", {"shaft": [{"name": "rotor"}, {"name": "wheel"}]})
+    'shaft.wheel.mass'
+    """
+    kind, _, rest = key.partition(".")
+    number, _, inner = rest.partition(".")
+    shafts = tables.get("shaft")
+    if kind != "shaft" or not number.isdecimal() or not isinstance(shafts, list | tuple):
+        return key
+    names = [each.get("name") for each in shafts if isinstance(each, Mapping)]
+    known = number not in names and 1 <= int(number) <= len(names)
+    return f"shaft.{names[int(number) - 1]}.{inner}" if known else key
 
 
 def _field_of(key: str) -> FieldInfo:

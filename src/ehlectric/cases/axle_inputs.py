@@ -185,12 +185,6 @@ class ShaftForce(Table, book="axle.force"):
     y: float = 0.0
     z: float = 0.0
 
-    @model_validator(mode="after")
-    def _check(self) -> Self:
-        if not any((self.x, self.y, self.z)):
-            raise InputError.missing("x", "a force; or y, or z")
-        return self
-
 
 class Link(Table, book="axle.link"):
     """Electrical connection between two shafts, or between a shaft and the housing."""

@@ -45,9 +45,6 @@ _OF_BEARINGS = ("bearing", "motor", "contacts", "duty")
 # Tables that only a drive file has, in addition to the tables of its bearings.
 _OF_DRIVES = ("drive", "source", "circuit", "breakdown")
 
-# Keys of axle files in a table that drive files also have.
-_OF_AXLES = (("drive", "torque"),)
-
 
 def _tables_in(model: type[Table]) -> Iterator[type[Table]]:
     yield model
@@ -235,12 +232,14 @@ def _model_of(name: str, inner: str = "") -> type[Table]:
         return GearCase
     if name not in (*_OF_DRIVES, *ENDS, "axle"):
         return Case
-    if name == "axle" or (name, inner) in _OF_AXLES:
+    from ehlectric.cases.drive_case import DriveCase, Operation
+
+    if name == "axle" or (name == "drive" and inner and inner not in Operation.known_keys()):
         from ehlectric.cases.axle_case import AxleCase
+        from ehlectric.cases.axle_inputs import AxleOperation
 
-        return AxleCase
-    from ehlectric.cases.drive_case import DriveCase
-
+        # A key of axle files in a table that drive files also have.
+        return AxleCase if name == "axle" or inner in AxleOperation.known_keys() else DriveCase
     return DriveCase
 
 

@@ -29,7 +29,7 @@ from ehlectric.drive.netlist import (
     subcircuit_of,
 )
 from ehlectric.drive.netlist_files import check_targets, write_files
-from ehlectric.drive.network import EARTH, SOURCE, WINDING, machine
+from ehlectric.drive.network import machine
 from ehlectric.drive.source_pieces import edges
 from ehlectric.drive.waveform.waveform import Waveform
 from ehlectric.errors import InputError
@@ -49,7 +49,7 @@ _JUMP, _IN_EDGE, _IN_ALL = 1e-9, 20.0, 80_000.0
 _POINTS = 6
 
 _ROTOR = "rotor"
-_NODES = {FRAME: "0", _ROTOR: "shaft", SOURCE: "inverter", WINDING: "winding", EARTH: "earth"}
+_NODES = {FRAME: "0", _ROTOR: "shaft", "source": "inverter", "winding": "winding", "earth": "earth"}
 _KINDS = {"capacitor": ("C", "F"), "conductor": ("R", "Ohm"), "inductor": ("L", "H")}
 
 

@@ -39,7 +39,9 @@ from ehlectric.errors import InputError
 
 # Nodes of the machine in addition to its shafts and its housing, which is the frame. Earth is a node of its
 # own where the frame has an inductance to it, and the inverter where it has one to the winding.
-SOURCE, WINDING, EARTH = "source", "winding", "earth"
+# Their names are different from the names of shafts.
+_OF_MACHINE = "machine: "
+SOURCE, WINDING, EARTH = (f"{_OF_MACHINE}{name}" for name in ("source", "winding", "earth"))
 
 
 @dataclass(frozen=True)
@@ -134,7 +136,7 @@ class Network:
         Shafts that conducting elements connect are one node.
         """
         others = dict.fromkeys(name for each in self.elements for name in (each.first, each.second))
-        nodes = {name: name for name in (*self.source, *others)}
+        nodes = {name: name.removeprefix(_OF_MACHINE) for name in (*self.source, *others)}
         nodes |= {shaft: f"shaft {shaft}" for shaft in self.shafts} | {HOUSING: FRAME}
         for element in self.elements:
             if element.conducts:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -44,7 +45,7 @@ class PreparedDrive:
         """Time that is measured [s]."""
         return self.source.duration
 
-    @property
+    @cached_property
     def network(self) -> NetworkInTime:
         """Rotor with both bearings."""
         circuit, breakdown = self.case.running_circuit, self.case.breakdown

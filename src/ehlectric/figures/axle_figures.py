@@ -23,7 +23,7 @@ from ehlectric.figures.figure_names import (
     FORCES_FIGURE,
 )
 from ehlectric.figures.network_picture import network_picture
-from ehlectric.figures.shaft_forces import shaft_forces
+from ehlectric.figures.shaft_forces import shaft_forces, torques_of
 from ehlectric.figures.style import drawing_of, legend_above, new_panels, note, style, titled
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.lubrication_states import CONDUCTS
@@ -104,8 +104,8 @@ def _first(result: AxleResult) -> str:
 
 def _torques(result: AxleResult) -> str:
     """Sentence about the torques of the figure of forces."""
-    torque = result.case.drive.torque
-    return f"Forces on the shafts at {amount(torque, 'N m')} and at {amount(-torque, 'N m')} of the rotor"
+    torques = " and at ".join(amount(torque, "N m") for torque in torques_of(result.case))
+    return f"Forces on the shafts at {torques} of the rotor"
 
 
 # Functions that draw each figure, and sentences with its finding, by the names of the files.
@@ -128,7 +128,7 @@ FIGURES: Mapping[str, tuple[Callable[[AxleResult], Axes], Callable[[AxleResult],
 def drawings_of(result: AxleResult) -> list[str]:
     """Names of the figures of an axle; of gears, a cycle, remedies and discharges only if it has them."""
     present = {
-        FORCES_FIGURE: bool(result.case.mesh),
+        FORCES_FIGURE: bool(result.case.loaded_shafts),
         AXLE_DUTY_FIGURE: result.case.duty is not None,
         AXLE_REMEDIES_FIGURE: bool(result.remedies),
         AXLE_DISCHARGES_FIGURE: result.discharges is not None,

@@ -41,7 +41,7 @@ _DRAWN, _HEAD = 0.02 / _HIGH, 10.0
 
 @dataclass(frozen=True)
 class PlacedForce:
-    """Force on a shaft at a place, for the torque of the case and for the other sign."""
+    """Force on a shaft at a place, for each of ``torques_of``."""
 
     name: str
     kind: str  # "bearing", "mesh" or "force"
@@ -69,13 +69,19 @@ _MARKERS = {"bearing": "^", "mesh": "s", "force": "D"}
 _NO_FORCE = 1e-6
 
 
+def torques_of(case: AxleCase) -> tuple[float, ...]:
+    """Torques of the figure [N m]: of the case, and the other sign if gears have forces."""
+    torque = case.drive.torque
+    return (torque, -torque) if case.mesh and torque else (torque,)
+
+
 def placed_forces(case: AxleCase) -> dict[str, list[PlacedForce]]:
     """Forces on all shafts whose loads follow from statics: of the meshes, weight, further forces, and
     reactions of the bearings.
 
-    The second force of each place belongs to the torque with the other sign.
+    Each place has a force for each of ``torques_of``.
     """
-    both = case, case.replace({"drive.torque": -case.drive.torque})
+    both = [case.replace({"drive.torque": torque}) for torque in torques_of(case)]
     forces, loads = [forces_on_shafts(each) for each in both], [loads_on_shafts(each) for each in both]
     placed: dict[str, list[PlacedForce]] = {}
     for shaft, of_shaft in forces[0].items():
@@ -119,11 +125,10 @@ def shaft_forces(result: AxleResult) -> Axes:
             _draw(ax, forces, way, _HIGH * most)
             what = "radial forces below" if way == 0 else "axial forces on the shaft below"
             note(ax, 0.01, 0.98, f"{printable(shaft)}, along {'xy'[way]}; {what}", va="top", color=GREY)
-    torque = result.case.drive.torque
     handles = [
         *(
             Line2D([], [], color=colour, lw=2.0, label=f"{amount(value, 'N m')} of the rotor")
-            for colour, value in zip(_COLOURS, (torque, -torque), strict=True)
+            for colour, value in zip(_COLOURS, torques_of(result.case), strict=False)
         ),
         Line2D([], [], color=BLACK, ls="none", marker=_MARKERS["bearing"], label="bearing"),
         Line2D([], [], color=BLACK, ls="none", marker=_MARKERS["mesh"], label="gear"),
@@ -143,12 +148,12 @@ def _draw(ax: Axes, forces: Sequence[PlacedForce], way: int, high: float) -> Non
     for each, place in zip(forces, places, strict=True):
         marker = _MARKERS[each.kind]
         ax.plot(place, 0.0, ls="none", marker=marker, ms=8.0, color=BLACK, zorder=3.0)
-        for number, (colour, force) in enumerate(zip(_COLOURS, each.forces, strict=True)):
+        for number, (colour, force) in enumerate(zip(_COLOURS, each.forces, strict=False)):
             side = 2 * number - 1
             at, value = place + side * _ASIDE * length, force[way]
             if abs(value) >= _DRAWN * high:
                 _draw_arrow(ax, at, value, colour, min(1.0, abs(value) / (_SHORT * high)))
-            elif abs(value) < _NO_FORCE and each.kind == "force":
+            elif abs(value) < _NO_FORCE:
                 continue
             ax.annotate(
                 f"{readable(abs(value), 3)} N",

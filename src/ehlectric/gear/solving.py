@@ -73,7 +73,7 @@ def solve_gear_pair(case: GearCase) -> GearSolution:
 class FilledError(InputError):
     """Error of a mesh whose films would fill more than half of the backlash."""
 
-    least: float  # torque of gear 1 at which they fill half of it [N m]
+    least: float = math.nan  # torque of gear 1 at which they fill half of it [N m]
 
 
 # Times that the torque of a mesh is raised until its films fill half of the backlash, and how far beyond.

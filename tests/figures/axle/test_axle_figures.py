@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ehlectric import AxleCase, figure, figure_names, solve_axle
-from ehlectric.figures.axle_figures import FIGURES
+from ehlectric.figures.axle_figures import FIGURES, drawings_of
 from ehlectric.figures.figure_names import AXLE_FIGURE_FILES
 from ehlectric.figures.shaft_forces import placed_forces
 from ehlectric.quantities.palette import ORANGE
@@ -112,3 +112,17 @@ def test_links_are_in_the_network():
     ]
     (ax,) = figure(solve_axle(two_stages(link=links), remedies=False), "axle_network").axes
     assert {"ring, 10 kΩ", "brush, 2 Ω"} <= {*texts(ax)}
+
+
+def test_an_axle_without_gears_has_a_figure_of_its_forces():
+    """One torque, as no force depends on its sign, and no number for forces of 0."""
+    bearings = [
+        {key: bearing[key] for key in bearing if not key.endswith("_load")} for bearing in ALONE["bearing"]
+    ]
+    shaft = [{"name": "rotor", "rotor": True, "mass": "10 kg", "mass_at": "20 mm"}]
+    result = solve_axle(AxleCase.from_dict(ALONE | {"bearing": bearings, "shaft": shaft}), probable=False)
+    assert "axle_forces.png" in drawings_of(result)
+    ax, other = figure(result, "axle_forces").axes
+    assert [text.get_text() for text in ax.texts if text.get_text().endswith(" N")] == []
+    numbers = sorted(float(text.get_text()[:-2]) for text in other.texts if text.get_text().endswith(" N"))
+    assert numbers == pytest.approx([24.5, 73.5, 98.1], abs=0.1)

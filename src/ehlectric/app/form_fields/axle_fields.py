@@ -644,12 +644,14 @@ def without_shaft(inputs: Inputs, number: int) -> Inputs:
     lost = [n for n, mesh in enumerate(meshes, 1) if name in _pair_of(mesh, "gears")]
     for n in reversed(lost):
         inputs = without_table(inputs, "mesh", n)
+    forces = [n for n, force in enumerate(_tables(inputs, "force"), 1) if force.get("shaft") == name]
+    for n in reversed(forces):
+        inputs = without_table(inputs, "force", n)
     removed = [("shaft", number), *(("bearing", n) for n, shaft in enumerate(bearings, 1) if shaft == name)]
     changes: dict[str, Any] = {
         f"shaft.{number}": None,
         "bearing": [each for each in _tables(inputs, "bearing") if each.get("shaft") != name] or None,
         "link": [each for each in _tables(inputs, "link") if name not in _pair_of(each, "between")] or None,
-        "force": [each for each in _tables(inputs, "force") if each.get("shaft") != name] or None,
         "remedies": [each for each in _tables(inputs, "remedies") if not _refers(each, name)] or None,
     }
     return _with_measured(inputs, inputs.changed(changes), removed)
@@ -707,7 +709,7 @@ def with_mesh(inputs: Inputs) -> Inputs:
 
 def with_force(inputs: Inputs) -> Inputs:
     """Inputs with a further force, on the last shaft, whose bearings then have no loads of their own."""
-    name = names_of(inputs)[-1]
+    name = (names_of(inputs) or [""])[-1]
     force = {"shaft": name, "at": "0 mm", "x": "100 N"}
     bearings = [
         {
