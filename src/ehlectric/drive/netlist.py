@@ -52,7 +52,18 @@ _WIDTH = 100  # of a comment [characters]
 
 # Letters that texts of ehlectric have, in ASCII: not every simulator reads UTF-8.
 _LETTERS = str.maketrans(
-    {"µ": "u", "Ω": "Ohm", "°": "deg ", "≤": "<=", "≥": ">=", "×": "x", "–": "-", "²": "^2", "³": "^3"}
+    {
+        "µ": "u",
+        "Ω": "Ohm",
+        "°": "deg ",
+        "≤": "<=",
+        "≥": ">=",
+        "×": "x",
+        "–": "-",
+        "²": "^2",
+        "³": "^3",
+        "\xa0": " ",
+    }
 )
 
 
@@ -63,6 +74,8 @@ def ascii_of(text: str) -> str:
     --------
     >>> print(ascii_of("film of 0.1 µm\nR1 1 0 5"))
     film of 0.1 um\nR1 1 0 5
+    >>> print(ascii_of("14\xa0000 rpm"))
+    14 000 rpm
     """
     return printable(text).translate(_LETTERS).encode("ascii", "backslashreplace").decode("ascii")
 
