@@ -256,3 +256,19 @@ def test_a_mesh_discharges_between_its_shafts():
     ).discharges
     rows = {row["element"]: row for row in discharges.summary()["elements"]}
     assert rows["mesh of rotor and intermediate"]["events"] > 0
+
+
+@pytest.mark.parametrize("axle", [ALONE, COUPLED])
+def test_an_arc_that_goes_out_above_a_breakdown_voltage_is_refused(axle):
+    """As in a drive, by the name of the bearing: an arc that a film without summits would not feed either.
+    An arc between the voltages with and without summits lifts the limit of the film, and is simulated.
+    """
+    limit = min(each.breakdown_voltage for each in solve_elements(AxleCase.from_dict(axle)).elements)
+    arc_of = COUPLED["breakdown"] | {"extinction_voltage": 10.0 * limit}
+    del arc_of["extinction_current"]
+    timed = axle["drive"] | {"duration": "0.1 ms"}
+    with pytest.raises(InputError, match=r"at which the films of bearing \d of \w+ break down") as refused:
+        solve_axle(AxleCase.from_dict(axle | {"drive": timed, "breakdown": arc_of}))
+    assert refused.value.key == "breakdown.extinction_voltage"
+    arc_of["extinction_voltage"] = 1.02 * limit
+    assert solve_axle(AxleCase.from_dict(axle | {"drive": timed, "breakdown": arc_of})).discharges is not None

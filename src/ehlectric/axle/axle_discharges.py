@@ -31,7 +31,9 @@ from ehlectric.drive import (
     SourceInTime,
     TimedFilm,
     bearing_element,
+    check_extinction,
     event_rows,
+    fed_by_arcs,
     rates,
     statistics,
 )
@@ -45,9 +47,6 @@ _CONSTANT = 0.02
 
 # Positions of a spur mesh over one pitch.
 _PHASES = 8
-
-# Voltage of a discharge divided by the lowest voltage of its arc, at least.
-_BURNS = 1.001
 
 # Share of time with metallic contact below which it is neglected.
 _NEVER = 1e-6
@@ -223,6 +222,8 @@ def _films_in_time(solved: SolvedFilms, breakdown: Breakdown, conducting: set[st
                 films.append(TimedFilm(name, mesh.gears[0], mesh.gears[1], film, stream))
     if missing:
         raise InputError.together(missing)
+    for each in films:
+        check_extinction(breakdown, each.film, each.name)
     return films
 
 
@@ -276,13 +277,14 @@ def mesh_film(gears: GearSolution, breakdown: Breakdown, mesh: str) -> BearingEl
             )
         touching = 0.0
     phases = np.arange(_PHASES) * limits.size // _PHASES
+    smooth = np.asarray(gears.strength) * gears.loads.least(gears.films.minimum)
     capacitance, tau = np.asarray(gears.capacitance)[phases], gears.relaxation_time
     width, speed = gears.films.half_width[gears.thinnest], gears.films.mean_speed[gears.thinnest]
     pitch = 2.0 * math.pi / (gears.pair.teeth[0] * operation.pinion_speed)
     return BearingElement(
         capacitance=capacitance,
         conductance=0.0 if tau is None else float(np.mean(capacitance)) / tau,
-        breakdown=np.maximum(limits[phases], _BURNS * breakdown.lowest_voltage),
+        breakdown=fed_by_arcs(smooth[phases], limits[phases], breakdown.lowest_voltage),
         shape=breakdown.weibull_shape or math.inf,
         step=pitch / _PHASES,
         path=Path(),

@@ -6,6 +6,8 @@ from .bearing_remedies import grounded_voltage as grounded_voltage
 from .bearing_remedies import with_remedy as with_remedy
 from .drive_bearings import BearingElement as BearingElement
 from .drive_bearings import bearing_element as bearing_element
+from .drive_bearings import check_extinction as check_extinction
+from .drive_bearings import fed_by_arcs as fed_by_arcs
 from .drive_cycle import DriveDuty as DriveDuty
 from .drive_cycle import DriveDutyRows as DriveDutyRows
 from .drive_netlist_files import about_source as about_source

@@ -120,11 +120,37 @@ def _breakdown(solution: BearingSolution, lowest: float) -> Array:
     Films under high summits break down below the ``lowest`` voltage [V] at which an arc burns, and to no
     effect: they discharge as soon as an arc burns. That also holds for summits that touch.
     """
-    least = _BURNS * lowest
     smooth_circuits = [position.circuit(solution.case.bearing.fill) for position in solution.positions]
     smooth, rough = (
         np.array([circuit.ring_to_ring_breakdown for circuit in circuits])
         for circuits in (smooth_circuits, solution.circuits())
     )
-    # Arcs that a smooth film would not feed either are refused with the drive.
+    return fed_by_arcs(smooth, rough, lowest)
+
+
+def fed_by_arcs(smooth: Array, rough: Array, lowest: float) -> Array:
+    """Breakdown voltages at which an arc burns [V]: of films under high summits, and as smooth as they would
+    be; ``lowest`` voltage at which an arc burns.
+
+    A film whose summits break down below this voltage discharges as soon as an arc burns. Arcs that a smooth
+    film would not feed either are refused by ``check_extinction``.
+    """
+    least = _BURNS * lowest
     return np.where(smooth > least, np.maximum(rough, least), rough)
+
+
+def check_extinction(breakdown: Breakdown, element: BearingElement, name: str) -> None:
+    """Refuse arcs that go out at a voltage at which the films of a bearing or a mesh break down."""
+    lowest, least = breakdown.lowest_voltage, float(np.min(element.breakdown))
+    if lowest < least:
+        return
+    takes = f"less than {readable(least)} V, at which the films of {name} break down"
+    if breakdown.extinction_voltage is not None:
+        raise InputError("breakdown.extinction_voltage", got=f"{readable(lowest)} V", takes=takes)
+    current, through = breakdown.extinction_current, breakdown.arc_resistance
+    raise InputError(
+        "breakdown.extinction_current",
+        got=f"{readable(current or 0.0)} A through arc_resistance of {readable(through)} ohm, which "
+        f"is {readable(lowest)} V",
+        takes=takes,
+    )

@@ -7,18 +7,15 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 
-import numpy as np
-
 from ehlectric.bearing import BearingResult, solve_bearing
 from ehlectric.cases.drive_case import DriveCase
-from ehlectric.drive.drive_bearings import BearingElement, bearing_element
+from ehlectric.drive.drive_bearings import BearingElement, bearing_element, check_extinction
 from ehlectric.drive.drive_cycle import check_drive_cycle
 from ehlectric.drive.films_in_time import NetworkInTime, rotor_network
 from ehlectric.drive.source_in_time import SourceInTime
 from ehlectric.errors import InputError, within
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.result_warnings import ResultWarning
-from ehlectric.readable import readable
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,7 +72,8 @@ def prepare(case: DriveCase, *, workers: int | None = None) -> PreparedDrive:
         _element(results[0], case, ENDS[0]),
         _element(results[1], case, ENDS[1]),
     )
-    _check_extinction(case, elements)
+    for end, element in zip(ENDS, elements, strict=True):
+        check_extinction(case.breakdown, element, end)
     source = SourceInTime.of(case.running_source, case.source, case.breakdown, case.drive.duration)
     return PreparedDrive(case, results, elements, source)
 
@@ -95,21 +93,3 @@ def _element(result: BearingResult, case: DriveCase, end: str) -> BearingElement
     """Bearing at one end as an element of the circuit."""
     with within(end):
         return bearing_element(result, case.breakdown)
-
-
-def _check_extinction(case: DriveCase, elements: tuple[BearingElement, ...]) -> None:
-    """Refuse arcs that go out at a voltage at which films break down."""
-    lowest = case.breakdown.lowest_voltage
-    for end, bearing in zip(ENDS, elements, strict=True):
-        least = float(np.min(bearing.breakdown))
-        if lowest >= least:
-            takes = f"less than {readable(least)} V, at which the films of {end} break down"
-            if case.breakdown.extinction_voltage is not None:
-                raise InputError("breakdown.extinction_voltage", got=f"{readable(lowest)} V", takes=takes)
-            current, through = case.breakdown.extinction_current, case.breakdown.arc_resistance
-            raise InputError(
-                "breakdown.extinction_current",
-                got=f"{readable(current or 0.0)} A through arc_resistance of {readable(through)} ohm, which "
-                f"is {readable(lowest)} V",
-                takes=takes,
-            )
