@@ -296,7 +296,7 @@ def test_a_bearing_that_no_gear_loads_is_named(solved):
     except InputError as refused:
         error = refused
     assert error.key == "bearing.2.at"
-    assert "the gears of the shaft do not load the bearing" in error.text
+    assert "the forces on the shaft do not load the bearing" in error.text
     assert "(bearing 2 of rotor)" in error.text
 
 
