@@ -94,7 +94,8 @@ def changed(tables, **changes):
         if value is None:
             table.pop(last, None)
         else:
-            table[last] = value
+            # A later key may change a given table, which belongs to the caller.
+            table[last] = copy.deepcopy(value)
     return copied
 
 
