@@ -85,7 +85,7 @@ def _without(values: Any) -> Any:
 
 
 def _case(name: str) -> Any:
-    """Case of a file of the examples, or of other data."""
+    """Case of a file of the examples."""
     path = EXAMPLES / f"{name}.toml"
     axle = "[[shaft]]" in path.read_text("utf-8")
     return (ehlectric.AxleCase if axle else ehlectric.DriveCase).from_toml(path)

@@ -344,10 +344,14 @@ class AxleSolution:
         return tuple(name for name in second if first.index(name) != second.index(name))
 
 
-def forces_on_shafts(case: AxleCase) -> dict[str, list[tuple[str, ForceAt]]]:
-    """Forces on each shaft whose loads follow from statics, with its words: of meshes, weight, others."""
+# What exerts a force on a shaft: a mesh with the name of the other shaft, weight, or a force with its number.
+Cause = tuple[Literal["mesh", "weight", "force"], str]
+
+
+def forces_on_shafts(case: AxleCase) -> dict[str, list[tuple[Cause, ForceAt]]]:
+    """Forces on each shaft whose loads follow from statics, each with its cause."""
     turning = case.turning()
-    forces: dict[str, list[tuple[str, ForceAt]]] = {}
+    forces: dict[str, list[tuple[Cause, ForceAt]]] = {}
     for number, mesh in enumerate(case.mesh):
         gear = mesh.pair.gear
         with within(f"mesh.{number + 1}.pair"):
@@ -355,15 +359,15 @@ def forces_on_shafts(case: AxleCase) -> dict[str, list[tuple[str, ForceAt]]]:
         torque = case.torque_of_gear(number, turning)
         both = forces_of_mesh(pair, torque, gear.hand or "right", mesh.direction, (mesh.at[0], mesh.at[1]))
         for name, other, force in zip(mesh.gears, mesh.gears[::-1], both, strict=True):
-            forces.setdefault(name, []).append((f"mesh with {other}", force))
+            forces.setdefault(name, []).append((("mesh", other), force))
     down, axis = case.drive.gravity_direction, np.array([0.0, 0.0, 1.0])
     for shaft in case.shaft:
         if shaft.mass is not None and shaft.mass_at is not None:
             weight = shaft.mass * GRAVITY * np.array([math.cos(down), math.sin(down), 0.0])
-            forces.setdefault(shaft.name, []).append(("weight", ForceAt(weight, shaft.mass_at * axis)))
+            forces.setdefault(shaft.name, []).append((("weight", ""), ForceAt(weight, shaft.mass_at * axis)))
     for number, each in enumerate(case.force, 1):
         force = ForceAt(np.array([each.x, each.y, each.z]), each.at * axis)
-        forces.setdefault(each.shaft, []).append((f"force {number}", force))
+        forces.setdefault(each.shaft, []).append((("force", str(number)), force))
     return forces
 
 
@@ -616,7 +620,7 @@ def axle_warnings(
     with the names of meshes, shafts and bearings.
     """
     names = case.names_of_bearings()
-    yield from _mesh_warnings(case, turning)
+    yield from _notes_of_meshes(case, turning)
     for shaft in case.shaft:
         if shaft.name not in loads or loads[shaft.name].shares is None:
             continue
@@ -629,7 +633,7 @@ def axle_warnings(
                 yield names[number], (ResultWarning.of("row-unloaded"),)
 
 
-def _mesh_warnings(
+def _notes_of_meshes(
     case: AxleCase, turning: Mapping[str, Turning]
 ) -> Iterator[tuple[str, tuple[ResultWarning, ...]]]:
     """Notes of meshes whose oil temperature the axle replaces, and of meshes that raise the speed."""

@@ -52,18 +52,8 @@ _WIDTH = 100  # of a comment [characters]
 
 # Letters that texts of ehlectric have, in ASCII: not every simulator reads UTF-8.
 _LETTERS = str.maketrans(
-    {
-        "µ": "u",
-        "Ω": "Ohm",
-        "°": "deg ",
-        "≤": "<=",
-        "≥": ">=",
-        "×": "x",
-        "–": "-",
-        "²": "^2",
-        "³": "^3",
-        "\xa0": " ",
-    }
+    {"µ": "u", "Ω": "Ohm", "°": "deg ", "≤": "<=", "≥": ">=", "×": "x", "–": "-", "²": "^2", "³": "^3"}
+    | {"\xa0": " "}
 )
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from ehlectric.axle import AxleSolution, Element
 from ehlectric.cases.axle_inputs import LinkKind
-from ehlectric.drive import WINDING, Film
+from ehlectric.drive import HOUSING, Film
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.lubrication_states import CONDUCTS, NO_LIMIT, TOUCHES
 from ehlectric.readable import readable
@@ -49,15 +49,16 @@ class NetworkElement:
 
 
 def elements_of_network(solution: AxleSolution) -> Iterator[NetworkElement]:
-    """Elements of the network with their names, values and voltages."""
+    """Elements between shafts and housing with their names, values and voltages."""
     network, potentials = solution.network(), solution.potentials()
     elements = {element.name: element for element in solution.elements}
     limits = solution.breakdown_voltages
     ratios = {name: ratio if name in limits else math.inf for name, ratio in solution.discharging()}
     first = next(iter(ratios), None)
-    kinds = [link.kind for link in solution.case.link]
+    kinds, shown = [link.kind for link in solution.case.link], {HOUSING, *network.shafts}
     for film in network.elements:
-        if WINDING in (film.first, film.second):
+        # The winding, the inverter and earth are no shafts.
+        if not {film.first, film.second} <= shown:
             continue
         voltage = abs(network.voltage(film, potentials))
         element = elements.get(film.name)

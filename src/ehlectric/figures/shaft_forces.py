@@ -44,7 +44,7 @@ class PlacedForce:
     """Force on a shaft at a place, for each of ``torques_of``."""
 
     name: str
-    kind: str  # "bearing", "mesh" or "force"
+    kind: str  # "bearing", or the kind of the cause of ``forces_on_shafts``
     place: float  # along z [m]
     forces: tuple[tuple[float, float, float], ...]  # in x, y and z [N]
 
@@ -63,7 +63,10 @@ class PlacedForce:
 
 
 # Markers of the places of forces by their kinds.
-_MARKERS = {"bearing": "^", "mesh": "s", "force": "D"}
+_MARKERS = {"bearing": "^", "mesh": "s", "weight": "D", "force": "D"}
+
+# Names of forces by the kind of their cause.
+_WORDS = {"mesh": "mesh with {}", "weight": "weight", "force": "force {}"}
 
 # Axial force that is rounding [N].
 _NO_FORCE = 1e-6
@@ -87,12 +90,12 @@ def placed_forces(case: AxleCase) -> dict[str, list[PlacedForce]]:
     for shaft, of_shaft in forces[0].items():
         rows = [
             PlacedForce(
-                words,
-                "mesh" if words.startswith("mesh") else "force",
+                _WORDS[kind].format(name),
+                kind,
                 float(force.point[2]),
                 tuple(_vector(of_sign[shaft][number][1].force) for of_sign in forces),
             )
-            for number, (words, force) in enumerate(of_shaft)
+            for number, ((kind, name), force) in enumerate(of_shaft)
         ]
         for place, number in enumerate(case.bearings_of(shaft)):
             bearing = case.bearing[number]
@@ -133,7 +136,7 @@ def shaft_forces(result: AxleResult) -> Axes:
         Line2D([], [], color=BLACK, ls="none", marker=_MARKERS["bearing"], label="bearing"),
         Line2D([], [], color=BLACK, ls="none", marker=_MARKERS["mesh"], label="gear"),
     ]
-    if any(each.kind == "force" for of_shaft in placed.values() for each in of_shaft):
+    if any(each.kind in ("weight", "force") for of_shaft in placed.values() for each in of_shaft):
         label = "weight or force"
         handles.append(Line2D([], [], color=BLACK, ls="none", marker=_MARKERS["force"], label=label))
     legend_above(panels[0], handles, columns=4)

@@ -89,6 +89,8 @@ def solve_loose_pairs(cases: Sequence[GearCase], *, unloaded: bool = True) -> li
     given, outcomes = [*cases], [*solve_gear_pairs(cases, unloaded=unloaded)]
     for _ in range(_RAISED):
         filled = {place: each for place, each in enumerate(outcomes) if isinstance(each, FilledError)}
+        if not filled:
+            break
         for place, error in filled.items():
             torque = math.copysign(_BEYOND * error.least, given[place].gear.operation.pinion_torque)
             given[place] = changed_pair(given[place], {"gear.operation.pinion_torque": torque})

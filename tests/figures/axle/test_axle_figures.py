@@ -6,6 +6,7 @@ import pytest
 from ehlectric import AxleCase, figure, figure_names, solve_axle
 from ehlectric.figures.axle_figures import FIGURES, drawings_of
 from ehlectric.figures.figure_names import AXLE_FIGURE_FILES
+from ehlectric.figures.network_elements import elements_of_network
 from ehlectric.figures.shaft_forces import placed_forces
 from ehlectric.quantities.palette import ORANGE
 from ehlectric.readable import readable
@@ -126,3 +127,16 @@ def test_an_axle_without_gears_has_a_figure_of_its_forces():
     assert [text.get_text() for text in ax.texts if text.get_text().endswith(" N")] == []
     numbers = sorted(float(text.get_text()[:-2]) for text in other.texts if text.get_text().endswith(" N"))
     assert numbers == pytest.approx([24.5, 73.5, 98.1], abs=0.1)
+
+
+def test_the_network_shows_shafts_and_housing_only():
+    """Choke, cable and earth are not between them."""
+    keys = {"common_mode_inductance": "1 mH", "ground_inductance": "1 uH", "cable_capacitance": "1 nF"}
+    keys["frame_earth_capacitance"] = "1 nF"
+    plain, inductive = (
+        solve_axle(AxleCase.from_dict(ALONE | {"circuit": ALONE["circuit"] | more}), probable=False).solution
+        for more in ({}, keys)
+    )
+    shown = [each.film.name for each in elements_of_network(inductive)]
+    assert shown == [each.film.name for each in elements_of_network(plain)]
+    assert shown == ["rotor and frame", "bearing 1 of rotor", "bearing 2 of rotor"]

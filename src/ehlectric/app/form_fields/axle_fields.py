@@ -24,15 +24,12 @@ from ehlectric.app.form_fields.field import (
 from ehlectric.app.form_fields.field_defaults import field_at
 from ehlectric.app.form_fields.gear_fields import GEAR_GROUPS
 from ehlectric.app.page_inputs import Inputs
-from ehlectric.cases.axle_keys import ADJUSTED, element_keys, shaft_keys
+from ehlectric.cases.axle_keys import ADJUSTED, HOUSING, element_keys, shaft_keys
 from ehlectric.cases.bearing_kinds import KINDS_OF_BEARINGS
 from ehlectric.errors import InputError
 from ehlectric.quantities.alternatives import ALTERNATIVES
 from ehlectric.quantities.inputs import form
 from ehlectric.quantities.units import in_unit, rounded
-
-# Name of the node whose potential is 0.
-HOUSING = "housing"
 
 # Table of the measured values.
 MEASURED = "measured"
@@ -640,13 +637,12 @@ def _next_to(place: Any, mesh: Mapping[str, Any]) -> Any:
 def without_shaft(inputs: Inputs, number: int) -> Inputs:
     """Inputs without a shaft, by its number from 1, and without its bearings, meshes, links and remedies."""
     name, bearings = names_of(inputs)[number - 1], _shafts_of_bearings(inputs)
-    meshes = _tables(inputs, "mesh")
-    lost = [n for n, mesh in enumerate(meshes, 1) if name in _pair_of(mesh, "gears")]
-    for n in reversed(lost):
-        inputs = without_table(inputs, "mesh", n)
-    forces = [n for n, force in enumerate(_tables(inputs, "force"), 1) if force.get("shaft") == name]
-    for n in reversed(forces):
-        inputs = without_table(inputs, "force", n)
+    lost = [
+        ("mesh", n) for n, each in enumerate(_tables(inputs, "mesh"), 1) if name in _pair_of(each, "gears")
+    ]
+    lost += [("force", n) for n, each in enumerate(_tables(inputs, "force"), 1) if each.get("shaft") == name]
+    for kind, n in reversed(lost):
+        inputs = without_table(inputs, kind, n)
     removed = [("shaft", number), *(("bearing", n) for n, shaft in enumerate(bearings, 1) if shaft == name)]
     changes: dict[str, Any] = {
         f"shaft.{number}": None,
