@@ -46,29 +46,66 @@ GROUND = CHOKE | {
 BRUSH = {"grounding_ring_table": {"speed": ["100 rpm", "6000 rpm"], "resistance": ["1 kohm", "10 kohm"]}}
 
 
+def as_axle(tables):
+    """Tables of an axle of one shaft with the drive of a file, whose bearings are equal."""
+    keys = dict(tables["drive_end"]["bearing"])
+    loads = {key: keys.pop(key) for key in ("radial_load", "axial_load") if key in keys}
+    shaft, places, forces = {"name": "rotor", "rotor": True}, ["0 m", "1 m"], []
+    locating = [False, False]
+    if "rotor" in tables:
+        rotor = tables["rotor"]
+        shaft |= {key: rotor[key] for key in ("mass", "mass_at")}
+        places = [rotor["drive_end_at"], rotor["non_drive_end_at"]]
+        locating = [rotor["locating"] == end for end in ("drive_end", "non_drive_end")]
+        forces = [{"shaft": "rotor", **force} for force in tables["force"]]
+    return AxleCase.from_dict(
+        {name: tables[name] for name in ("source", "circuit", "breakdown")}
+        | {name: tables["drive_end"][name] for name in ("lubricant", "discharge")}
+        | {"drive": tables["drive"] | {"torque": "1 N m", "contacts": "atlas"}, "force": forces}
+        | {"bearings": {name: keys[name] for name in keys.keys() - {"inner_speed", "temperature"}}}
+        | {"shaft": [shaft]}
+        | {
+            "bearing": [
+                {"shaft": "rotor", "at": at, "locating": fixed, **loads}
+                for at, fixed in zip(places, locating, strict=True)
+            ]
+        }
+    )
+
+
+LOADED = {
+    "rotor": {
+        "mass": "18 kg",
+        "mass_at": "80 mm",
+        "drive_end_at": "10 mm",
+        "non_drive_end_at": "180 mm",
+        "locating": "non_drive_end",
+    },
+    "force": [{"at": "-60 mm", "x": "800 N", "y": "-100 N"}, {"at": "0 mm", "z": "150 N"}],
+}
+
+
 @pytest.mark.parametrize(
-    ("circuit", "error"),
-    [({}, 0.0), (BRUSH, 0.0), (CHOKE, 1e-8), (GROUND, 1e-8)],
-    ids=["capacitances", "brush", "choke", "ground"],
+    ("circuit", "error", "more"),
+    [({}, 0.0, {}), (BRUSH, 0.0, {}), (CHOKE, 1e-8, {}), (GROUND, 1e-8, {}), ({}, 0.0, LOADED)],
+    ids=["capacitances", "brush", "choke", "ground", "rotor"],
 )
-def test_the_example_drive_as_an_axle_of_one_shaft(circuit, error):
-    """Its discharges, its peaks and its rms voltages are those of the drive."""
+def test_the_example_drive_as_an_axle_of_one_shaft(circuit, error, more):
+    """Its loads, discharges, peaks and rms voltages are those of the drive."""
     with (EXAMPLES / "drive.toml").open("rb") as file:
         tables = tomllib.load(file)
     tables["drive"] |= {"duration": "20 ms" if not circuit else "4 ms"}
     tables["circuit"] |= circuit
-    drive = DriveCase.from_dict(tables | {"remedies": []})
-    of_file = tables["drive_end"]["bearing"]
-    loads = {key: of_file.pop(key) for key in ("radial_load", "axial_load")}
-    bearings = {key: value for key, value in of_file.items() if key not in ("inner_speed", "temperature")}
-    axle = AxleCase.from_dict(
-        {name: tables[name] for name in ("source", "circuit", "breakdown")}
-        | {name: tables["drive_end"][name] for name in ("lubricant", "discharge")}
-        | {"drive": tables["drive"] | {"torque": "1 N m", "contacts": "atlas"}, "bearings": bearings}
-        | {"shaft": [{"name": "rotor", "rotor": True}]}
-        | {"bearing": [{"shaft": "rotor", "at": at, **loads} for at in ("0 m", "1 m")]}
-    )
-    one, other = solve_drive(drive).solution.record, solve_axle(axle).discharges.record
+    if more:
+        tables = tables | more
+        for load in ("radial_load", "axial_load"):
+            del tables["drive_end"]["bearing"][load]
+    drive, axle = DriveCase.from_dict(tables | {"remedies": []}), as_axle(tables)
+    of_drive, of_axle = solve_drive(drive), solve_axle(axle, probable=True)
+    one, other = of_drive.solution.record, of_axle.discharges.record
+    for case, carried in zip(drive.bearings, of_axle.solution.elements, strict=True):
+        assert case.bearing.radial_load == carried.radial_load
+        assert case.bearing.axial_load == abs(carried.axial_load)
     assert len(one.events) > (1000 if not circuit else 100)
     for name in ("events", "counts", "sums", "largest", "peak"):
         expected = getattr(one, name)

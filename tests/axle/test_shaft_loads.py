@@ -10,13 +10,15 @@ from hypothesis import strategies as st
 
 from ehlectric import AxleCase, Sweep, evaluate, run_sweep, solve_axle
 from ehlectric.axle import loads_on_shafts, solve_axles
-from ehlectric.axle.shaft_loads import ForceAt, bearing_loads, forces_of_mesh
+from ehlectric.axle.shaft_loads import forces_of_mesh
 from ehlectric.axle.solution import solve_elements
 from ehlectric.errors import InputError
+from ehlectric.formulas.shaft_statics import ForceAt, bearing_loads
 from ehlectric.gear import GearPair
 from ehlectric.gear.geometry import gear_pair
 from tests.axle.axles import ALONE, two_stages
 from tests.gear.pairs import FIRST_STAGE, SECOND_STAGE
+from tests.helpers.statics import by_vectors
 
 # Distances along z [m]: bearings of the three shafts, and their gears.
 BEARINGS = ((0.0, 0.08), (0.0, 0.11), (0.0, 0.12))
@@ -91,21 +93,6 @@ def test_the_power_of_the_forces_is_the_power_of_the_shafts():
 def test_bearings_at_one_place_are_refused():
     with pytest.raises(InputError, match="one place"):
         bearing_loads([], (0.1, 0.1))
-
-
-def by_vectors(forces, places):
-    """Reactions of two bearings on a shaft, the first one locating: six equations of equilibrium, solved."""
-    # Unknown: forces of A along x, y and z, and of B along x and y on the shaft; moments about the origin.
-    matrix, right = np.zeros((5, 5)), np.zeros(5)
-    for column, (place, way) in enumerate([(places[0], 0), (places[0], 1), (places[0], 2), (places[1], 0),
-                                           (places[1], 1)]):  # fmt: skip
-        unit = np.eye(3)[way]
-        matrix[:3, column] = unit
-        matrix[3:, column] = np.cross([0.0, 0.0, place], unit)[:2]
-    for force, at in forces:
-        right[:3] -= force
-        right[3:] -= np.cross([0.0, 0.0, at], force)[:2]
-    return np.linalg.solve(matrix, right)
 
 
 @pytest.mark.parametrize(("down", "place"), [(-90.0, 0.06), (20.0, -0.03)])

@@ -386,7 +386,7 @@ def test_the_overshoot_of_a_choke(resistance):
             {},
             "circuit.ground_inductance",
         ),
-        ({}, {"gravity_direction": "0 deg"}, "without the mass"),
+        ({}, {"gravity_direction": "0 deg"}, "without a mass"),
     ],
 )
 def test_keys_that_need_another_key_are_named(circuit, drive, words):

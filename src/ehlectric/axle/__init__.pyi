@@ -11,7 +11,6 @@ from .result import solve_axle as solve_axle
 from .run import result_of as result_of
 from .run import save as save
 from .run import solve_to_folder as solve_to_folder
-from .shaft_loads import BearingLoads as BearingLoads
 from .solution import CONDUCTIONS as CONDUCTIONS
 from .solution import AxleSolution as AxleSolution
 from .solution import Element as Element

@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.axle.shaft_loads import BearingLoads
 from ehlectric.axle.solution import (
     AxleSolution,
     Element,
@@ -34,6 +33,7 @@ from ehlectric.cases.gear_case import GearCase, changed_pair
 from ehlectric.cases.input_keys import is_quantity
 from ehlectric.cases.table_edits import flattened
 from ehlectric.errors import ConvergenceError, InputError, within
+from ehlectric.formulas.shaft_statics import BearingLoads
 from ehlectric.gear import GearSolution, open_area, reference_area_of, solve_loose_pairs
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.runtime.display import is_number

@@ -20,7 +20,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.axle.adjusted_rows import AdjustedRows
-from ehlectric.axle.shaft_loads import BearingLoads, ForceAt, bearing_loads, forces_of_mesh
+from ehlectric.axle.shaft_loads import forces_of_mesh
 from ehlectric.bearing import (
     BearingResult,
     BearingSolution,
@@ -35,9 +35,9 @@ from ehlectric.cases.axle_case import AxleCase, Turning
 from ehlectric.cases.axle_inputs import CONDUCTING, Shaft
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.gear_inputs import Conduction
-from ehlectric.constants import GRAVITY
 from ehlectric.drive import HOUSING, Film, Network, machine, oscillation_warning, rank, ring_warning
 from ehlectric.errors import ConvergenceError, InputError, within
+from ehlectric.formulas.shaft_statics import BearingLoads, ForceAt, bearing_loads, on_axis, weight_at
 from ehlectric.gear import (
     GearSolution,
     drawing_of,
@@ -360,13 +360,12 @@ def forces_on_shafts(case: AxleCase) -> dict[str, list[tuple[Cause, ForceAt]]]:
         both = forces_of_mesh(pair, torque, gear.hand or "right", mesh.direction, (mesh.at[0], mesh.at[1]))
         for name, other, force in zip(mesh.gears, mesh.gears[::-1], both, strict=True):
             forces.setdefault(name, []).append((("mesh", other), force))
-    down, axis = case.drive.gravity_direction, np.array([0.0, 0.0, 1.0])
     for shaft in case.shaft:
         if shaft.mass is not None and shaft.mass_at is not None:
-            weight = shaft.mass * GRAVITY * np.array([math.cos(down), math.sin(down), 0.0])
-            forces.setdefault(shaft.name, []).append((("weight", ""), ForceAt(weight, shaft.mass_at * axis)))
+            down = weight_at(shaft.mass, shaft.mass_at, case.drive.gravity_direction)
+            forces.setdefault(shaft.name, []).append((("weight", ""), down))
     for number, each in enumerate(case.force, 1):
-        force = ForceAt(np.array([each.x, each.y, each.z]), each.at * axis)
+        force = on_axis(each.at, each.x, each.y, each.z)
         forces.setdefault(each.shaft, []).append((("force", str(number)), force))
     return forces
 

@@ -12,6 +12,7 @@ from ehlectric.cases.axle_keys import HOUSING
 from ehlectric.cases.bearing_inputs import Bearing
 from ehlectric.cases.defaults import Contacts
 from ehlectric.cases.gear_case import GearCase
+from ehlectric.cases.rotor_inputs import LOADS, Force
 from ehlectric.cases.table import Table, Title, any_of, similar_keys
 from ehlectric.errors import InputError, for_all, shown
 
@@ -27,9 +28,6 @@ ASSUMED_ARRANGEMENT: Arrangement = "X"
 
 # Keys of a bearing that the axle determines.
 _OF_AXLE = ("inner_speed", "temperature")
-
-# Loads of a bearing.
-LOADS = ("radial_load", "axial_load")
 
 
 def _two_names(entry: object) -> tuple[str, ...]:
@@ -125,9 +123,7 @@ class Shaft(Table, book="axle.shaft"):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        for key, other in (("mass", "mass_at"), ("mass_at", "mass")):
-            if getattr(self, key) is not None and getattr(self, other) is None:
-                raise InputError.missing(other, f"a value; {key} is given")
+        self.check_together("mass", "mass_at")
         return self
 
 
@@ -176,14 +172,10 @@ class AxleMesh(Table, book="axle.mesh"):
         return self
 
 
-class ShaftForce(Table, book="axle.force"):
-    """Force on a shaft at a place on its axis, with its components along x, y and z."""
+class ShaftForce(Force, book="axle.force"):
+    """Force on a shaft of an axle."""
 
     shaft: str
-    at: float
-    x: float = 0.0
-    y: float = 0.0
-    z: float = 0.0
 
 
 class Link(Table, book="axle.link"):

@@ -4,22 +4,30 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from pydantic import Field, model_validator
 
+from ehlectric.cases.axle_keys import ADJUSTED
 from ehlectric.cases.bearing_case import BearingCase, bearing_key, open_tables
 from ehlectric.cases.case import Case
-from ehlectric.cases.defaults import Contacts
 from ehlectric.cases.drive_inputs import Breakdown, Circuit, Source
 from ehlectric.cases.duty_inputs import Duty
 from ehlectric.cases.key_names import refuse_deep
 from ehlectric.cases.keywords import with_keys
 from ehlectric.cases.measured_inputs import Measured
+from ehlectric.cases.rotor_inputs import (
+    LOADS,
+    Force,
+    Operation,
+    Rotor,
+    check_no_load,
+    with_rotor_loads,
+)
 from ehlectric.cases.roughness_inputs import find_files
 from ehlectric.cases.table import CaseFile, Table, Title
 from ehlectric.cases.table_edits import displace, flattened, set_keys
-from ehlectric.errors import InputError, shown, within
+from ehlectric.errors import InputError, for_all, shown, within
 from ehlectric.quantities.alternatives import ALTERNATIVES, DESCRIBED
 from ehlectric.quantities.formats import operating_point
 from ehlectric.quantities.inputs import BOTH as BOTH
@@ -32,16 +40,6 @@ NOT_IN_DRIVES = ("motor", "duty", "measured")
 
 # Keys of its table of discharges that a drive does not use, as the drive computes discharges over time.
 NOT_OF_DISCHARGES = ("external_capacitance", "peak_current", "pit")
-
-
-class Operation(Table, book="drive"):
-    """Operating point of the drive, and how long it is looked at."""
-
-    speed: float | None = None
-    temperature: float | None = None
-    contacts: Contacts | None = None
-    duration: float | None = None
-    seed: int = 0
 
 
 class Remedy(Table, book="remedies"):
@@ -75,6 +73,10 @@ class DriveCase(CaseFile, book="drive_file"):
         Bearing at the drive end.
     non_drive_end : BearingCase or mapping, optional
         Bearing at the other end; the same as at the drive end if not given.
+    rotor : mapping, optional
+        Mass of the rotor and places of its bearings, from which their loads follow.
+    force : sequence of mapping, optional
+        Further forces on the rotor.
     drive : mapping, optional
         Speed and temperature of both bearings, duration and seed.
     title : str, optional
@@ -99,8 +101,12 @@ class DriveCase(CaseFile, book="drive_file"):
 
         def __init__(self, **tables: Any) -> None: ...
 
+    _numbered: ClassVar[tuple[str, ...]] = ("force",)
+
     title: Title = ""
     drive: Operation = Operation()
+    rotor: Rotor | None = None
+    force: tuple[Force, ...] = ()
     source: Source
     circuit: Circuit
     breakdown: Breakdown
@@ -110,6 +116,45 @@ class DriveCase(CaseFile, book="drive_file"):
     remedies: tuple[Remedy, ...] = ()
     duty: Duty | None = None
     measured: Measured | None = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _with_loads(cls, tables: Any) -> Any:
+        """Bearings have the loads that follow from the rotor and its forces."""
+        given = isinstance(tables, Mapping) and tables.get("rotor") is not None
+        return with_rotor_loads(tables) if given else tables
+
+    @model_validator(mode="after")
+    def _check_rotor(self) -> Self:
+        """Check the forces on the rotor, and the kinds of its bearings."""
+        if self.rotor is None:
+            if self.force:
+                raise InputError.missing("rotor", "a table with the places of both bearings, for [[force]]")
+            return self
+        self.rotor.loads(self.force, self.drive.gravity_direction)
+        for end in ENDS:
+            bearing = getattr(self, end).bearing
+            if bearing.kind in ADJUSTED and bearing.pair is None:
+                raise InputError(
+                    f"{end}.bearing.base",
+                    got=f"a single {bearing.kind} bearing with [rotor]",
+                    takes="one whose axial load does not depend on the other bearing; or radial_load and "
+                    "axial_load instead of [rotor]; or an axle of one shaft, which computes both",
+                )
+        return self
+
+    def plain_tables(self) -> dict[str, Any]:
+        """Return all values that a file can contain as nested tables, in SI units."""
+        tables = super().plain_tables()
+        for end in ENDS if self.rotor is not None else ():
+            for load in LOADS:
+                tables[end]["bearing"].pop(load, None)
+        return tables
+
+    def check_not_replaced(self, key: str) -> None:
+        """Raise an InputError for a load of a bearing that follows from the rotor."""
+        if self.rotor is not None:
+            check_no_load(key)
 
     @property
     def bearings(self) -> tuple[BearingCase, BearingCase]:
@@ -223,6 +268,8 @@ class DriveCase(CaseFile, book="drive_file"):
         table = self.to_dict()
         displace(table, of_drive, {name: ALTERNATIVES[name] for name in ("source", "circuit", "breakdown")})
         set_keys(table, of_drive)
+        if table.get("rotor") is not None:
+            for_all(check_no_load, flat)
         for end, change in ends.items():
             with within(end):
                 table[end] = getattr(self, end).replace(change)
@@ -233,6 +280,7 @@ with_keys(
     DriveCase,
     {
         "drive": Operation,
+        "rotor": Rotor,
         "source": Source,
         "circuit": Circuit,
         "breakdown": Breakdown,

@@ -43,7 +43,7 @@ from ehlectric.quantities.units import printed
 _OF_BEARINGS = ("bearing", "motor", "contacts", "duty")
 
 # Tables that only a drive file has, in addition to the tables of its bearings.
-_OF_DRIVES = ("drive", "source", "circuit", "breakdown")
+_OF_DRIVES = ("drive", "source", "circuit", "breakdown", "rotor", "force")
 
 
 def _tables_in(model: type[Table]) -> Iterator[type[Table]]:
@@ -232,7 +232,8 @@ def _model_of(name: str, inner: str = "") -> type[Table]:
         return GearCase
     if name not in (*_OF_DRIVES, *ENDS, "axle"):
         return Case
-    from ehlectric.cases.drive_case import DriveCase, Operation
+    from ehlectric.cases.drive_case import DriveCase
+    from ehlectric.cases.rotor_inputs import Operation
 
     if name == "axle" or (name == "drive" and inner and inner not in Operation.known_keys()):
         from ehlectric.cases.axle_case import AxleCase

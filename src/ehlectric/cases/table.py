@@ -44,6 +44,7 @@ _HIDDEN = frozenset(name for name in dir(BaseModel) if not name.startswith("__")
     "NAMED_BY",
     "arrays",
     "check_alternatives",
+    "check_together",
     "check_over",
     "described_toml",
     "first_grid",
@@ -241,6 +242,13 @@ class Table(BaseModel, metaclass=_Listed):
             got = f"{len(numbers)} values over {len(places)} of {key}"
             raise InputError(values, got=got, takes="as many")
         return self
+
+    def check_together(self, *keys: str) -> None:
+        """Raise an InputError where one of some keys is given, and another one is not."""
+        given = [key for key in keys if getattr(self, key) is not None]
+        missing = [key for key in keys if key not in given]
+        if given and missing:
+            raise InputError.missing(missing[0], f"a value; {given[0]} is given")
 
     def check_alternatives(self, keys: Sequence[str], takes: str, *, needed: bool = False) -> None:
         """Raise an InputError where several of some keys are given, or none though one is needed."""

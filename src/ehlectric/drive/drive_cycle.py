@@ -42,6 +42,7 @@ from ehlectric.bearing import (
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.duty_inputs import Cycle, read_cycle
 from ehlectric.cases.measurements import CYCLE
+from ehlectric.cases.rotor_inputs import LOADS
 from ehlectric.drive.drive_record import CONFIDENCE, ENERGY, DriveSolution, event_rate
 from ehlectric.drive.quick_estimate import quick_drive
 from ehlectric.errors import InputError, within
@@ -300,7 +301,11 @@ def _ready(case: DriveCase, cycle: Cycle, peak: float) -> _Ready:
 
 
 def _check(case: DriveCase, cycle: Cycle) -> None:
-    """Refuse a cycle that does not fit the bearings of its drive."""
+    """Refuse a cycle that does not fit the bearings of its drive, or whose loads follow from the rotor."""
+    loads = [name for name in LOADS if name in cycle.values]
+    if case.rotor is not None and loads:
+        text = f"has {' and '.join(loads)}, which follow from the tables rotor and force; remove one of them"
+        raise InputError.worded("duty.file", text)
     for end, bearing in zip(ENDS, case.bearings, strict=True):
         with within(end):
             check_rows(bearing, _of_bearing(cycle))

@@ -11,6 +11,7 @@ import numpy as np
 from ehlectric.bearing import KEYS as LIFE_KEYS
 from ehlectric.bearing import film_error, life_summary
 from ehlectric.cases.drive_case import DriveCase
+from ehlectric.cases.rotor_inputs import LOADS
 from ehlectric.discharge.discharge_laws import CURRENT_DENSITY_LIMITS
 from ehlectric.drive.drive_bearings import BearingElement
 from ehlectric.drive.drive_record import (
@@ -110,7 +111,7 @@ def end_summary(solution: DriveSolution, b: int) -> dict[str, Any]:
     case, record, bearing = solution.case, solution.record, solution.elements[b]
     peak = float(record.peak[b])
     values = {
-        **_film(case, bearing),
+        **_film(case, bearing, ENDS[b]),
         "voltage_ratio": solution.divider[b],
         "waveform_ratio": peak / solution.highest_source,
         "peak_voltage": peak,
@@ -127,11 +128,12 @@ def end_summary(solution: DriveSolution, b: int) -> dict[str, Any]:
     return with_former_keys(values, "end", DRIVE_BOOK)
 
 
-def _film(case: DriveCase, bearing: BearingElement) -> dict[str, Any]:
-    """Films of a bearing as an element of the circuit."""
+def _film(case: DriveCase, bearing: BearingElement, end: str) -> dict[str, Any]:
+    """Loads of the bearing at an end, and its films as an element of the circuit."""
     breakdown = float(np.min(bearing.breakdown))
     finite = math.isfinite(bearing.shape) and math.isfinite(breakdown)
     return {
+        **{load: getattr(getattr(case, end).bearing, load) for load in LOADS},
         "capacitance": bearing.mean_capacitance,
         "conductance": bearing.conductance,
         "breakdown_voltage": breakdown if math.isfinite(breakdown) else None,
@@ -147,7 +149,7 @@ def checked_summary(ready: PreparedDrive) -> dict[str, Any]:
     ends = {
         end: with_former_keys(
             {
-                **_film(case, bearing),
+                **_film(case, bearing, end),
                 "voltage_ratio": ratio,
                 "voltage_at_peak": ratio * highest,
                 "films": result.case.contacts,

@@ -62,7 +62,10 @@ def _of_coatings(solution: DriveSolution) -> Iterator[ResultWarning]:
 
 
 def unused_keys(case: DriveCase) -> Iterator[ResultWarning]:
-    """Yield notes about tables of both bearing files that the result of a drive does not use."""
+    """Yield notes about keys that the result of a drive does not use."""
+    weightless = case.rotor is None or case.rotor.mass is None
+    if weightless and (keys := given_keys(case, ["drive.gravity_direction"])):
+        yield unused_note("mass", keys)
     for end in ENDS[: 1 if case.non_drive_end == case.drive_end else 2]:
         bearing: BearingCase = getattr(case, end)
         keys = given_keys(bearing, [*NOT_IN_DRIVES, *(f"discharge.{key}" for key in NOT_OF_DISCHARGES)])

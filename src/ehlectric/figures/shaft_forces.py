@@ -10,10 +10,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from ehlectric.axle import AxleResult, BearingLoads, forces_on_shafts, loads_on_shafts
+from ehlectric.axle import AxleResult, forces_on_shafts, loads_on_shafts
 from ehlectric.cases.axle_case import AxleCase
 from ehlectric.errors import printable
 from ehlectric.figures.style import legend_above, new_panels, note, text_colour
+from ehlectric.formulas.shaft_statics import BearingLoads
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.palette import BLACK, BLUE, GREY, ORANGE
 from ehlectric.readable import readable

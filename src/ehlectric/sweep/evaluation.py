@@ -16,7 +16,7 @@ from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.input_keys import is_quantity, key_of_names
 from ehlectric.contact import case_with_laws
-from ehlectric.errors import InputError, shown
+from ehlectric.errors import InputError, for_all, shown
 from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED, end_and_replaced
 from ehlectric.quantities.results import is_number_of_points, is_text_of_points
 from ehlectric.sweep.axis_labels import label_of, result_keys
@@ -111,6 +111,7 @@ def _of_drive(case: DriveCase, given: Mapping[str, Any], number: int) -> xr.Data
     """Dataset of both bearings of a drive, whose variables begin with the end of their bearing."""
     import xarray as xr
 
+    for_all(case.check_not_replaced, given)
     parts: list[xr.Dataset] = []
     inputs_of_drive: dict[str, Any] = {}
     for end, bearing in zip(ENDS, case.bearings, strict=True):

@@ -85,6 +85,7 @@ def _check_drive(key: str, case: DriveCase, varied: Collection[str]) -> None:
     input_field(key)
     if end and inner.partition(".")[0] in _NOT_VARIED:
         raise InputError.worded(key, "cannot vary", takes="a key of the bearing")
+    case.check_not_replaced(key)
     above = REPLACED.get(inner) if end else None
     if above is not None and (above in varied or inner in case.replaced):
         raise InputError.worded(key, f"has no effect, as {above} is given for both bearings", takes=above)

@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 from ehlectric.app.form_fields.bearing_fields import BEARING_GROUPS
-from ehlectric.app.form_fields.drive_fields import DRIVE_GROUPS
+from ehlectric.app.form_fields.drive_fields import DRIVE_GROUPS, force_fields, force_title
 from ehlectric.app.form_fields.field import (
     Field,
     Group,
@@ -328,15 +328,10 @@ def mesh_title(number: int) -> str:
     return f"Gear mesh {number}"
 
 
-def force_title(number: int) -> str:
-    """Title of the group of a force."""
-    return f"Force {number}"
-
-
 def _force_group(number: int, names: Iterable[str]) -> Group:
     fields = (
         replace(field, kind="choice", choices=tuple(names)) if field.key.endswith(".shaft") else field
-        for field in _fields("Force", "axle.force", f"force.{number}")
+        for field in force_fields(number)
     )
     return Group(force_title(number), tuple(fields))
 
@@ -666,7 +661,7 @@ def _refers(remedy: Mapping[str, Any], name: str) -> bool:
 
 
 def without_table(inputs: Inputs, name: str, number: int) -> Inputs:
-    """Inputs without a bearing, mesh or link, by its number from 1; numbers of remedies follow."""
+    """Inputs without a bearing, mesh, force or link, by its number from 1; numbers of remedies follow."""
     remedies = []
     for remedy in _tables(inputs, "remedies"):
         changes = {}

@@ -23,6 +23,7 @@ from ehlectric.app.form_fields.field import (
 )
 from ehlectric.app.form_fields.field_defaults import DRIVE_END, NON_DRIVE_END, field_at, group_at
 from ehlectric.app.page_inputs import Inputs
+from ehlectric.cases.rotor_inputs import LOADS
 from ehlectric.quantities.alternatives import ALTERNATIVES, DESCRIBED, MEASURED, dotted
 from ehlectric.quantities.inputs import REPLACED, form
 from ehlectric.quantities.units import rounded, split
@@ -211,9 +212,71 @@ _LISTS = {
 }
 _CONDITIONS = {"Geometry of the machine": given("circuit.machine"), VEHICLE: given(VEHICLE_TABLE)}
 
-_OF_DRIVE = tuple(
-    group_of("drive", title, _SHOWN, _LISTS, when=_CONDITIONS.get(title, always)) for title in form("drive")
-)
+
+def _groups() -> Iterator[Group]:
+    """Groups of the drive itself; its forces follow its rotor."""
+    for title in form("drive"):
+        yield group_of("drive", title, _SHOWN, _LISTS, when=_CONDITIONS.get(title, always))
+        if title == ROTOR:
+            yield from map(_force_group, range(1, MOST_FORCES + 1))
+
+
+# Group of the rotor, and the most forces that a page shows.
+ROTOR = "Weight and forces of the rotor"
+MOST_FORCES = 8
+
+
+def force_title(number: int) -> str:
+    """Title of the group of a force."""
+    return f"Force {number}"
+
+
+def force_fields(number: int) -> Iterator[Field]:
+    """Fields of a force by its number from 1, in a drive or an axle; first the shaft, which a drive lacks."""
+    for field in group_of("axle", "Force", {}).fields:
+        yield replace(field, key=f"force.{number}.{field.key.removeprefix('axle.force.')}")
+
+
+def forces_of(inputs: Inputs) -> list[Any]:
+    """Tables of the forces of a drive or an axle; none where the inputs have no list."""
+    forces = inputs.value("force")
+    return forces if isinstance(forces, list) else []
+
+
+def with_rotor_force(inputs: Inputs) -> Inputs:
+    """Inputs of a drive with a further force on its rotor."""
+    return inputs.changed({"force": [*forces_of(inputs), form_data("first_values")["rotor_force"]]})
+
+
+def _force_group(number: int) -> Group:
+    """Group of a force on the rotor of a drive, which belongs to inputs that have this force."""
+    _, *fields = force_fields(number)
+    return Group(force_title(number), tuple(fields), when=lambda inputs: len(forces_of(inputs)) >= number)
+
+
+def with_loads(before: Inputs, after: Inputs) -> Inputs:
+    """Inputs of a drive whose bearings have loads, except with a rotor from which their loads follow.
+
+    Examples
+    --------
+    >>> given = Inputs({"drive_end": {"bearing": {"base": "6208", "radial_load": "2 kN"}}})
+    >>> rotor = with_loads(given, given.changed({"rotor.mass": "9 kg"}))
+    >>> rotor.value("drive_end.bearing.radial_load")
+    >>> with_loads(rotor, rotor.changed({"rotor": None})).value("drive_end.bearing.radial_load")
+    '1000 N'
+    """
+    had, has = (inputs.value("rotor") is not None for inputs in (before, after))
+    ends = [end for end in (DRIVE_END, NON_DRIVE_END) if after.value(f"{end}.bearing") is not None]
+    keys = [f"{end}.bearing.{load}" for end in ends for load in LOADS]
+    if has:
+        given = [key for key in keys if after.value(key) is not None]
+        return after.changed(dict.fromkeys(given)) if given else after
+    if had:
+        first = form_data("first_values")["bearing_load"].items()
+        loads = {f"{end}.{key}": load for end in ends for key, load in first}
+        lacking = {key: load for key, load in loads.items() if after.value(key) is None}
+        return after.changed({"force": None} | lacking)
+    return after
 
 
 def _fields_at(group: Group, end: str) -> Iterator[Field]:
@@ -221,6 +284,9 @@ def _fields_at(group: Group, end: str) -> Iterator[Field]:
     for field in group.fields:
         if field.key in REPLACED:
             yield field_at(field, end, when=equal(REPLACED[field.key], None), strict=True)
+        elif field.key.removeprefix("bearing.") in LOADS:
+            placed = field_at(field, end)
+            yield replace(placed, when=both(placed.when, equal("rotor", None)))
         elif field.key != "discharge.peak_current":
             # The simulation computes the current of a discharge.
             yield field_at(field, end)
@@ -272,7 +338,7 @@ OTHER = Group(
 )
 
 DRIVE_GROUPS = (
-    *_OF_DRIVE,
+    *_groups(),
     *_bearing(DRIVE_END, "Drive end"),
     OTHER,
     *_bearing(NON_DRIVE_END, "Non-drive end"),

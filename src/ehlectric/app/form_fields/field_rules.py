@@ -12,7 +12,12 @@ from typing import Any
 
 from ehlectric.app.catalogue import bearing, coating, contradicts, designated, oil
 from ehlectric.app.form_fields.axle_fields import fitted_axle, without_first_values
-from ehlectric.app.form_fields.drive_fields import DRIVE_ALTERNATIVES, fitted_to_source, with_fitted_remedies
+from ehlectric.app.form_fields.drive_fields import (
+    DRIVE_ALTERNATIVES,
+    fitted_to_source,
+    with_fitted_remedies,
+    with_loads,
+)
 from ehlectric.app.form_fields.field import Field, Group, first_of_kind, fitted_to_kind, form_data, kind_of
 from ehlectric.app.form_fields.field_defaults import at_end, bearing_at, end_and_key, with_bearing_at
 from ehlectric.app.form_fields.gear_fields import of_the_example, rq_of_flanks, with_lists
@@ -173,7 +178,7 @@ def changed(inputs: Inputs, changes: Mapping[str, Any], given: frozenset[str] = 
         if end not in ENDS:
             after = without_first_values(inputs, before, after, changes_at_end)
         result = with_bearing_at(result, end, after)
-    return fitted_axle(inputs, with_fitted_remedies(inputs, result))
+    return fitted_axle(inputs, with_loads(inputs, with_fitted_remedies(inputs, result)))
 
 
 def _changed(inputs: Inputs, changes: Mapping[str, Any], set_by_user: frozenset[str]) -> Inputs:

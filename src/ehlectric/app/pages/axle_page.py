@@ -14,7 +14,6 @@ from ehlectric.app.form_fields.axle_fields import (
     LISTS,
     SIMULATED,
     axle_groups,
-    force_title,
     link_title,
     mesh_title,
     names_of,
@@ -32,7 +31,7 @@ from ehlectric.app.form_fields.axle_fields import (
     without_shaft,
     without_table,
 )
-from ehlectric.app.form_fields.drive_fields import remedies_of, with_remedy, without_remedy
+from ehlectric.app.form_fields.drive_fields import force_title, remedies_of, with_remedy, without_remedy
 from ehlectric.app.form_fields.field import form_data
 from ehlectric.app.form_fields.measured_fields import measured_keys
 from ehlectric.app.page_inputs import Inputs

@@ -9,20 +9,25 @@ from typing import Any, ClassVar
 from nicegui import ui
 
 from ehlectric.app.calls import DRIVE_QUICK, DRIVE_SIMULATED
+from ehlectric.app.form_fields.axle_fields import without_table
 from ehlectric.app.form_fields.drive_fields import (
     DRIVE_GROUPS,
+    MOST_FORCES,
     PRESETS,
+    ROTOR,
     changes_of,
+    force_title,
     is_applicable,
     remedies_of,
     with_remedy,
+    with_rotor_force,
     without_remedy,
 )
 from ehlectric.app.pages.answer_page import AnswerPage, AnswerView
 from ehlectric.app.pages.duty_box import DUTY_FILE, DutyField
 from ehlectric.app.pages.file_field import LOST_FILE, NOT_IN_LINKS, UploadField
 from ehlectric.app.pages.frame import DRIVE, PATHS
-from ehlectric.app.pages.page_parts import Choices, GroupBox, removable
+from ehlectric.app.pages.page_parts import Choices, GroupBox, button, removable
 from ehlectric.app.pages.result_parts import FigureBox, behind, table_html
 from ehlectric.app.session import Session
 from ehlectric.app.view_models import DriveAnswer, Figure
@@ -225,8 +230,21 @@ class DrivePage(AnswerPage[DriveAnswer]):
         """Build the field of a measured waveform, the remedies, and the field of a duty cycle."""
         with self.form.group("Source"):
             self.waveform = WaveformField(self.session, self.form.take)
+        with self.form.group(ROTOR):
+            button("Add a force", "add-force", lambda: self.go_to(with_rotor_force(self.session.inputs)))
+        for number in range(1, MOST_FORCES + 1):
+            self._remove_force(number)
         self.remedies = RemedyBox(self.session, self.change)
         self.duty = DutyField(self.session, self.form, self.kind)
+
+    def _remove_force(self, number: int) -> None:
+        """Build the button that removes a force."""
+        with self.form.group(title := force_title(number)):
+            button(
+                f"Remove {title.lower()}",
+                f"remove-force-{number}",
+                lambda: self.go_to(without_table(self.session.inputs, "force", number)),
+            )
 
     def show_boxes(self) -> None:
         """Show the present inputs in the fields of files, and in the remedies."""

@@ -326,7 +326,7 @@ class Form:
         return kept
 
     def _place_of(self, key: str) -> str:
-        """Name of the shaft, bearing, mesh or link of a key; empty for any other key."""
+        """Name of the shaft, bearing, mesh, link or force of a key; empty for any other key."""
         end = next(iter(_NUMBERED.findall(key)), end_and_key(key)[0])
         if not end:
             return ""
@@ -435,8 +435,8 @@ def shape_of_form(case: Inputs) -> Any:
     return shape_of(case) if case.value("shaft") else groups_for(case)
 
 
-# Beginning of a key of a numbered table of an axle.
-_NUMBERED = re.compile(r"^(?:shaft|bearing|mesh|link)\.\d+")
+# Beginning of a key of a numbered table.
+_NUMBERED = re.compile(r"^(?:shaft|bearing|mesh|link|force)\.\d+")
 
 # Inputs of a bearing that another designation does not determine.
 _OF_A_BEARING = (
