@@ -8,6 +8,7 @@ import pytest
 from ehlectric import AxleCase, DriveCase, load, save, solve_axle, solve_drive
 from ehlectric.axle.axle_discharges import _stream_of_bearing, simulate_axle
 from ehlectric.axle.solution import solve_elements
+from ehlectric.drive import source_points
 from ehlectric.drive.discharges.films_and_source import Measuring
 from ehlectric.drive.drive_record import FILM, VOLTAGE
 from ehlectric.drive.films_in_time import NetworkInTime, TimedFilm
@@ -112,6 +113,65 @@ def test_the_example_drive_as_an_axle_of_one_shaft(circuit, error, more):
         np.testing.assert_allclose(getattr(other, name), expected, rtol=error, atol=0.0, err_msg=name)
     # Oscillations are integrated with a tolerance that follows the mean capacitances of an axle.
     assert other.rms == pytest.approx(one.rms, rel=max(1e-10, 10.0 * error))
+
+
+def scope(path, case, step=5e-9, noise=0.0):
+    """File of an oscilloscope with the common-mode voltage of a case over four periods of its carrier."""
+    points = np.array(source_points(case.source.at_speed(case.drive.speed), None)[0])
+    times = np.arange(0.0, points[-1, 0], step)
+    voltages = np.interp(times, *points.T) + np.random.default_rng(1).normal(0.0, noise, times.size)
+    rows = np.column_stack([times, voltages])
+    np.savetxt(path, rows, delimiter=",", header="time [s],voltage [V]", comments="", fmt="%.12g")
+    return {"file": str(path)}
+
+
+def test_a_measured_voltage_of_an_axle_of_one_shaft(tmp_path):
+    """The discharges of the drive with the same file, to the last digit; the largest edge is a third of the
+    link, and lasts as long as an edge of the inverter.
+    """
+    with (EXAMPLES / "drive.toml").open("rb") as file:
+        tables = tomllib.load(file)
+    tables["drive"] |= {"duration": "4 ms"}
+    described = as_axle(tables)
+    tables["source"] = scope(tmp_path / "scope.csv", described)
+    drive, axle = DriveCase.from_dict(tables | {"remedies": []}), as_axle(tables)
+    of_drive, of_axle = solve_drive(drive), solve_axle(axle)
+    one, other = of_drive.solution.record, of_axle.discharges.record
+    assert len(one.events) > 100
+    assert one.events.tolist() == other.events.tolist()
+    assert of_axle.solution.edge == pytest.approx((560.0 / 3.0, 100e-9), rel=1e-6)
+    plain = solve_axle(described.replace({"drive.duration": None})).summary()
+    summary = of_axle.summary()
+    rows = zip(summary["elements"], plain["elements"], strict=True)
+    assert all(row["voltage"] == pytest.approx(known["voltage"], rel=1e-6) for row, known in rows)
+    assert {code for code in summary["warning_codes"] if code.startswith("record")} == {
+        code for code in of_drive.summary()["warning_codes"] if code.startswith("record")
+    }
+    save(of_axle, tmp_path / "out")
+    (tmp_path / "scope.csv").unlink()
+    stored = load(tmp_path / "out").summary()
+    assert [stored[name] for name in ("edge", "elements")] == [summary[name] for name in ("edge", "elements")]
+
+
+@pytest.mark.parametrize(
+    ("step", "noise", "error"), [(5e-9, 1.0, 0.03), (50e-9, 1.0, 0.03), (50e-9, 0.0, 1e-9)]
+)
+def test_edges_of_noisy_and_coarse_records(tmp_path, step, noise, error):
+    """Noise adds to the largest edge, and coarse samples lengthen it by less than an interval."""
+    case = two_stages()
+    measured = two_stages(source=scope(tmp_path / "scope.csv", case, step, noise))
+    edge = solve_elements(measured).edge
+    assert edge.voltage == pytest.approx(case.edge, rel=error)
+    assert case.source.rise_time * 0.9 < edge.rise_time < case.source.rise_time + step
+    half = solve_elements(measured.replace({"source.scale": -0.5})).edge
+    assert half == pytest.approx((0.5 * edge.voltage, edge.rise_time), rel=1e-12)
+
+
+def test_a_missing_record_of_an_axle_is_named(tmp_path):
+    case = two_stages(source={"file": str(tmp_path / "lost.csv")})
+    with pytest.raises(InputError, match=r"lost\.csv") as refused:
+        solve_elements(case)
+    assert refused.value.key == "source.file"
 
 
 def test_nothing_discharges_if_all_shafts_are_connected_to_the_housing(tmp_path):

@@ -24,6 +24,7 @@ from ehlectric.drive import (
     comment,
     filled,
     inductor_lines,
+    measured_source,
     name_of,
     number,
     point_lines,
@@ -171,7 +172,8 @@ class AxleNetlist:
     def bench(self, library: str) -> Iterator[str]:
         """Lines of a test bench, which includes the file of the subcircuits: the inverter at the winding."""
         source = self.case.source.at_speed(self.case.drive.speed)
-        points, step = source_points(source, None)
+        waveform, _ = measured_source(self.case.source, None)
+        points, step = source_points(source, waveform)
         nodes = {name: "0" if name == HOUSING else node for name, node in self.nodes.items()}
         shafts = [nodes[shaft.name] for shaft in self.case.shaft]
         positive, negative = (nodes[name] for name in self.solution.network().source)

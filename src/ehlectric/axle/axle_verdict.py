@@ -130,7 +130,10 @@ def axle_verdict(
         level,
         code,
         Statement.of(
-            "axle-first-touches", element=first, voltage=solution.voltage_of(first), edge=solution.case.edge
+            "axle-first-touches",
+            element=first,
+            voltage=solution.voltage_of(first),
+            edge=solution.edge.voltage,
         )
         if touching
         else _first_film(solution, first, "axle-first"),
@@ -180,7 +183,7 @@ def _first_film(solution: AxleSolution, name: str, code: str) -> Statement:
         code,
         element=name,
         voltage=voltage,
-        edge=solution.case.edge,
+        edge=solution.edge.voltage,
         breakdown=limit,
         margin=limit / voltage,
     )

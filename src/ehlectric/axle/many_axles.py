@@ -32,6 +32,7 @@ from ehlectric.cases.discharge_inputs import AxleDischarge
 from ehlectric.cases.gear_case import GearCase, changed_pair
 from ehlectric.cases.input_keys import is_quantity
 from ehlectric.cases.table_edits import flattened
+from ehlectric.drive import measured_edge
 from ehlectric.errors import ConvergenceError, InputError, within
 from ehlectric.formulas.shaft_statics import BearingLoads
 from ehlectric.gear import GearSolution, open_area, reference_area_of, solve_loose_pairs
@@ -153,7 +154,8 @@ def _together(axle: _Axle, solved: Sequence[_Solved]) -> Outcome:
         )
     )
     elements = tuple(element for element, _ in known)
-    solution = AxleSolution(axle.case, axle.turning, elements, tuple(warnings))
+    edge, of_source = measured_edge(axle.case.source)
+    solution = AxleSolution(axle.case, axle.turning, elements, (*of_source, *warnings), edge)
     return replace(solution, warnings=(*solution.warnings, *machine_notes(solution)))
 
 

@@ -35,7 +35,17 @@ from ehlectric.cases.axle_case import AxleCase, Turning
 from ehlectric.cases.axle_inputs import CONDUCTING, Shaft
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.gear_inputs import Conduction
-from ehlectric.drive import HOUSING, Film, Network, machine, oscillation_warning, rank, ring_warning
+from ehlectric.drive import (
+    HOUSING,
+    Edge,
+    Film,
+    Network,
+    machine,
+    measured_edge,
+    oscillation_warning,
+    rank,
+    ring_warning,
+)
 from ehlectric.errors import ConvergenceError, InputError, within
 from ehlectric.formulas.shaft_statics import BearingLoads, ForceAt, bearing_loads, on_axis, weight_at
 from ehlectric.gear import (
@@ -126,6 +136,13 @@ class AxleSolution:
     turning: Mapping[str, Turning]  # speeds and torques of the shafts
     elements: tuple[Element, ...]
     warnings: tuple[ResultWarning, ...] = ()  # of bearings and meshes, each with the name of its element
+    # Largest edge of a measured common-mode voltage; None for a described one.
+    measured_edge: Edge | None = None
+
+    @property
+    def edge(self) -> Edge:
+        """Largest edge of the common-mode voltage."""
+        return self.measured_edge or Edge(self.case.edge, self.case.source.rise_time or 0.0)
 
     def network(self, conduction: Conduction = "by-film") -> Network:
         """Network of all elements, links and capacitances of the machine."""
@@ -189,8 +206,7 @@ class AxleSolution:
 
         They are weighted means over the networks of elements that almost conduct.
         """
-        edge = self.case.edge if edge is None else edge
-        rise_time = self.case.source.rise_time or 0.0
+        edge, rise_time = self.edge.voltage if edge is None else edge, self.edge.rise_time
         potentials = dict.fromkeys(self.turning, 0.0)
         for weight, network in self._weighted_networks[conduction]:
             for shaft, potential in network.potentials(edge, rise_time).items():
@@ -215,7 +231,7 @@ class AxleSolution:
         sums: dict[str, float] = {}
         names = {each.name for each in self.elements}
         for weight, network in self._weighted_networks["by-film"]:
-            potentials = network.potentials(self.case.edge, self.case.source.rise_time or 0.0)
+            potentials = network.potentials(*self.edge)
             for film in network.elements:
                 if film.name in names and not film.conducts and network.voltage(film, potentials):
                     energy = network.breakdown(film, potentials).energy
@@ -565,7 +581,8 @@ def elements_of(films: SolvedFilms) -> AxleSolution:
         of_elements.append((name, tuple(mesh_warnings(gears, torque))))
     of_axle = axle_warnings(case, films.turning, films.loads)
     warnings = named_warnings((*of_axle, *thinnest_first(elements, of_elements)))
-    solution = AxleSolution(case, films.turning, tuple(elements), tuple(warnings))
+    edge, of_source = measured_edge(case.source)
+    solution = AxleSolution(case, films.turning, tuple(elements), (*of_source, *warnings), edge)
     return replace(
         solution, warnings=(*solution.warnings, *_bound_warning(solution), *machine_notes(solution))
     )

@@ -19,6 +19,7 @@ from ehlectric.axle.solution import AxleSolution, Element
 from ehlectric.axle.stored_discharges import discharge_attributes, discharge_variables
 from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.axle_keys import HOUSING
+from ehlectric.drive import Edge
 from ehlectric.quantities.result_warnings import CODES_OF_TEXTS, TEXTS, ResultWarning, warnings_of
 from ehlectric.runtime.file_rules import UnfitError, case_of, is_list, is_number, is_table, is_text, json_of
 from ehlectric.runtime.files import plain
@@ -72,6 +73,7 @@ def layout_of(
             "version": version,
             "case": solutions[0].case.to_toml(),
             "warnings": _text(warnings),
+            **_edge_attribute(solutions),
             "seconds": seconds,
             "probable": int(probable),
             **({} if duty is None else {"duty": _text(_duty_attributes(duty))}),
@@ -159,7 +161,7 @@ def solutions_of(dataset: xr.Dataset) -> tuple[AxleSolution, ...]:
     case = case_of(dataset.attrs, AxleCase.from_dict)
     cases = [case, *case.variants()]
     warnings = json_of(dataset.attrs, "warnings", lambda value: is_list(value, _are_warnings))
-    columns = {name: _read(dataset, name) for name in _NUMBERS}
+    columns, edges = {name: _read(dataset, name) for name in _NUMBERS}, _edges(dataset, len(warnings))
     (variants, count) = columns["capacitance"].shape
     if variants not in (1, len(cases)) or len(warnings) != variants:
         raise UnfitError(f"it has {variants} variants of an axle with {len(case.remedies)} remedies")
@@ -171,9 +173,26 @@ def solutions_of(dataset: xr.Dataset) -> tuple[AxleSolution, ...]:
             of_variant.turning(),
             tuple(_elements(of_variant, {name: column[k] for name, column in columns.items()})),
             _warnings(warnings[k]),
+            edges[k],
         )
         for k, of_variant in enumerate(cases[:variants])
     )
+
+
+def _edge_attribute(solutions: Sequence[AxleSolution]) -> dict[str, str]:
+    """Largest edge of the measured source of each solution; none for a described source."""
+    edges = [solution.measured_edge for solution in solutions]
+    return {} if None in edges else {"edges": _text(edges)}
+
+
+def _edges(dataset: xr.Dataset, variants: int) -> list[Edge | None]:
+    """Largest edge of the measured source of each variant; None for a described source."""
+    if "edges" not in dataset.attrs:
+        return [None] * variants
+    rows = json_of(dataset.attrs, "edges", lambda value: is_list(value, lambda row: is_list(row, is_number)))
+    if len(rows) != variants or any(len(row) != len(Edge._fields) for row in rows):
+        raise UnfitError("edges is not as it was written")
+    return [Edge(*row) for row in rows]
 
 
 def _are_warnings(value: Any) -> bool:

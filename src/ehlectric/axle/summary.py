@@ -51,9 +51,8 @@ def axle_summary(solution: AxleSolution) -> dict[str, Any]:
     """Tables ``edge``, ``first``, ``elements``, ``shafts`` and ``rank`` of summary.json, SI units; None for a
     value that is not known. ``voltage_ratio`` is the voltage divided by the breakdown voltage.
     """
-    case = solution.case
     return {
-        "edge": {"voltage": case.edge, "rise_time": case.source.rise_time},
+        "edge": {"voltage": solution.edge.voltage, "rise_time": solution.edge.rise_time},
         "first": _first(solution),
         "elements": _elements(solution),
         "shafts": _shafts(solution),

@@ -231,7 +231,7 @@ class AxleCase(CaseFile, book="axle_file"):
 
     @property
     def edge(self) -> float:
-        """Largest edge of the common-mode voltage [V]: a third of the voltage of the DC link."""
+        """Largest edge of a described common-mode voltage [V]: a third of the voltage of the DC link."""
         assert self.source.dc_link is not None
         return self.source.dc_link / 3.0
 
@@ -410,8 +410,6 @@ class AxleCase(CaseFile, book="axle_file"):
         if self.mesh and not (self.force or any(shaft.mass is not None for shaft in self.shaft)):
             with within("drive"):
                 self.drive.check_not_zero("torque", "no mesh carries a load")
-        if self.source.dc_link is None:
-            raise InputError.missing("source.dc_link", "a voltage; an axle takes no measured waveform")
         turning = self.turning()
         self._check_gears()
         self._check_loads()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from copy import deepcopy
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
@@ -291,21 +292,15 @@ with_keys(
 
 
 def with_files(table: Mapping[str, Any], folder: Path) -> dict[str, Any]:
-    """Tables of a drive file with the bearings of the files that it names, and the paths of its waveform and
-    its duty cycle. Raises InputError if a bearing file cannot be read or is not valid.
+    """Tables of a file of any kind, with the bearings of bearing files and the paths of other files.
+
+    Names are relative to a folder. Raises InputError if a bearing file cannot be read or is not valid.
     """
-    tables = dict(table)
+    tables = deepcopy(dict(table))
+    find_files(tables, folder)
     for end in ENDS:
         if isinstance(tables.get(end), Mapping) and "file" in tables[end]:
             tables[end] = _bearing_of(tables[end], folder, end)
-    for name in ("source", "duty"):
-        holder = tables.get(name)
-        if isinstance(holder, Mapping) and isinstance(holder.get("file"), str):
-            # It then stays valid where the case is written to another folder.
-            tables[name] = {**holder, "file": str((folder / holder["file"]).absolute())}
-    if isinstance(tables.get("measured"), Mapping):
-        tables["measured"] = dict(tables["measured"])
-        find_files({"measured": tables["measured"]}, folder)
     return tables
 
 
@@ -357,12 +352,3 @@ def case_of_dict(table: Mapping[str, Any], *, written: bool = False) -> AnyCase:
     """
     model = BearingCase if "bearing" in table or bearing_key(table) is not None else Case
     return model.from_written(table) if written else model.from_dict(table)
-
-
-def with_absolute_files(table: dict[str, Any], folder: Path) -> dict[str, Any]:
-    """Tables of a case of any kind whose files lie relative to a folder. They get absolute names of surfaces
-    and waveforms, and the bearings of bearing files. Raises InputError if a bearing file of
-    a drive cannot be read or is not valid.
-    """
-    find_files(table, folder)
-    return with_files(table, folder)

@@ -200,7 +200,7 @@ def _file_table(holder: Any, key: str) -> Any:
 
 def find_files(table: dict[str, Any], folder: Path) -> None:
     """Make the names of files absolute, which are relative to the ``folder`` of the case file: roughness, a
-    duty cycle, a measurement, a record of the shaft voltage, and viscosities.
+    common-mode voltage, a duty cycle, a measurement, a record of the shaft voltage, and viscosities.
 
     They then stay valid if the case is written to another folder.
     """
@@ -209,7 +209,7 @@ def find_files(table: dict[str, Any], folder: Path) -> None:
         _file_table(holder, key)
         for holder, key in ((measured, "shaft_record"), (table.get("lubricant"), "viscosity_table"))
     )
-    tables = (table.get("duty"), measured, record, viscosities)
+    tables = (table.get("source"), table.get("duty"), measured, record, viscosities)
     for holder in (*(rough if isinstance(rough, list) else []), *tables):
         if not isinstance(holder, dict) or not isinstance(holder.get("file"), str):
             continue

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ehlectric.cases.axle_case import AxleCase, with_gear_files
-from ehlectric.cases.drive_case import AnyCase, DriveCase, case_of_dict, with_absolute_files
+from ehlectric.cases.drive_case import AnyCase, DriveCase, case_of_dict, with_files
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.table import read_toml
 from ehlectric.quantities.inputs import ENDS
@@ -42,4 +42,4 @@ def with_files_of(table: dict[str, Any], folder: Path) -> dict[str, Any]:
     """Tables of a case whose files lie relative to a folder, with absolute names and with the tables of the
     gear files of an axle. Raises InputError if a file cannot be read or is not valid.
     """
-    return with_gear_files(table, folder) if "shaft" in table else with_absolute_files(table, folder)
+    return with_gear_files(table, folder) if "shaft" in table else with_files(table, folder)

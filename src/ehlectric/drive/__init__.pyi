@@ -31,6 +31,8 @@ from .drive_record import statistics as statistics
 from .films_in_time import NetworkInTime as NetworkInTime
 from .films_in_time import TimedFilm as TimedFilm
 from .measurable import DriveModel as DriveModel
+from .measured_source import measured_edge as measured_edge
+from .measured_source import measured_source as measured_source
 from .netlist import OPEN as OPEN
 from .netlist import SIGNATURE as SIGNATURE
 from .netlist import Arc as Arc
@@ -86,3 +88,4 @@ from .warnings import bearing_warnings as bearing_warnings
 from .warnings import machine_warnings as machine_warnings
 from .warnings import oscillation_warning as oscillation_warning
 from .warnings import ring_warning as ring_warning
+from .waveform.waveform import Edge as Edge

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +11,7 @@ import scipy
 from ehlectric.arrays import Array, IntArray
 from ehlectric.cases.drive_inputs import Source
 from ehlectric.drive.waveform.sample_quality import edge_warnings, repeat_warnings
-from ehlectric.drive.waveform.waveform import Waveform
+from ehlectric.drive.waveform.waveform import Edge, Waveform
 from ehlectric.drive.waveform.waveform_file import read_waveform
 from ehlectric.errors import InputError
 from ehlectric.quantities.result_warnings import ResultWarning
@@ -144,6 +144,33 @@ def measured_source(
     if source.resample is not None:
         waveform, warnings = _resampled(waveform, warnings, source.file, source.resample)
     return waveform, (*warnings, *repeat_warnings(source.file, waveform, duration))
+
+
+def measured_edge(source: Source) -> tuple[Edge | None, tuple[ResultWarning, ...]]:
+    """Largest edge of a measured waveform, and the warnings about its file; None for a described source.
+
+    Raises the errors of ``measured_source``.
+    """
+    if source.file is None:
+        return None, ()
+    try:
+        changed = Path(source.file).stat().st_mtime_ns
+    except OSError:
+        changed = 0
+    edge, warnings = _edge_of(source.model_copy(update={"scale": 1.0}), changed)
+    return edge._replace(voltage=abs(source.scale) * edge.voltage), warnings
+
+
+# Files whose largest edge is remembered.
+_FILES = 16
+
+
+@lru_cache(maxsize=_FILES)
+def _edge_of(source: Source, changed: int) -> tuple[Edge, tuple[ResultWarning, ...]]:  # noqa: ARG001
+    """Largest edge of the file of a source, which was ``changed`` at a time."""
+    waveform, warnings = measured_source(source, None)
+    assert waveform is not None
+    return waveform.largest_edge, warnings
 
 
 def _resampled(

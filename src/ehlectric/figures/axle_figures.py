@@ -59,7 +59,7 @@ def elements(result: AxleResult, ax: Axes) -> None:
     ax.axvline(1.0, color=BLACK, ls="--", lw=1.0)
     ax.set(xscale="log", xlim=(low, high), ylim=(len(names) - 0.4, -0.6))
     ax.set_yticks(range(len(names)), [printable(name) for name in names])
-    ax.set_xlabel(f"voltage after an edge of {readable(result.case.edge)} V / breakdown voltage")
+    ax.set_xlabel(f"voltage after an edge of {readable(result.solution.edge.voltage)} V / breakdown voltage")
     legend_above(
         ax,
         [

@@ -185,7 +185,7 @@ def _draw_winding(ax: Axes, left: float, level: float, solution: AxleSolution) -
         ax.plot([x - _PLATE, x + _PLATE], [y, y], color=BLACK, lw=1.2)
     capacitance = solution.case.circuit.capacitances["winding_rotor_capacitance"]
     _write(ax, (x + 0.17, middle), amount(capacitance, "F"), va="center")
-    _write(ax, (x - 0.2, top + 0.03), f"winding,\n{amount(solution.case.edge, 'V')} edge", va="bottom")
+    _write(ax, (x - 0.2, top + 0.03), f"winding,\n{amount(solution.edge.voltage, 'V')} edge", va="bottom")
 
 
 def _draw_between(ax: Axes, each: NetworkElement, lane: int, level: float, columns: list[int]) -> None:

@@ -28,6 +28,7 @@ from ehlectric.cases.axle_keys import ADJUSTED, HOUSING, element_keys, shaft_key
 from ehlectric.cases.bearing_kinds import KINDS_OF_BEARINGS
 from ehlectric.errors import InputError
 from ehlectric.quantities.alternatives import ALTERNATIVES
+from ehlectric.quantities.alternatives import MEASURED as MEASURED_SOURCE
 from ehlectric.quantities.inputs import form
 from ehlectric.quantities.units import in_unit, rounded
 
@@ -373,9 +374,9 @@ _GROUND = (
     "circuit.ground_resistance",
 )
 _SOURCE = (
-    *("source.dc_link", "source.rise_time", "source.modulation", "source.switching_frequency"),
+    *("source.way", "source.dc_link", "source.rise_time", "source.modulation", "source.switching_frequency"),
     *("source.frequency_way", "source.pole_pairs", "source.fundamental_frequency", "source.modulation_index"),
-    "source.base_frequency",
+    *("source.base_frequency", *(f"source.{key}" for key in MEASURED_SOURCE if key != "file")),
 )
 # Title of the group of the simulated time and its arcs, and its keys that are always shown.
 SIMULATED = "Discharges over time"
@@ -397,7 +398,7 @@ def _simulated() -> Group:
 
 _COMMON = {group.title: group for group in BEARING_GROUPS}
 _OF_MACHINE = (
-    _of_drive("Source", _SOURCE, _SOURCE[:2]),
+    _of_drive("Source", _SOURCE, _SOURCE[:3]),
     _of_drive("Machine", (*_MACHINE, *_WINDING), _MACHINE),
     replace(_of_drive("Ring, choke and ground", _RING, _RING), title="Grounding ring on the rotor"),
     replace(_of_drive("Ring, choke and ground", (*_CHOKE, *_GROUND), _CHOKE), title="Choke and ground"),

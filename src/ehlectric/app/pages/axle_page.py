@@ -36,7 +36,7 @@ from ehlectric.app.form_fields.field import form_data
 from ehlectric.app.form_fields.measured_fields import measured_keys
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.answer_page import AnswerPage, ProbableView
-from ehlectric.app.pages.file_field import UploadField
+from ehlectric.app.pages.file_field import WAVEFORM_FILE, UploadField, WaveformField
 from ehlectric.app.pages.form import Form
 from ehlectric.app.pages.frame import AXLE, PATHS
 from ehlectric.app.pages.page_parts import GroupBox, button, follow, heading, page_texts, removable, say
@@ -283,7 +283,7 @@ class AxlePage(AnswerPage[AxleAnswer]):
     start = AXLE
     kind = "axle"
     groups = ()
-    elsewhere = (*LISTS, REMEDIES)
+    elsewhere = (*LISTS, REMEDIES, WAVEFORM_FILE)
     first = 1
     short: ClassVar[Mapping[str, str]] = {"first.margin": "margin", "first.voltage": "U"}
     wait = 0.6
@@ -316,10 +316,12 @@ class AxlePage(AnswerPage[AxleAnswer]):
                 axle_groups(inputs),
                 inputs,
                 self.change,
-                elsewhere=measured_keys(self.kind, inputs),
+                elsewhere=(*measured_keys(self.kind, inputs), WAVEFORM_FILE),
                 first=self.first,
                 listed=other_inputs,
             )
+        with self.form.group("Source"):
+            self.waveform = WaveformField(self.session, self.form.take)
         self._build_buttons()
         self._show_summaries()
 
@@ -371,6 +373,7 @@ class AxlePage(AnswerPage[AxleAnswer]):
         """Show the present inputs in the remedies and in the titles of the groups."""
         if shape_of(self.session.inputs) == self._shape:
             self._show_summaries()
+        self.waveform.refresh()
         self.remedies.refresh()
 
     def shown_again(self) -> None:

@@ -25,7 +25,7 @@ from ehlectric.app.form_fields.drive_fields import (
 )
 from ehlectric.app.pages.answer_page import AnswerPage, AnswerView
 from ehlectric.app.pages.duty_box import DUTY_FILE, DutyField
-from ehlectric.app.pages.file_field import LOST_FILE, NOT_IN_LINKS, UploadField
+from ehlectric.app.pages.file_field import WAVEFORM_FILE, WaveformField
 from ehlectric.app.pages.frame import DRIVE, PATHS
 from ehlectric.app.pages.page_parts import Choices, GroupBox, button, removable
 from ehlectric.app.pages.result_parts import FigureBox, behind, table_html
@@ -46,7 +46,7 @@ _FURTHER = {
 _SUMMARY = "Further figures: voltages over time, spectrum, and what discharges are like"
 
 # Keys of the inputs that other parts of the page than its form show.
-REMEDIES, _FILE = "remedies", "source.file"
+REMEDIES = "remedies"
 
 NOT_APPLICABLE = "not applicable: the source is measured"
 
@@ -171,42 +171,6 @@ def _name(title: str) -> str:
     return title.lower().replace(" ", "-")
 
 
-class WaveformField:
-    """Field for a measured common-mode voltage; build it in the group of the source."""
-
-    def __init__(self, session: Session, change: Callable[[dict[str, Any]], Awaitable[None]]) -> None:
-        self._session, self._change = session, change
-        with ui.element("div").classes("box"):
-            UploadField(
-                session,
-                self._take,
-                self._refuse,
-                name="waveform",
-                label="Or a measured waveform: file of an oscilloscope",
-            )
-            self._used = ui.label().classes("hint").props('data-testid="waveform-used"')
-            self._error = ui.label().classes("error").props('role="alert" id="waveform-error"')
-            self._error.props('data-testid="error-waveform"')
-        self.refresh()
-
-    def refresh(self) -> None:
-        """Show the file of the present inputs, as after an undo."""
-        file = self._session.inputs.value(_FILE)
-        self._error.text = ""
-        self._used.set_visibility(isinstance(file, str))
-        if not isinstance(file, str):
-            return
-        self._used.text = f"Measured: {self._session.name_of(file)}. {NOT_IN_LINKS}"
-        if self._session.path_of(file) is None:
-            self._error.text = f"{LOST_FILE}."
-
-    async def _take(self, name: str) -> None:
-        await self._change({_FILE: name})
-
-    def _refuse(self, text: str) -> None:
-        self._error.text = text
-
-
 class DrivePage(AnswerPage[DriveAnswer]):
     """Page of one tab."""
 
@@ -215,7 +179,7 @@ class DrivePage(AnswerPage[DriveAnswer]):
     start = DRIVE
     kind = "drive"
     groups = DRIVE_GROUPS
-    elsewhere = (REMEDIES, _FILE, DUTY_FILE)
+    elsewhere = (REMEDIES, WAVEFORM_FILE, DUTY_FILE)
     first = 1
     short: ClassVar[Mapping[str, str]] = dict.fromkeys(
         ("end.events_per_second", "end.voltage_at_peak", "end.breakdown_voltage"), ""

@@ -74,3 +74,43 @@ class UploadField:
         else:
             self._state.text = ""
             self._refuse(f"{name}: could not be sent to the server; try again")
+
+
+# Key of the file of a measured common-mode voltage.
+WAVEFORM_FILE = "source.file"
+
+
+class WaveformField:
+    """Field for a measured common-mode voltage; build it in the group of the source."""
+
+    def __init__(self, session: Session, change: Callable[[dict[str, Any]], Awaitable[None]]) -> None:
+        self._session, self._change = session, change
+        with ui.element("div").classes("box"):
+            UploadField(
+                session,
+                self._take,
+                self._refuse,
+                name="waveform",
+                label="Or a measured waveform: file of an oscilloscope",
+            )
+            self._used = ui.label().classes("hint").props('data-testid="waveform-used"')
+            self._error = ui.label().classes("error").props('role="alert" id="waveform-error"')
+            self._error.props('data-testid="error-waveform"')
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Show the file of the present inputs, as after an undo."""
+        file = self._session.inputs.value(WAVEFORM_FILE)
+        self._error.text = ""
+        self._used.set_visibility(isinstance(file, str))
+        if not isinstance(file, str):
+            return
+        self._used.text = f"Measured: {self._session.name_of(file)}. {NOT_IN_LINKS}"
+        if self._session.path_of(file) is None:
+            self._error.text = f"{LOST_FILE}."
+
+    async def _take(self, name: str) -> None:
+        await self._change({WAVEFORM_FILE: name})
+
+    def _refuse(self, text: str) -> None:
+        self._error.text = text
