@@ -6,7 +6,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ehlectric import AxleCase, InputError, load, save, solve, solve_axle, solve_bearing
+from ehlectric import (
+    AxleCase,
+    BearingCase,
+    InputError,
+    evaluate,
+    load,
+    save,
+    solve,
+    solve_axle,
+    solve_bearing,
+)
+from ehlectric.axle import solve_axles
 from ehlectric.axle.axle_verdict import axle_verdict
 from ehlectric.axle.measurable import _Probable as Probable
 from ehlectric.axle.result import unused_keys
@@ -394,3 +405,42 @@ def test_keys_that_need_another_key_are_named(circuit, drive, words):
     notes = [str(note) for note in unused_keys(AxleCase.from_dict(ALONE | tables))]
     assert len(notes) == 1
     assert words in notes[0]
+
+
+def test_a_bearing_with_its_own_oil(tmp_path):
+    """A greased bearing is the bearing of a bearing file with this oil and strength; others keep theirs."""
+    plain = two_stages()
+    tables = plain.to_dict()
+    tables["bearing"][1] |= {"lubricant": {"base": "iso-vg-46"}, "discharge": {"dielectric_strength": 25e6}}
+    case = AxleCase.from_dict(tables)
+    path = tmp_path / "axle.toml"
+    path.write_text(case.to_toml())
+    assert AxleCase.from_toml(path) == case
+    one, other = solve_elements(plain).elements, solve_elements(case).elements
+    of_axle = plain.bearing_case(1, plain.drive.speed, other[1].radial_load, abs(other[1].axial_load))
+    file = of_axle.to_dict() | {"lubricant": {"base": "iso-vg-46"}}
+    summary = solve_bearing(BearingCase.from_dict(file)).summary()["bearing"]
+    assert other[1].capacitance == pytest.approx(summary["shaft_capacitance"], rel=1e-12)
+    at_15 = summary["shaft_ring_to_ring_breakdown"]
+    assert other[1].breakdown_voltage == pytest.approx(25.0 / 15.0 * at_15, rel=1e-12)
+    changed = [a != b for a, b in zip(one, other, strict=True)]
+    assert changed == [number == 1 for number in range(len(one))]
+    (together,) = solve_axles([case])
+    expected = [each.capacitance for each in other]
+    assert [each.capacitance for each in together.elements] == pytest.approx(expected, rel=1e-9)
+
+
+def test_the_oil_of_a_bearing_is_changed_by_its_shaft():
+    """In ``replace`` and in ``evaluate``; a wrong key is named."""
+    case = two_stages(**{"bearing.rotor.lubricant": {"base": "fva-3"}})
+    assert [each.lubricant is None for each in case.bearing] == [False, False, True, True, True, True]
+    thin = case.replace({"bearing.rotor.lubricant.viscosity": "20 mPa s"})
+    assert thin.bearing[0].lubricant.viscosity == 0.02
+    key = "bearing.rotor.discharge.dielectric_strength"
+    limits = evaluate(case, {key: ["15 V/um", "30 V/um"]})["elements.rotor_1.breakdown_voltage"].values
+    assert limits[1] == pytest.approx(2.0 * limits[0], rel=1e-9)
+    ranged = case.replace(ranges={key: ["10 V/um", "30 V/um"]}, **{key: "20 V/um"})
+    assert ranged.value_of(key) == 20e6
+    with pytest.raises(InputError, match=r"lubricant\.viscosity") as refused:
+        case.replace({"bearing.rotor.lubricant.visc": 1.0})
+    assert {each.key for each in refused.value.several} == {f"bearing.{n}.lubricant.visc" for n in (1, 2)}

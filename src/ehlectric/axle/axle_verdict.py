@@ -96,7 +96,7 @@ def axle_verdict(
         return no_verdict(
             Statement.of("axle-ceramic", low=_ratio(lowest), high=_ratio(largest), elements=solution.bounded)
         )
-    margin, touching = 1.0 / ratio, first not in limits
+    margin, touching, discharge = 1.0 / ratio, first not in limits, solution.case.strength_in(first)
     interval = None if touching else strength_interval(margin)
     chance = None if uncertainty is None else uncertainty.chance
     level, code = _level(solution, margin, chance, touching=touching)
@@ -110,7 +110,7 @@ def axle_verdict(
         touching=any(name not in limits for name, _ in ranking),
     )
     # The margin of touching summits does not depend on the strength.
-    doubts: tuple[Statement, ...] = () if touching else tuple(strength_doubt(solution.case.discharge, margin))
+    doubts: tuple[Statement, ...] = () if touching else tuple(strength_doubt(discharge, margin))
     facts: tuple[Fact, ...] = () if touching else (Fact("first.breakdown_voltage", limits[first]),)
     if uncertainty is not None and chance is not None:
         # A margin that is 0 at almost all points has no spread that a measurement would reduce.
@@ -140,7 +140,7 @@ def axle_verdict(
         Statement.of("at-axle", torque=drive.torque, speed=drive.speed, temperature=drive.temperature),
         facts=facts,
         reasons=(*_reasons(solution, first), *doubts, *uncomputed),
-        assumptions=(Statement.of("axle-model"), strength_clause(solution.case.discharge)),
+        assumptions=(Statement.of("axle-model"), strength_clause(discharge)),
         bound="best",
     )
 

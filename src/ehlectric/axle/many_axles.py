@@ -162,8 +162,8 @@ def _together(axle: _Axle, solved: Sequence[_Solved]) -> Outcome:
 def _mounted(place: int, axle: _Axle) -> Iterator[_Mounted]:
     """Bearings of an axle with the values of their files."""
     case = axle.case
-    shared, text = _of_oil(case.lubricant, case.discharge, case.drive.contacts)
     for number, bearing in enumerate(case.bearing):
+        shared, text = _of_oil(case.oil_of(number), case.strength_of(number), case.drive.contacts)
         radial, axial = load_of(case, number, axle.loads)
         keys = {"radial_load": radial, "axial_load": abs(axial)} | case.keys_of_bearing(number)
         keys |= {

@@ -53,7 +53,7 @@ from ehlectric.cases.oil_inputs import displace_oil
 from ehlectric.cases.roughness_inputs import find_files
 from ehlectric.cases.stated_ranges import with_stated_ranges
 from ehlectric.cases.table import CaseFile, Table, Title, number_of
-from ehlectric.cases.table_edits import displace, given_value, nested, set_keys
+from ehlectric.cases.table_edits import displace, flattened, given_value, nested, set_keys
 from ehlectric.errors import InputError, shown, within
 from ehlectric.quantities.alternatives import ALTERNATIVES
 from ehlectric.quantities.formats import amount, operating_point, speed_text
@@ -271,7 +271,7 @@ class AxleCase(CaseFile, book="axle_file"):
         table = {
             "contacts": self.drive.contacts or "atlas",
             "bearing": keys,
-            "lubricant": self.lubricant.model_copy(),
+            "lubricant": self.oil_of(number).model_copy(),
         }
         with self.naming(number):
             if not any(keys[load] for load in loads):
@@ -281,7 +281,20 @@ class AxleCase(CaseFile, book="axle_file"):
                     takes="another place of this bearing, of a gear or of a force: a bearing without a load "
                     "has no film that is computed",
                 )
-            return BearingCase.from_dict(table | {"discharge": self._discharge()})
+            return BearingCase.from_dict(table | {"discharge": _tables_of(self.strength_of(number))})
+
+    def strength_in(self, name: str) -> AxleDischarge:
+        """Return the table ``discharge`` of a bearing or a mesh with a name."""
+        names = self.names_of_bearings()
+        return self.strength_of(names.index(name)) if name in names else self.discharge
+
+    def oil_of(self, number: int) -> Lubricant:
+        """Return the oil of a bearing: its own, or the oil of the axle."""
+        return self.bearing[number].lubricant or self.lubricant
+
+    def strength_of(self, number: int) -> AxleDischarge:
+        """Return the table ``discharge`` of a bearing: its own, or the table of the axle."""
+        return self.bearing[number].discharge or self.discharge
 
     def keys_of_bearing(self, number: int) -> dict[str, Any]:
         """Return the keys of a bearing, which replace keys of all bearings and their alternatives."""
@@ -325,7 +338,7 @@ class AxleCase(CaseFile, book="axle_file"):
             set_keys(table, {f"gear.contact.{_CONTACT}": self.mesh[number].contact_resistance})
         with within(f"mesh.{number + 1}.pair"):
             return GearCase.from_dict(
-                table | {"lubricant": self.lubricant.model_copy(), "discharge": self._discharge()}
+                table | {"lubricant": self.lubricant.model_copy(), "discharge": _tables_of(self.discharge)}
             )
 
     def gear_operation(self, number: int, turning: Mapping[str, Turning]) -> dict[str, float | str]:
@@ -444,7 +457,9 @@ class AxleCase(CaseFile, book="axle_file"):
             table = tables[kind][number]
             tables = {"axle": {kind: table}}
             if kind == "bearing":
-                tables = {"bearing": self.tables_of_bearings[number].model_dump(mode="json")}
+                own = {"bearing": self.tables_of_bearings[number], "lubricant": self.oil_of(number)}
+                own["discharge"] = self.strength_of(number)
+                tables = {table: values.model_dump(mode="json") for table, values in own.items()}
             elif kind == "mesh":
                 tables = table["pair"]
         return given_value(tables, inner)
@@ -633,9 +648,6 @@ class AxleCase(CaseFile, book="axle_file"):
         for mesh in table.get("mesh", ()):
             yield mesh["pair"]["gear"]["operation"], "pinion_speed"
 
-    def _discharge(self) -> dict[str, Any]:
-        return self.discharge.model_dump(mode="json", exclude_none=True, exclude_defaults=True)
-
     def _headline(self) -> str:
         """Title, number of shafts, torque and speed on one line."""
         count = len(self.shaft)
@@ -734,7 +746,14 @@ class AxleCase(CaseFile, book="axle_file"):
     def _change_bearings(self, table: dict[str, Any], key: str, change: Mapping[str, Any]) -> None:
         """Change a key of all bearings of a shaft in the tables of a case."""
         for number in self.places_of(key):
-            _set_in("bearing", table["bearing"][number], change)
+            mounted = table["bearing"][number]
+            if (name := key.split(".")[2]) in ("lubricant", "discharge"):
+                flat = flattened(change)
+                displace_oil(mounted.get("lubricant", {}), nested(flat, "lubricant"))
+                displace(mounted, flat, {name: ALTERNATIVES[name]})
+                set_keys(mounted, flat)
+            else:
+                _set_in("bearing", mounted, change)
 
     def _change_shaft(self, table: dict[str, Any], key: str, change: Mapping[str, Any]) -> None:
         """Change a key of a shaft in the tables of a case."""
@@ -860,6 +879,11 @@ def _set_in(name: str, table: dict[str, Any], change: Mapping[str, Any]) -> dict
     return table
 
 
+def _tables_of(discharge: AxleDischarge) -> dict[str, Any]:
+    """Given keys of a table ``discharge``."""
+    return discharge.model_dump(mode="json", exclude_none=True, exclude_defaults=True)
+
+
 def _gear_of(gear: Gear, number: int) -> dict[str, float]:
     """Properties that gear 1 (number 0) or gear 2 of a pair has in all of its meshes; SI units."""
     mirrored = number == 1 and gear.teeth[1] > 0
@@ -915,7 +939,10 @@ def with_gear_files(table: Mapping[str, Any], folder: Path) -> dict[str, Any]:
     relative to a folder.
     """
     tables = deepcopy(dict(table))
-    find_files(tables, folder)
+    mounted = tables.get("bearing")
+    for each in (tables, *(mounted if isinstance(mounted, list) else ())):
+        if isinstance(each, dict):
+            find_files(each, folder)
     meshes = tables.get("mesh")
     if not isinstance(meshes, list):
         return tables

@@ -10,7 +10,9 @@ from pydantic import BeforeValidator, ConfigDict, model_validator
 
 from ehlectric.cases.axle_keys import HOUSING
 from ehlectric.cases.bearing_inputs import Bearing
+from ehlectric.cases.case_oil import Lubricant
 from ehlectric.cases.defaults import Contacts
+from ehlectric.cases.discharge_inputs import AxleDischarge
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.rotor_inputs import LOADS, Force
 from ehlectric.cases.table import Table, Title, any_of, similar_keys
@@ -135,6 +137,8 @@ class MountedBearing(Table, book="axle.bearing"):
     shaft: str
     at: float
     locating: bool = False
+    lubricant: Lubricant | None = None
+    discharge: AxleDischarge | None = None
 
     @property
     def keys(self) -> dict[str, Any]:

@@ -172,6 +172,8 @@ def end_and_key(key: str) -> tuple[str, str]:
     (('drive_end', 'bearing.temperature'), ('', 'source.dc_link'))
     >>> end_and_key("bearing.rotor.composite_rq"), end_and_key("mesh.1.gear.flank_ra")
     (('bearing.rotor', 'bearing.composite_rq'), ('mesh.1', 'gear.flank_ra'))
+    >>> end_and_key("bearing.rotor.lubricant.base")
+    ('bearing.rotor', 'lubricant.base')
     >>> end_and_key("bearings.composite_rq"), end_and_key("link.ring.resistance")
     (('bearing.*', 'bearing.composite_rq'), ('link.ring', 'axle.link.resistance'))
     """
@@ -190,7 +192,8 @@ def end_and_key(key: str) -> tuple[str, str]:
     if first in ("shaft", "link", "force") and f"axle.{first}" in inputs():
         return f"{first}.{name}", f"axle.{first}.{inner}"
     if first == "bearing" and name not in bearing and f"bearing.{name}" not in inputs():
-        return f"bearing.{name}", f"bearing.{inner}"
+        of_oil = inner.partition(".")[0] in ("lubricant", "discharge")
+        return f"bearing.{name}", inner if of_oil else f"bearing.{inner}"
     return "", key
 
 
