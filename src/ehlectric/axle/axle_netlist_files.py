@@ -24,7 +24,7 @@ from ehlectric.drive import (
     comment,
     filled,
     inductor_lines,
-    measured_source,
+    measured_waveform,
     name_of,
     number,
     point_lines,
@@ -172,7 +172,7 @@ class AxleNetlist:
     def bench(self, library: str) -> Iterator[str]:
         """Lines of a test bench, which includes the file of the subcircuits: the inverter at the winding."""
         source = self.case.source.at_speed(self.case.drive.speed)
-        waveform, _ = measured_source(self.case.source, None)
+        waveform, _ = measured_waveform(self.case.source, None)
         points, step = source_points(source, waveform)
         nodes = {name: "0" if name == HOUSING else node for name, node in self.nodes.items()}
         shafts = [nodes[shaft.name] for shaft in self.case.shaft]

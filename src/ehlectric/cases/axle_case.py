@@ -231,7 +231,7 @@ class AxleCase(CaseFile, book="axle_file"):
 
     @property
     def edge(self) -> float:
-        """Largest edge of a described common-mode voltage [V]: a third of the voltage of the DC link."""
+        """Largest edge of a described common-mode voltage [V]: a third of the DC link's voltage."""
         assert self.source.dc_link is not None
         return self.source.dc_link / 3.0
 

@@ -292,7 +292,7 @@ with_keys(
 
 
 def with_files(table: Mapping[str, Any], folder: Path) -> dict[str, Any]:
-    """Tables of a file of any kind, with the bearings of bearing files and the paths of other files.
+    """Tables of a file with the bearings of its bearing files, and the paths of other files.
 
     Names are relative to a folder. Raises InputError if a bearing file cannot be read or is not valid.
     """

@@ -32,7 +32,7 @@ from .films_in_time import NetworkInTime as NetworkInTime
 from .films_in_time import TimedFilm as TimedFilm
 from .measurable import DriveModel as DriveModel
 from .measured_source import measured_edge as measured_edge
-from .measured_source import measured_source as measured_source
+from .measured_source import measured_waveform as measured_waveform
 from .netlist import OPEN as OPEN
 from .netlist import SIGNATURE as SIGNATURE
 from .netlist import Arc as Arc

@@ -15,7 +15,7 @@ from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.drive_inputs import Source
 from ehlectric.drive.circuit_equations import FRAME, Element
 from ehlectric.drive.inverter import steps_of
-from ehlectric.drive.measured_source import measured_source
+from ehlectric.drive.measured_source import measured_waveform
 from ehlectric.drive.netlist import (
     SIGNATURE,
     TEXTS,
@@ -167,7 +167,7 @@ def drive_netlist(
             check_strength(bearing)
         except InputError as error:
             raise error.under(end) from None
-    waveform, _ = measured_source(case.source, None)
+    waveform, _ = measured_waveform(case.source, None)
     drive_end = solve_bearing(first, progress=progress, workers=workers)
     if second == first:
         shared = _subcircuit(case, ENDS[0], drive_end)

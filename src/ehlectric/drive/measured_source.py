@@ -117,7 +117,7 @@ def _table() -> Array:
     return np.append(cutoff * np.sinc(cutoff * distances) * window, [0.0, 0.0])
 
 
-def measured_source(
+def measured_waveform(
     source: Source, duration: float | None
 ) -> tuple[Waveform | None, tuple[ResultWarning, ...]]:
     """Measured waveform and the warnings about its file; None for a described source. ``duration``, time that
@@ -149,7 +149,7 @@ def measured_source(
 def measured_edge(source: Source) -> tuple[Edge | None, tuple[ResultWarning, ...]]:
     """Largest edge of a measured waveform, and the warnings about its file; None for a described source.
 
-    Raises the errors of ``measured_source``.
+    Raises the errors of ``measured_waveform``.
     """
     if source.file is None:
         return None, ()
@@ -168,7 +168,7 @@ _FILES = 16
 @lru_cache(maxsize=_FILES)
 def _edge_of(source: Source, changed: int) -> tuple[Edge, tuple[ResultWarning, ...]]:  # noqa: ARG001
     """Largest edge of the file of a source, which was ``changed`` at a time."""
-    waveform, warnings = measured_source(source, None)
+    waveform, warnings = measured_waveform(source, None)
     assert waveform is not None
     return waveform.largest_edge, warnings
 

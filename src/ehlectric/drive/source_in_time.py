@@ -11,7 +11,7 @@ import numpy as np
 from ehlectric.cases.drive_inputs import Breakdown, Source
 from ehlectric.drive.discharges.films_and_source import Measuring, Segments
 from ehlectric.drive.inverter import steps_of
-from ehlectric.drive.measured_source import measured_source
+from ehlectric.drive.measured_source import measured_waveform
 from ehlectric.drive.source_pieces import Ringing, edges, ringing_of, sampled
 from ehlectric.drive.waveform.waveform import Waveform
 from ehlectric.quantities.result_warnings import ResultWarning
@@ -48,7 +48,7 @@ class SourceInTime:
     @classmethod
     def of(cls, source: Source, given: Source, breakdown: Breakdown, duration: float | None) -> SourceInTime:
         """Source at the speed of the rotor, from the ``given`` one; None for the default ``duration`` [s]."""
-        waveform, prior_warnings = measured_source(given, duration)
+        waveform, prior_warnings = measured_waveform(given, duration)
         if waveform is not None:
             settling = max(_REST, _RECOVERIES * breakdown.recovery_time)
             peak, measured = float(np.max(np.abs(waveform.values))), duration or waveform.duration

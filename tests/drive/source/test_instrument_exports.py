@@ -10,7 +10,7 @@ import pytest
 
 from ehlectric.cases.drive_inputs import Source
 from ehlectric.cases.measured_inputs import ShaftFile
-from ehlectric.drive.measured_source import measured_source
+from ehlectric.drive.measured_source import measured_waveform
 from ehlectric.drive.shaft_record import measured_shaft
 from ehlectric.drive.waveform.waveform_file import read_waveform
 from ehlectric.errors import InputError
@@ -374,7 +374,7 @@ def test_files_that_are_no_text_are_named(tmp_path, content, words):
 def test_the_key_of_the_file_is_named(tmp_path):
     path = written(tmp_path, b"PK\x03\x04" + 30 * b"\0" + b"xl/workbook.xml" + 64 * b"\0", "scope.xlsx")
     with pytest.raises(InputError) as error:
-        measured_source(Source(file=str(path)), None)
+        measured_waveform(Source(file=str(path)), None)
     assert error.value.key == "source.file"
     assert str(path) in error.value.text
 
