@@ -380,9 +380,9 @@ def forces_on_shafts(case: AxleCase) -> dict[str, list[tuple[Cause, ForceAt]]]:
         if shaft.mass is not None and shaft.mass_at is not None:
             down = weight_at(shaft.mass, shaft.mass_at, case.drive.gravity_direction)
             forces.setdefault(shaft.name, []).append((("weight", ""), down))
-    for number, each in enumerate(case.force, 1):
+    for number, (name, each) in enumerate(case.placed_forces, 1):
         force = on_axis(each.at, each.x, each.y, each.z)
-        forces.setdefault(each.shaft, []).append((("force", str(number)), force))
+        forces.setdefault(name, []).append((("force", str(number)), force))
     return forces
 
 

@@ -24,7 +24,6 @@ from ehlectric.cases.axle_inputs import (
     Link,
     MountedBearing,
     Shaft,
-    ShaftForce,
     SharedKeys,
 )
 from ehlectric.cases.axle_keys import ADJUSTED, HOUSING, element_keys, shaft_keys
@@ -34,7 +33,7 @@ from ehlectric.cases.bearing_kinds import KINDS_OF_BEARINGS
 from ehlectric.cases.case_oil import Lubricant
 from ehlectric.cases.discharge_inputs import AxleDischarge
 from ehlectric.cases.drive_case import Remedy
-from ehlectric.cases.drive_inputs import Breakdown, Circuit, Source
+from ehlectric.cases.drive_inputs import Breakdown, Circuit, ShaftForce, Source
 from ehlectric.cases.duty_inputs import Duty
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.gear_inputs import Gear
@@ -205,12 +204,17 @@ class AxleCase(CaseFile, book="axle_file"):
         return {name for mesh in self.mesh for name in mesh.gears}
 
     @property
+    def placed_forces(self) -> list[tuple[str, ShaftForce]]:
+        """Forces with the names of their shafts."""
+        return [(force.shaft or "", force) for force in self.force]
+
+    @property
     def loaded_shafts(self) -> set[str]:
         """Names of the shafts whose bearing loads follow from statics: with gears, a mass or a force."""
         return {
             *self.geared_shafts,
             *(shaft.name for shaft in self.shaft if shaft.mass is not None),
-            *(force.shaft for force in self.force),
+            *(shaft for shaft, _ in self.placed_forces),
         }
 
     @property
@@ -437,7 +441,7 @@ class AxleCase(CaseFile, book="axle_file"):
                     takes="one that carries radial loads",
                 )
         axial = {name for mesh in self.mesh if mesh.pair.gear.helix_angle for name in mesh.gears}
-        axial |= {force.shaft for force in self.force if force.z}
+        axial |= {shaft for shaft, force in self.placed_forces if force.z}
         for shaft in self.shaft:
             if self._check_adjusted(shaft) is None:
                 self._check_locating(shaft, axial=shaft.name in axial)
@@ -492,7 +496,7 @@ class AxleCase(CaseFile, book="axle_file"):
             raise InputError(f"shaft.{number}.rotor", got=got, takes="one: [circuit] acts on it")
         places = (
             *((f"bearing.{n}.shaft", bearing.shaft, False) for n, bearing in enumerate(self.bearing, 1)),
-            *((f"force.{n}.shaft", force.shaft, False) for n, force in enumerate(self.force, 1)),
+            *((f"force.{n}.shaft", shaft, False) for n, (shaft, _) in enumerate(self.placed_forces, 1)),
             *((f"mesh.{n}.gears", name, False) for n, mesh in enumerate(self.mesh, 1) for name in mesh.gears),
             *(
                 (f"link.{n}.between", name, True)
@@ -503,7 +507,7 @@ class AxleCase(CaseFile, book="axle_file"):
         for key, name, housing in places:
             if name not in names and not (housing and name == HOUSING):
                 takes = ", ".join(map(repr, [*names, HOUSING] if housing else names))
-                raise InputError(key, got=repr(name), takes=f"one of {takes}")
+                raise InputError(key, got=repr(name) if name else None, takes=f"one of {takes}")
 
     def _check_bearings(self) -> None:
         """Check that each shaft has two bearings."""

@@ -8,13 +8,12 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import BeforeValidator, ConfigDict, model_validator
 
-from ehlectric.cases.axle_keys import HOUSING
+from ehlectric.cases.axle_keys import HOUSING, LOADS
 from ehlectric.cases.bearing_inputs import Bearing
 from ehlectric.cases.case_oil import Lubricant
 from ehlectric.cases.defaults import Contacts
 from ehlectric.cases.discharge_inputs import AxleDischarge
 from ehlectric.cases.gear_case import GearCase
-from ehlectric.cases.rotor_inputs import LOADS, Force
 from ehlectric.cases.table import Table, Title, any_of, similar_keys
 from ehlectric.errors import InputError, for_all, shown
 
@@ -174,12 +173,6 @@ class AxleMesh(Table, book="axle.mesh"):
                 "pair.gear.hand", 'missing; "left" or "right" of gear 1 determines the axial force'
             )
         return self
-
-
-class ShaftForce(Force, book="axle.force"):
-    """Force on a shaft of an axle."""
-
-    shaft: str
 
 
 class Link(Table, book="axle.link"):

@@ -8,6 +8,9 @@ from collections.abc import Sequence
 # Name of the node whose potential is 0.
 HOUSING = "housing"
 
+# Loads of a bearing.
+LOADS = ("radial_load", "axial_load")
+
 # Kinds of bearings of which two on a shaft are adjusted against each other.
 ADJUSTED = ("angular-contact ball", "tapered roller")
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from copy import deepcopy
 from pathlib import Path
@@ -9,31 +10,23 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from pydantic import Field, model_validator
 
-from ehlectric.cases.axle_keys import ADJUSTED
+from ehlectric.cases.axle_keys import ADJUSTED, LOADS
 from ehlectric.cases.bearing_case import BearingCase, bearing_key, open_tables
 from ehlectric.cases.case import Case
-from ehlectric.cases.drive_inputs import Breakdown, Circuit, Source
+from ehlectric.cases.drive_inputs import Breakdown, Circuit, Operation, Rotor, ShaftForce, Source
 from ehlectric.cases.duty_inputs import Duty
 from ehlectric.cases.key_names import refuse_deep
 from ehlectric.cases.keywords import with_keys
 from ehlectric.cases.measured_inputs import Measured
-from ehlectric.cases.rotor_inputs import (
-    LOADS,
-    Force,
-    Operation,
-    Rotor,
-    check_no_load,
-    with_rotor_loads,
-)
 from ehlectric.cases.roughness_inputs import find_files
-from ehlectric.cases.table import CaseFile, Table, Title
+from ehlectric.cases.table import CaseFile, Table, Title, as_mapping
 from ehlectric.cases.table_edits import displace, flattened, set_keys
 from ehlectric.errors import InputError, for_all, shown, within
 from ehlectric.quantities.alternatives import ALTERNATIVES, DESCRIBED
 from ehlectric.quantities.formats import operating_point
 from ehlectric.quantities.inputs import BOTH as BOTH
 from ehlectric.quantities.inputs import ENDS as ENDS
-from ehlectric.quantities.inputs import REPLACED
+from ehlectric.quantities.inputs import REPLACED, end_and_key
 from ehlectric.runtime.display import headline
 
 # Tables of a bearing file that a drive does not use.
@@ -107,7 +100,7 @@ class DriveCase(CaseFile, book="drive_file"):
     title: Title = ""
     drive: Operation = Operation()
     rotor: Rotor | None = None
-    force: tuple[Force, ...] = ()
+    force: tuple[ShaftForce, ...] = ()
     source: Source
     circuit: Circuit
     breakdown: Breakdown
@@ -128,6 +121,11 @@ class DriveCase(CaseFile, book="drive_file"):
     @model_validator(mode="after")
     def _check_rotor(self) -> Self:
         """Check the forces on the rotor, and the kinds of its bearings."""
+        for number, force in enumerate(self.force, 1):
+            if force.shaft is not None:
+                raise InputError.worded(
+                    f"force.{number}.shaft", "is not used: a drive has one shaft, its rotor"
+                )
         if self.rotor is None:
             if self.force:
                 raise InputError.missing("rotor", "a table with the places of both bearings, for [[force]]")
@@ -302,6 +300,92 @@ def with_files(table: Mapping[str, Any], folder: Path) -> dict[str, Any]:
         if isinstance(tables.get(end), Mapping) and "file" in tables[end]:
             tables[end] = _bearing_of(tables[end], folder, end)
     return tables
+
+
+# Difference of two loads that is rounding, relative and absolute [N].
+_ROUNDING, _NO_FORCE = 1e-9, 1e-6
+
+# Loads with which other keys of a bearing are checked if its loads are not known [N].
+_ANY_LOADS = dict(zip(LOADS, (100.0, 0.0), strict=True))
+
+
+def with_rotor_loads(tables: Mapping[str, Any]) -> dict[str, Any]:
+    """Tables of a drive whose bearings have the loads that follow from ``rotor`` and ``force``.
+
+    If these tables are wrong, the loads are any ones. Raises InputError for a load in a table of a bearing;
+    loads of a bearing case are replaced.
+    """
+    try:
+        loads = _loads_of(tables)
+    except InputError:
+        loads = dict.fromkeys(ENDS, _ANY_LOADS)
+    else:
+        for_all(lambda key: _check_given(key, tables, loads), [*_given_loads(tables)])
+    ends = {end: _loaded(tables.get(end, tables.get(ENDS[0])), loads[end]) for end in ENDS}
+    return {**tables, **{end: bearing for end, bearing in ends.items() if bearing is not None}}
+
+
+def _loads_of(tables: Mapping[str, Any]) -> dict[str, dict[str, float]]:
+    forces = tables.get("force") or ()
+    return Rotor.from_dict(as_mapping(tables["rotor"])).loads(
+        [
+            ShaftForce.from_dict(as_mapping(each))
+            for each in (forces if isinstance(forces, list | tuple) else ())
+        ],
+        Operation.from_dict(as_mapping(tables.get("drive"))).gravity_direction,
+    )
+
+
+def _given_loads(tables: Mapping[str, Any]) -> Iterator[str]:
+    """Dotted keys of loads in the tables of bearings."""
+    for end in ENDS:
+        table = tables.get(end)
+        if isinstance(table, Mapping):
+            of_bearing, ranges = (as_mapping(table.get(name)) for name in ("bearing", "ranges"))
+            yield from (f"{end}.bearing.{load}" for load in LOADS if of_bearing.get(load) is not None)
+            yield from (f"{end}.ranges.bearing.{load}" for load in LOADS if f"bearing.{load}" in ranges)
+
+
+def _check_given(key: str, tables: Mapping[str, Any], loads: Mapping[str, Mapping[str, float]]) -> None:
+    """Refuse a load in the table of a bearing, except one that is equal to its load by statics."""
+    end, table, *inner = key.split(".")
+    value = tables[end][table].get(inner[0])
+    if table == "ranges" or not (
+        isinstance(value, float | int)
+        and math.isclose(value, loads[end][inner[0]], rel_tol=_ROUNDING, abs_tol=_NO_FORCE)
+    ):
+        raise _follows(key)
+
+
+def check_no_load(key: str) -> None:
+    """Raise an InputError for a load of a bearing of a drive, which follows from the rotor."""
+    if is_load(key):
+        raise _follows(key)
+
+
+def _follows(key: str) -> InputError:
+    return InputError.worded(key, "follows from the tables rotor and force; remove it, or these tables")
+
+
+def _loaded(bearing: Any, loads: Mapping[str, float]) -> Any:
+    """Bearing of a drive, a case or its tables, with loads [N]."""
+    if isinstance(bearing, BearingCase):
+        return bearing.replace({f"bearing.{load}": value for load, value in loads.items()})
+    if isinstance(bearing, Mapping) and isinstance(bearing.get("bearing"), Mapping):
+        return {**bearing, "bearing": {**bearing["bearing"], **loads}}
+    return bearing
+
+
+def is_load(key: str) -> bool:
+    """Whether a dotted key of a drive is a load of its bearings, or the range of one.
+
+    Examples
+    --------
+    >>> is_load("bearings.bearing.radial_load"), is_load("drive_end.bearing.composite_rq")
+    (True, False)
+    """
+    end, inner = end_and_key(key)
+    return end in (*ENDS, BOTH) and inner.removeprefix("ranges.") in [f"bearing.{load}" for load in LOADS]
 
 
 def _in_drive(bearing: BearingCase, changes: Mapping[str, Any]) -> BearingCase:

@@ -1,28 +1,113 @@
-"""Tables of a drive file: source, circuit and machine, and how a film breaks down, conducts and insulates
-again.
+"""Tables of a drive file: operating point, rotor and its forces, source, circuit and machine, and how a film
+breaks down, conducts and insulates again.
 """
 
 from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import Any, Literal, Self
 
 from pydantic import model_validator
 
+from ehlectric.cases.axle_keys import LOADS
+from ehlectric.cases.defaults import Contacts
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
 from ehlectric.formulas.capacitances import Machine, MachineCapacitances, machine_capacitances
 from ehlectric.quantities.alternatives import ALTERNATIVES, DESCRIBED, MEASURED
 from ehlectric.quantities.formats import amount
+from ehlectric.quantities.inputs import ENDS
 
 # What a described source needs; six-step operation switches at the fundamental frequency and has no index.
 _NEEDED = ("dc_link", "modulation", "rise_time")
 _NEEDED_BY_CARRIER = ("switching_frequency", "modulation_index")
 _ONLY_BY_CARRIER = (*_NEEDED_BY_CARRIER, "base_frequency")
 _RINGING = ("ringing_frequency", "overshoot", "ringing_time")
+
+
+class Operation(Table, book="drive"):
+    """Operating point of the drive, and how long it is looked at."""
+
+    speed: float | None = None
+    temperature: float | None = None
+    contacts: Contacts | None = None
+    duration: float | None = None
+    seed: int = 0
+    gravity_direction: float = -0.5 * math.pi
+
+
+class ShaftForce(Table, book="axle.force"):
+    """Force on a shaft at a place on its axis, with its components along x, y and z.
+
+    A drive has one shaft, its rotor, and a force on it names no shaft.
+    """
+
+    shaft: str | None = None
+    at: float
+    x: float = 0.0
+    y: float = 0.0
+    z: float = 0.0
+
+
+# Loads of a bearing, and forces that are none [N].
+_RADIAL, _AXIAL = LOADS
+_NO_FORCE = 1e-6
+
+
+class Rotor(Table, book="rotor"):
+    """Rotor whose bearings carry its weight and further forces."""
+
+    drive_end_at: float
+    non_drive_end_at: float
+    mass: float | None = None
+    mass_at: float | None = None
+    locating: Literal["drive_end", "non_drive_end"] | None = None
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        self.check_together("mass", "mass_at")
+        return self
+
+    def loads(self, forces: Sequence[ShaftForce], gravity: float) -> dict[str, dict[str, float]]:
+        """Return the loads of a bearing file by the ends [N]; ``gravity``, direction of the weight [rad].
+
+        Raises InputError for bearings at one place, a bearing without a load, and an axial force that no
+        bearing locates.
+        """
+        from ehlectric.formulas.shaft_statics import bearing_loads, on_axis, weight_at
+
+        places = self.drive_end_at, self.non_drive_end_at
+        on_rotor = [on_axis(each.at, each.x, each.y, each.z) for each in forces]
+        if self.mass is not None and self.mass_at is not None:
+            on_rotor.append(weight_at(self.mass, self.mass_at, gravity))
+        try:
+            carried = bearing_loads(on_rotor, places)
+        except InputError:
+            raise InputError(
+                "rotor.non_drive_end_at",
+                got=f"{amount(places[1], 'm')}, the place of the other bearing",
+                takes="another place: two bearings at one place carry no moment",
+            ) from None
+        axial = abs(carried.axial) if abs(carried.axial) > _NO_FORCE else 0.0
+        if axial and self.locating is None:
+            takes = f"'{ENDS[0]}' or '{ENDS[1]}', the bearing that carries the axial forces"
+            raise InputError.missing("rotor.locating", takes)
+        loads = {
+            end: {_RADIAL: radial, _AXIAL: axial if end == self.locating else 0.0}
+            for end, radial in zip(ENDS, carried.radial, strict=True)
+        }
+        for end, of_end in loads.items():
+            if max(of_end.values()) <= _NO_FORCE:
+                raise InputError(
+                    "rotor",
+                    got=f"weight and forces that do not load the bearing at {end}",
+                    takes="mass and mass_at, or a table [[force]], that load both bearings: a bearing "
+                    "without a load has no film that is computed",
+                )
+        return loads
 
 
 class Source(Table, book="source"):

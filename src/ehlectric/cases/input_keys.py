@@ -233,7 +233,7 @@ def _model_of(name: str, inner: str = "") -> type[Table]:
     if name not in (*_OF_DRIVES, *ENDS, "axle"):
         return Case
     from ehlectric.cases.drive_case import DriveCase
-    from ehlectric.cases.rotor_inputs import Operation
+    from ehlectric.cases.drive_inputs import Operation
 
     if name == "axle" or (name == "drive" and inner and inner not in Operation.known_keys()):
         from ehlectric.cases.axle_case import AxleCase

@@ -39,10 +39,10 @@ from ehlectric.bearing import (
     stretches_of,
     written_columns,
 )
+from ehlectric.cases.axle_keys import LOADS
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.duty_inputs import Cycle, read_cycle
 from ehlectric.cases.measurements import CYCLE
-from ehlectric.cases.rotor_inputs import LOADS
 from ehlectric.drive.drive_record import CONFIDENCE, ENERGY, DriveSolution, event_rate
 from ehlectric.drive.quick_estimate import quick_drive
 from ehlectric.errors import InputError, within

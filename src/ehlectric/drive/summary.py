@@ -10,8 +10,8 @@ import numpy as np
 
 from ehlectric.bearing import KEYS as LIFE_KEYS
 from ehlectric.bearing import film_error, life_summary
+from ehlectric.cases.axle_keys import LOADS
 from ehlectric.cases.drive_case import DriveCase
-from ehlectric.cases.rotor_inputs import LOADS
 from ehlectric.discharge.discharge_laws import CURRENT_DENSITY_LIMITS
 from ehlectric.drive.drive_bearings import BearingElement
 from ehlectric.drive.drive_record import (

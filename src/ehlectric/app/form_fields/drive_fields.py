@@ -23,7 +23,7 @@ from ehlectric.app.form_fields.field import (
 )
 from ehlectric.app.form_fields.field_defaults import DRIVE_END, NON_DRIVE_END, field_at, group_at
 from ehlectric.app.page_inputs import Inputs
-from ehlectric.cases.rotor_inputs import LOADS
+from ehlectric.cases.axle_keys import LOADS
 from ehlectric.quantities.alternatives import ALTERNATIVES, DESCRIBED, MEASURED, dotted
 from ehlectric.quantities.inputs import REPLACED, form
 from ehlectric.quantities.units import rounded, split
@@ -213,12 +213,9 @@ _LISTS = {
 _CONDITIONS = {"Geometry of the machine": given("circuit.machine"), VEHICLE: given(VEHICLE_TABLE)}
 
 
-def _groups() -> Iterator[Group]:
-    """Groups of the drive itself; its forces follow its rotor."""
-    for title in form("drive"):
-        yield group_of("drive", title, _SHOWN, _LISTS, when=_CONDITIONS.get(title, always))
-        if title == ROTOR:
-            yield from map(_force_group, range(1, MOST_FORCES + 1))
+_OF_DRIVE = tuple(
+    group_of("drive", title, _SHOWN, _LISTS, when=_CONDITIONS.get(title, always)) for title in form("drive")
+)
 
 
 # Group of the rotor, and the most forces that a page shows.
@@ -338,9 +335,21 @@ OTHER = Group(
 )
 
 DRIVE_GROUPS = (
-    *_groups(),
+    *_OF_DRIVE,
     *_bearing(DRIVE_END, "Drive end"),
     OTHER,
     *_bearing(NON_DRIVE_END, "Non-drive end"),
     _OF_BEARING["Title"],
 )
+
+
+def _with_forces() -> Iterator[Group]:
+    """Groups of a drive, in which forces follow the rotor."""
+    for group in DRIVE_GROUPS:
+        yield group
+        if group.title == ROTOR:
+            yield from map(_force_group, range(1, MOST_FORCES + 1))
+
+
+# Groups of the page of a drive.
+PAGE_GROUPS = tuple(_with_forces())

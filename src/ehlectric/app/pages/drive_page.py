@@ -11,8 +11,8 @@ from nicegui import ui
 from ehlectric.app.calls import DRIVE_QUICK, DRIVE_SIMULATED
 from ehlectric.app.form_fields.axle_fields import without_table
 from ehlectric.app.form_fields.drive_fields import (
-    DRIVE_GROUPS,
     MOST_FORCES,
+    PAGE_GROUPS,
     PRESETS,
     ROTOR,
     changes_of,
@@ -178,7 +178,7 @@ class DrivePage(AnswerPage[DriveAnswer]):
     title = "How often do the bearings of this drive discharge?"
     start = DRIVE
     kind = "drive"
-    groups = DRIVE_GROUPS
+    groups = PAGE_GROUPS
     elsewhere = (REMEDIES, WAVEFORM_FILE, DUTY_FILE)
     first = 1
     short: ClassVar[Mapping[str, str]] = dict.fromkeys(

@@ -14,7 +14,7 @@ from ehlectric.app.catalogue import choices
 from ehlectric.app.form_fields import BEARING_GROUPS, GEAR_GROUPS
 from ehlectric.app.form_fields.axle_fields import axle_groups, shape_of
 from ehlectric.app.form_fields.contact_fields import geometry_of, groups_of
-from ehlectric.app.form_fields.drive_fields import DRIVE_GROUPS
+from ehlectric.app.form_fields.drive_fields import PAGE_GROUPS
 from ehlectric.app.form_fields.field import Field, Group, in_field_unit, shown_text, written_text
 from ehlectric.app.form_fields.field_defaults import default_of, end_and_key, list_of
 from ehlectric.app.form_fields.field_rules import Memory, changed, is_custom
@@ -422,7 +422,7 @@ def groups_for(case: Inputs) -> Sequence[Group]:
     geometry.
     """
     if case.value("drive_end"):
-        return DRIVE_GROUPS
+        return PAGE_GROUPS
     if case.value("gear"):
         return GEAR_GROUPS
     if case.value("shaft"):
