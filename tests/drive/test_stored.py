@@ -9,7 +9,7 @@ from ehlectric import DriveCase, InputError, load, save, solve, solve_drive
 from ehlectric.drive import run as of_drives
 from ehlectric.drive.preparation import prepare
 from ehlectric.drive.result import DriveResult
-from ehlectric.drive.stored import check, parts_of
+from ehlectric.drive.stored import parts_of, parts_of
 from ehlectric.drive.summary import checked_summary
 from ehlectric.drive.warnings import unused_keys
 from ehlectric.quantities.inputs import ENDS
@@ -171,10 +171,10 @@ def test_events_of_another_bearing_than_counted_are_refused(drive):
     dataset = drive.to_xarray()
     films = dataset["event_bearing"]
     assert films.size > 10
-    check(dataset, 2)
+    parts_of(dataset)
     for edited in (films * 0, films * 0 + 1, 1 - films):
         with pytest.raises(UnfitError, match=r"event_bearing .*block_events"):
-            check(dataset.assign(event_bearing=edited), 2)
+            parts_of(dataset.assign(event_bearing=edited))
 
 
 def test_equal_bearings_have_one_note_also_after_loading():

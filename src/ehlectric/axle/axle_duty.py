@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,7 @@ from ehlectric.cases.duty_inputs import Cycle, Duty, read_cycle
 from ehlectric.cases.measurements import AXLE_CYCLE
 from ehlectric.drive import firsts, touches, voltage_ratios
 from ehlectric.errors import InputError
+from ehlectric.quantities.field_metadata import stored
 from ehlectric.quantities.lubrication_states import AT_TIMES, CONDUCTS, INSULATES
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.statement import Statement
@@ -31,6 +33,10 @@ _MOST_POINTS = 20_000
 STATES = ("", CONDUCTS, AT_TIMES, INSULATES)
 
 
+# Values at the rows of a cycle in a file.
+_of_rows = partial(stored, rule="a number", dtype="f8")
+
+
 @dataclass(frozen=True, eq=False)
 class AxleDuty:
     """Rows of a duty cycle with what all elements are at each, SI units.
@@ -41,15 +47,16 @@ class AxleDuty:
     source: str  # path of the file
     names: tuple[str, ...]  # names of the elements
     keys: tuple[str, ...]  # keys of the elements in duty.csv
-    time: Array  # [s], shape (n,)
-    speed: Array  # of the rotor [rad/s], shape (n,)
-    torque: Array  # of the rotor [N m], shape (n,)
-    temperature: Array  # of the oil [K], shape (n,)
+    time: Array = field(metadata=_of_rows("row"))  # [s], shape (n,)
+    speed: Array = field(metadata=_of_rows("row"))  # of the rotor [rad/s], shape (n,)
+    torque: Array = field(metadata=_of_rows("row"))  # of the rotor [N m], shape (n,)
+    temperature: Array = field(metadata=_of_rows("row"))  # of the oil [K], shape (n,)
     # Voltages and breakdown voltages of all elements after an edge [V], shape (n, elements): NaN without a
     # result, and limits as in ``voltage_ratios``.
-    voltages: Array
-    limits: Array
-    states: IntArray  # numbers of the states, shape (n, elements)
+    voltages: Array = field(metadata=_of_rows("row element"))
+    limits: Array = field(metadata=_of_rows("row element"))
+    # Numbers of the states, shape (n, elements).
+    states: IntArray = field(metadata=_of_rows("row element"))
     points: int  # number of operating points that were solved
     warnings: tuple[ResultWarning, ...] = ()
 

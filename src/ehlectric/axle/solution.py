@@ -11,8 +11,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import dataclass, field, replace
+from functools import cached_property, partial
 from itertools import product
 from typing import Literal, cast
 
@@ -57,6 +57,7 @@ from ehlectric.gear import (
     solve_loose_pairs,
     state_at,
 )
+from ehlectric.quantities.field_metadata import stored
 from ehlectric.quantities.formats import CELSIUS, amount, speed_text
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable
@@ -84,6 +85,10 @@ _LARGER = 1.0 + 1e-9
 _SMALL = 1e-3
 
 
+# Number of an element in a file, NaN where the element has none.
+_number = partial(stored, rule="finite or NaN")
+
+
 @dataclass(frozen=True)
 class Element:
     """Bearing or gear mesh of an axle, with its film."""
@@ -92,18 +97,19 @@ class Element:
     kind: Literal["bearing", "mesh"]
     first: str  # shaft
     second: str  # shaft or housing
-    capacitance: float  # mean capacitance [F]
+    capacitance: float = field(metadata=_number())  # mean capacitance [F]
     # Voltage at which the film breaks down [V]; None where summits touch, and for ceramic elements.
-    breakdown_voltage: float | None
-    contact_time_share: float  # share of time in which metallic contacts conduct
-    lambda_ratio: float  # smallest film divided by the composite Rq
+    breakdown_voltage: float | None = field(metadata=_number(unknown=True))
+    # Share of time in which metallic contacts conduct.
+    contact_time_share: float = field(metadata=_number())
+    lambda_ratio: float = field(metadata=_number())  # smallest film divided by the composite Rq
     # Loads of a bearing: radial load, and axial force along z [N]; None for a mesh.
-    radial_load: float | None = None
-    axial_load: float | None = None
+    radial_load: float | None = field(default=None, metadata=_number(unknown=True))
+    axial_load: float | None = field(default=None, metadata=_number(unknown=True))
     conduction: Conduction = "by-film"  # of the gear file of a mesh
     # Whether summits touch, so that no breakdown voltage is computed.
-    touching: bool = False
-    film_error: float = 0.0  # relative error of the films
+    touching: bool = field(default=False, metadata=_number(dtype="f8"))
+    film_error: float = field(default=0.0, metadata=_number())  # relative error of the films
 
     @property
     def state(self) -> str:

@@ -7,7 +7,7 @@ remedies. Names, speeds and torques follow from the case.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -24,6 +24,7 @@ from ehlectric.quantities.result_warnings import CODES_OF_TEXTS, TEXTS, ResultWa
 from ehlectric.runtime.file_rules import UnfitError, case_of, is_list, is_number, is_table, is_text, json_of
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.netcdf import Layout
+from ehlectric.runtime.stored import Part, check_parts, values_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -31,19 +32,12 @@ if TYPE_CHECKING:
 # Name and version of the layout of axle.nc.
 SCHEMA = "ehlectric.axle.result/1"
 
-_DIMENSIONS = ("variant", "element")
+# Numbers of the elements of each variant, which end with NaN where another one has more elements.
+_ELEMENTS = Part(Element, ("variant", "element"))
+_NONE = Element("", "bearing", "", HOUSING, math.nan, None, math.nan, math.nan, film_error=math.nan)
 
-# Fields of an element that are numbers, with whether they may be missing.
-_NUMBERS = {
-    "capacitance": False,
-    "breakdown_voltage": True,
-    "contact_time_share": False,
-    "lambda_ratio": False,
-    "radial_load": True,
-    "axial_load": True,
-    "touching": False,
-    "film_error": False,
-}
+# Rows of a duty cycle.
+_DUTY = Part(AxleDuty, prefix="duty_")
 
 
 def layout_of(
@@ -61,18 +55,18 @@ def layout_of(
     contains the probabilities of the elements; ``discharges`` over time of each solution, or of none.
     """
     count = max(len(solution.elements) for solution in solutions)
-    warnings = [[[each.code, each.text] for each in solution.warnings] for solution in solutions]
+    rows = [[*each.elements, *[_NONE] * (count - len(each.elements))] for each in solutions]
     return Layout(
         {
-            **{name: (_DIMENSIONS, _column(solutions, name, count)) for name in _NUMBERS},
-            **_duty_variables(duty),
+            **_ELEMENTS.written(rows),
+            **({} if duty is None else _DUTY.written(duty)),
             **discharge_variables(discharges),
         },
         {
             "schema": SCHEMA,
             "version": version,
             "case": solutions[0].case.to_toml(),
-            "warnings": _text(warnings),
+            "warnings": _text([_rows_of(solution.warnings) for solution in solutions]),
             **_edge_attribute(solutions),
             "seconds": seconds,
             "probable": int(probable),
@@ -82,26 +76,8 @@ def layout_of(
     )
 
 
-# Variables of a duty cycle with their dimensions.
-_ROWS, _OF_ELEMENTS = ("row",), ("row", "element")
-_DUTY: Mapping[str, tuple[str, ...]] = {
-    **dict.fromkeys(("time", "speed", "torque", "temperature"), _ROWS),
-    **dict.fromkeys(("voltages", "limits", "states"), _OF_ELEMENTS),
-}
-
-
-def _duty_variables(duty: AxleDuty | None) -> dict[str, Any]:
-    """Variables of the rows of a duty cycle; none without one."""
-    if duty is None:
-        return {}
-    return {
-        f"duty_{name}": (dims, np.asarray(getattr(duty, name), dtype=float)) for name, dims in _DUTY.items()
-    }
-
-
 def _duty_attributes(duty: AxleDuty) -> dict[str, Any]:
-    warnings = [[each.code, each.text] for each in duty.warnings]
-    return {"source": duty.source, "points": duty.points, "warnings": warnings}
+    return {"source": duty.source, "points": duty.points, "warnings": _rows_of(duty.warnings)}
 
 
 def duty_of(dataset: xr.Dataset, case: AxleCase) -> AxleDuty | None:
@@ -113,12 +89,8 @@ def duty_of(dataset: xr.Dataset, case: AxleCase) -> AxleDuty | None:
         "duty",
         lambda value: is_table(value, {"source": is_text, "points": is_number, "warnings": _are_warnings}),
     )
-    columns = {}
-    for name, dims in _DUTY.items():
-        variable = f"duty_{name}"
-        if variable not in dataset or tuple(dataset[variable].dims) != dims:
-            raise UnfitError(f"{variable} is missing, or has other dimensions")
-        columns[name] = np.asarray(dataset[variable].values, dtype=float)
+    check_parts(dataset, [_DUTY])
+    columns = _DUTY.read(values_of(dataset))
     states, elements = columns.pop("states"), case.keys_of_elements()
     if states.shape[1] != len(elements) or not np.all(np.isin(states, range(len(STATES)))):
         raise UnfitError("duty_states is not the state of each element")
@@ -138,14 +110,9 @@ def _warnings(rows: Sequence[Sequence[str]]) -> tuple[ResultWarning, ...]:
     return warnings_of({CODES_OF_TEXTS: [row[0] for row in rows], TEXTS: [row[1] for row in rows]})
 
 
-def _column(solutions: Sequence[AxleSolution], name: str, count: int) -> Array:
-    """Numbers of a field of all elements, NaN where an element has none, shape (variants, elements)."""
-    column = np.full((len(solutions), count), math.nan)
-    for row, solution in zip(column, solutions, strict=True):
-        for place, element in enumerate(solution.elements):
-            value = getattr(element, name)
-            row[place] = math.nan if value is None else float(value)
-    return column
+def _rows_of(warnings: Sequence[ResultWarning]) -> list[list[str]]:
+    """Rows of code and text of warnings."""
+    return [[each.code, each.text] for each in warnings]
 
 
 def _text(value: Any) -> str:
@@ -161,17 +128,15 @@ def solutions_of(dataset: xr.Dataset) -> tuple[AxleSolution, ...]:
     case = case_of(dataset.attrs, AxleCase.from_dict)
     cases = [case, *case.variants()]
     warnings = json_of(dataset.attrs, "warnings", lambda value: is_list(value, _are_warnings))
-    columns, edges = {name: _read(dataset, name) for name in _NUMBERS}, _edges(dataset, len(warnings))
-    (variants, count) = columns["capacitance"].shape
+    check_parts(dataset, [_ELEMENTS])
+    values, edges, variants = values_of(dataset), _edges(dataset, len(warnings)), dataset.sizes["variant"]
     if variants not in (1, len(cases)) or len(warnings) != variants:
         raise UnfitError(f"it has {variants} variants of an axle with {len(case.remedies)} remedies")
-    if any(column.shape != (variants, count) for column in columns.values()):
-        raise UnfitError("its variables differ in their shape")
     return tuple(
         AxleSolution(
             of_variant,
             of_variant.turning(),
-            tuple(_elements(of_variant, {name: column[k] for name, column in columns.items()})),
+            tuple(_elements(of_variant, values, k)),
             _warnings(warnings[k]),
             edges[k],
         )
@@ -203,18 +168,8 @@ def _are_warnings(value: Any) -> bool:
     )
 
 
-def _read(dataset: xr.Dataset, name: str) -> Array:
-    """Numbers of a field, shape (variants, elements)."""
-    if name not in dataset or tuple(dataset[name].dims) != _DIMENSIONS:
-        raise UnfitError(f"{name} is missing, or has other dimensions")
-    values = np.asarray(dataset[name].values)
-    if values.dtype.kind != "f" or np.any(np.isinf(values)):
-        raise UnfitError(f"{name} is not a number")
-    return values
-
-
-def _elements(case: AxleCase, rows: dict[str, Array]) -> list[Element]:
-    """Elements of an axle from the numbers of their fields, shape (elements,)."""
+def _elements(case: AxleCase, values: Mapping[str, Array], variant: int) -> Iterator[Element]:
+    """Elements of a variant of an axle from the variables of a file."""
     bearings = [
         {"name": name, "kind": "bearing", "first": bearing.shaft, "second": HOUSING}
         for name, bearing in zip(case.names_of_bearings(), case.bearing, strict=True)
@@ -229,14 +184,12 @@ def _elements(case: AxleCase, rows: dict[str, Array]) -> list[Element]:
         }
         for name, mesh in zip(case.names_of_meshes(), case.mesh, strict=True)
     ]
-    fields: list[dict[str, Any]] = [*bearings, *meshes]
-    if len(fields) > rows["capacitance"].size:
-        raise UnfitError(f"it has {rows['capacitance'].size} elements of {len(fields)}")
-    for place, values in enumerate(fields):
-        for name, optional in _NUMBERS.items():
-            value = float(rows[name][place])
-            if math.isnan(value) and not optional:
-                raise UnfitError(f"{name} of {values['name']} is not a number")
-            values[name] = None if math.isnan(value) else value
-        values["touching"] = bool(values["touching"])
-    return [Element(**values) for values in fields]
+    named: list[dict[str, Any]] = [*bearings, *meshes]
+    if len(named) > (count := values["capacitance"].shape[1]):
+        raise UnfitError(f"it has {count} elements of {len(named)}")
+    for place, about in enumerate(named):
+        numbers = _ELEMENTS.read(values, variant, place)
+        for name, value in numbers.items():
+            if value is not None and math.isnan(value):
+                raise UnfitError(f"{name} of {about['name']} is not a number")
+        yield Element(**about, **numbers | {"touching": bool(numbers["touching"])})

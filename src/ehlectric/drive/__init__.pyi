@@ -77,9 +77,7 @@ from .shaft_record import RECORDED as RECORDED
 from .shaft_record import measured_shaft as measured_shaft
 from .source_in_time import SourceInTime as SourceInTime
 from .stored import SCHEMA as SCHEMA
-from .stored import EventColumns as EventColumns
-from .stored import SampleColumns as SampleColumns
-from .stored import check_events as check_events
+from .stored_record import StoredRecord as StoredRecord
 from .summary import both_summary as both_summary
 from .summary import checked_summary as checked_summary
 from .summary import end_summary as end_summary

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -16,12 +16,11 @@ from ehlectric.bearing import CycleLife, Path, StoredDuty, with_smooth_films
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.drive.drive_bearings import BearingElement
 from ehlectric.drive.drive_cycle import DriveDuty, DriveDutyRows, DriveStretch, Expected
-from ehlectric.drive.drive_record import COLUMNS, KEPT, DriveSolution, Record
-from ehlectric.quantities.field_metadata import stored
+from ehlectric.drive.drive_record import DriveSolution
+from ehlectric.drive.stored_record import StoredRecord
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.result_warnings import TEXTS, texts_and_codes
 from ehlectric.runtime.file_rules import (
-    Rule,
     UnfitError,
     case_of,
     is_list,
@@ -32,7 +31,7 @@ from ehlectric.runtime.file_rules import (
     number_of,
     text_of,
 )
-from ehlectric.runtime.stored import Part, check_parts, values_of, warnings_in_tables
+from ehlectric.runtime.stored import Part, values_of, warnings_in_tables
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -47,39 +46,7 @@ SCHEMA = "ehlectric.drive.result/1"
 _VARIANT, _END = "variant", "bearing"
 
 
-_event = partial(stored, "event", count="event_count")
-_sample = partial(stored, "sample", count="sample_count")
-
-
-@dataclass(frozen=True)
-class EventColumns:
-    """Columns of the events of a record, in their order."""
-
-    begin: Array = field(metadata=_event("s"))
-    end: Array = field(metadata=_event("s"))
-    bearing: Array = field(metadata=_event("", "0 or 1", dtype="i8"))
-    voltage: Array = field(metadata=_event("V"))
-    charge: Array = field(metadata=_event("C"))
-    energy: Array = field(metadata=_event("J", "not negative"))
-    peak_current: Array = field(metadata=_event("A", "not negative"))
-    position: Array = field(metadata=_event("", "whole", dtype="i8"))
-
-    def table(self) -> Array:
-        """Columns as the rows of ``Record.events``."""
-        return np.column_stack([getattr(self, each.name) for each in fields(self)]).astype(float)
-
-
-@dataclass(frozen=True)
-class SampleColumns:
-    """Columns of the trace of a record; the last two are the voltages across both films."""
-
-    time: Array = field(metadata=_sample("s"))
-    source: Array = field(metadata=_sample("V"))
-    voltage: Array = field(metadata=stored("sample bearing", "V", count="sample_count"))
-
-
-_SOLUTION, _RECORD = Part(DriveSolution, (_VARIANT,)), Part(Record, (_VARIANT,))
-_EVENTS, _SAMPLES = Part(EventColumns, (_VARIANT,), "event_"), Part(SampleColumns, (_VARIANT,), "sample_")
+_RECORDS, _SOLUTION = StoredRecord(over=(_VARIANT,)), Part(DriveSolution, (_VARIANT,))
 _ELEMENT, _PATH = Part(BearingElement, (_VARIANT, _END), "element_"), Part(Path, (_VARIANT, _END), "path_")
 _DUTY = StoredDuty(
     DriveDuty,
@@ -87,7 +54,6 @@ _DUTY = StoredDuty(
     {"discharges": Expected, "energy": Expected, "stretches": DriveStretch},
     {"lives": CycleLife},
 )
-_PARTS = (_SOLUTION, _RECORD, _EVENTS, _SAMPLES, _ELEMENT, _PATH)
 
 
 def dataset_of(
@@ -109,18 +75,15 @@ def dataset_of(
     solutions = [solution, *(solved for _, _, solved in remedies)]
     records = [part.record for part in solutions]
     elements = [part.elements for part in solutions]
-    traces = [part.trace for part in records]
     return xr.Dataset(
         {
             **_SOLUTION.written(solutions),
-            **_RECORD.written(records),
-            **_EVENTS.written([EventColumns(*part.events.T) for part in records]),
-            **_SAMPLES.written([SampleColumns(part[:, 0], part[:, 1], part[:, 2:]) for part in traces]),
+            **_RECORDS.variables(records),
             **_ELEMENT.written(elements),
             **_PATH.written([[part.path for part in pair] for pair in elements]),
             **{key: part for k, duty in enumerate(duties) for key, part in _duty(k).variables(duty).items()},
         },
-        coords={_END: list(ENDS), "limit": ("limit", records[0].limits, {"units": "V"})},
+        coords={_END: list(ENDS)},
         attrs={
             "schema": SCHEMA,
             "version": version,
@@ -211,14 +174,7 @@ def _case(tables: dict[str, Any]) -> DriveCase:
 
 
 def _solution_of(values: Mapping[str, Array], k: int, **given: Any) -> DriveSolution:
-    events = EventColumns(**_EVENTS.read(values, k))
-    samples = SampleColumns(**_SAMPLES.read(values, k))
-    record = Record(
-        **_RECORD.read(values, k),
-        events=events.table(),
-        limits=values["limit"],
-        trace=np.column_stack([samples.time, samples.source, samples.voltage.reshape(-1, len(ENDS))]),
-    )
+    record = _RECORDS.read(values, k, voltages=len(ENDS))
     first, second = (
         BearingElement(**_ELEMENT.read(values, k, b), path=Path(**_PATH.read(values, k, b)))
         for b in range(len(ENDS))
@@ -232,27 +188,6 @@ def check(dataset: xr.Dataset, variants: int) -> None:
     """Check the variables of a drive.nc with a number of variants before any of them is used. Raises
     UnfitError where a variable is missing, or is not as it was written.
     """
-    check_parts(dataset, _PARTS, {"limit": Rule(("limit",), "increasing", "V")})
-    sizes = dataset.sizes
-    expected = {_VARIANT: variants, _END: len(ENDS), "column": COLUMNS, "edge": sizes["bin"] + 1}
-    for name, size in expected.items():
-        if sizes[name] != size:
-            raise UnfitError(f"it has {sizes[name]} values along {name}, not {size}")
+    _RECORDS.check(dataset, {_VARIANT: variants, _END: len(ENDS)}, (_SOLUTION, _ELEMENT, _PATH))
     if np.any(dataset["position_count"].values < 1):
         raise UnfitError("position_count is not positive")
-    # The events one by one are among those that are counted.
-    counted = np.sum(dataset["block_events"].values, axis=-1)
-    values = values_of(dataset)
-    for k, total in enumerate(counted):
-        check_events(_EVENTS.read(values, k)["bearing"].astype(int), total, "event_bearing", "block_events")
-
-
-def check_events(films: Array, total: Array, name: str, of_blocks: str) -> None:
-    """Check the film of each event against the number of events of each film, shape (films,).
-
-    Raises UnfitError, with both names of variables, where they contradict each other.
-    """
-    numbers = np.bincount(films, minlength=total.size)
-    complete = films.size < KEPT
-    if numbers.size > total.size or np.any(numbers > total) or (complete and np.any(numbers != total)):
-        raise UnfitError(f"{name} does not belong to {of_blocks}")

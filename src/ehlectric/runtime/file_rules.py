@@ -59,6 +59,8 @@ VALUES: Mapping[str, Callable[[Array], bool]] = MappingProxyType(
         "0 or 1": lambda values: bool(np.all((values == 0) | (values == 1))),
         "0 to 1": lambda values: bool(np.all(np.abs(values - 0.5) <= 0.5 + ROUNDING)),
         "whole": _whole,
+        # Also NaN and infinite.
+        "a number": lambda values: values.dtype.kind in "fiu",
     }
 )
 
