@@ -9,7 +9,7 @@ from ehlectric import DriveCase, InputError, load, save, solve, solve_drive
 from ehlectric.drive import run as of_drives
 from ehlectric.drive.preparation import prepare
 from ehlectric.drive.result import DriveResult
-from ehlectric.drive.stored import parts_of, parts_of
+from ehlectric.drive.stored import check, parts_of
 from ehlectric.drive.summary import checked_summary
 from ehlectric.drive.warnings import unused_keys
 from ehlectric.quantities.inputs import ENDS

@@ -134,10 +134,9 @@ def simulate_axle(
     breakdown = case.breakdown
     if breakdown is None:
         raise InputError.missing("breakdown", _NO_ARC)
-    given = case.source
     with within("source"):
-        running = given.at_speed(case.drive.speed)
-    source = SourceInTime.of(running, given, breakdown, case.drive.duration)
+        running = case.running_source
+    source = SourceInTime.of(running, case.source, breakdown, case.drive.duration)
     solved = solve_films(case) if films is None else films
     timed = _films_in_time(solved, breakdown, _conducting(solution))
     names = {each.name for each in timed}
@@ -191,7 +190,7 @@ def _of_remedy(error: InputError, case: AxleCase, number: int) -> InputError:
     """Error that names the remedy with a number from 1; 0 is the axle itself."""
     if not number:
         return error
-    title = printable(case.remedies[number - 1].title)
+    title = printable(case.numbered_remedies[number - 1][1].title)
     text = error.text.removeprefix("missing")
     return error.with_text(error.key, f"missing with the mitigation measure {title!r}{text}")
 

@@ -95,7 +95,7 @@ class AxleResult(Shown):
         codes = {warning.code for warning in self.solution.warnings}
         return tuple(
             replace(warning, text=f"{remedy.title}: {warning.text}")
-            for remedy, solution in zip(self.case.remedies, self.remedies, strict=False)
+            for (_, remedy), solution in zip(self.case.numbered_remedies, self.remedies, strict=False)
             for warning in solution.warnings
             if warning.code not in codes
         )
@@ -180,10 +180,11 @@ class AxleResult(Shown):
     def _remedies(self) -> Iterator[dict[str, Any]]:
         """Tables ``remedies`` of the summary."""
         in_time = self.remedied_discharges or (None,) * len(self.remedies)
-        for number, (solution, discharges) in enumerate(zip(self.remedies, in_time, strict=True)):
+        titles = [remedy.title for _, remedy in self.case.numbered_remedies]
+        for title, solution, discharges in zip(titles, self.remedies, in_time, strict=False):
             simulation = {} if discharges is None else {"simulation": discharges.summary()}
             yield {
-                "title": self.case.remedies[number].title,
+                "title": title,
                 **texts_and_codes(solution.warnings),
                 **axle_summary(solution),
                 **simulation,

@@ -44,6 +44,7 @@ from ehlectric.drive import (
     measured_edge,
     oscillation_warning,
     rank,
+    remedy_notes,
     ring_warning,
 )
 from ehlectric.errors import ConvergenceError, InputError, within
@@ -595,8 +596,9 @@ def elements_of(films: SolvedFilms) -> AxleSolution:
 
 
 def machine_notes(solution: AxleSolution) -> Iterator[ResultWarning]:
-    """Warnings about the machine of an axle: its grounding ring, and what rings in its circuit."""
+    """Warnings about the machine of an axle: remedies that do not apply, its ring, and what rings."""
     case = solution.case
+    yield from remedy_notes(case)
     yield from ring_warning(case.circuit, case.drive.speed)
     if solution.rings:
         yield ResultWarning.of("edge-rings", times=solution.overshoot)

@@ -131,7 +131,7 @@ def solutions_of(dataset: xr.Dataset) -> tuple[AxleSolution, ...]:
     check_parts(dataset, [_ELEMENTS])
     values, edges, variants = values_of(dataset), _edges(dataset, len(warnings)), dataset.sizes["variant"]
     if variants not in (1, len(cases)) or len(warnings) != variants:
-        raise UnfitError(f"it has {variants} variants of an axle with {len(case.remedies)} remedies")
+        raise UnfitError(f"it has {variants} variants of an axle with {len(cases) - 1} remedies")
     return tuple(
         AxleSolution(
             of_variant,

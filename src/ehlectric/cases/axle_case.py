@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from copy import deepcopy
 from dataclasses import dataclass
@@ -32,7 +32,7 @@ from ehlectric.cases.bearing_inputs import Bearing, base_of, typed_base
 from ehlectric.cases.bearing_kinds import KINDS_OF_BEARINGS
 from ehlectric.cases.case_oil import Lubricant
 from ehlectric.cases.discharge_inputs import AxleDischarge
-from ehlectric.cases.drive_case import Remedy
+from ehlectric.cases.drive_case import NetworkCase, Remedy
 from ehlectric.cases.drive_inputs import Breakdown, Circuit, ShaftForce, Source
 from ehlectric.cases.duty_inputs import Duty
 from ehlectric.cases.gear_case import GearCase
@@ -51,7 +51,7 @@ from ehlectric.cases.measured_inputs import AxleMeasured
 from ehlectric.cases.oil_inputs import displace_oil
 from ehlectric.cases.roughness_inputs import find_files
 from ehlectric.cases.stated_ranges import with_stated_ranges
-from ehlectric.cases.table import CaseFile, Table, Title, number_of
+from ehlectric.cases.table import Table, Title, number_of
 from ehlectric.cases.table_edits import displace, flattened, given_value, nested, set_keys
 from ehlectric.errors import InputError, shown, within
 from ehlectric.quantities.alternatives import ALTERNATIVES
@@ -68,6 +68,10 @@ _SHARED_ALTERNATIVES = {"bearings": ALTERNATIVES["bearing"]}
 
 # Key of a mesh that replaces the same key of its gear file.
 _CONTACT = "contact_resistance"
+
+# What stands in a key for the name of one of several tables, and tables of the oil of a bearing.
+_PLACES = {"bearing": "SHAFT", "shaft": "SHAFT"} | dict.fromkeys(("mesh", "link", "force"), "NUMBER")
+_OF_OIL = ("lubricant", "discharge")
 
 # Resistance that removes a link.
 NO_LINK = "none"
@@ -96,7 +100,7 @@ class Turning:
     torque: float  # [N m]
 
 
-class AxleCase(CaseFile, book="axle_file"):
+class AxleCase(NetworkCase, book="axle_file"):
     """Axle: inverter, rotor, and shafts that gear meshes connect, with all of their bearings.
 
     A case is made from a drive file with tables ``[[shaft]]`` by ``from_toml``, or from nested tables by
@@ -229,9 +233,9 @@ class AxleCase(CaseFile, book="axle_file"):
         return self.replace({"drive.contacts": "atlas"}) if self.solves_films else self
 
     @property
-    def running_circuit(self) -> Circuit:
-        """Circuit at the speed of the rotor, with the resistance that its grounding ring has there."""
-        return self.circuit.at_speed(self.drive.speed)
+    def running_speed(self) -> float:
+        """Speed of the rotor [rad/s]."""
+        return self.drive.speed
 
     @property
     def edge(self) -> float:
@@ -686,11 +690,9 @@ class AxleCase(CaseFile, book="axle_file"):
         displace_oil(table["lubricant"], nested(flat, "lubricant"))
         displace(table, flat, {name: ALTERNATIVES[name] for name in _DISPLACED} | _SHARED_ALTERNATIVES)
         lists = {
-            "bearing": self._change_bearings,
-            "shaft": self._change_shaft,
+            **dict.fromkeys(("bearing", "shaft", "force"), self._change_entries),
             "mesh": self._change_mesh,
             "link": self._change_links,
-            "force": self._change_force,
         }
         inner = {key: value for key, value in flat.items() if "." in key and key.split(".")[0] in lists}
         set_keys(table, {key: value for key, value in flat.items() if key not in inner})
@@ -702,43 +704,30 @@ class AxleCase(CaseFile, book="axle_file"):
             lists[name](table, key, {rest: value})
         return self.from_dict(table)
 
-    def variants(self) -> tuple[Self, ...]:
-        """Return changed copies of the axle, one for each of its remedies."""
-        return tuple(self._changed(number, remedy) for number, remedy in enumerate(self.remedies, 1))
-
-    def _changed(self, number: int, remedy: Remedy) -> Self:
-        with within(f"remedies.{number}.changes"):
-            return self.replace({**remedy.changes, "remedies": []})
-
     def places_of(self, key: str) -> list[int]:
         """Return the places, from 0, of the bearings, shafts, meshes, links or forces that a key changes.
 
         Raises InputError if the axle does not have one.
         """
-        name, place, rest = (*key.split(".", 2), "", "")[:3]
-        shafts = [each.name for each in self.shaft]
-        places: Iterable[int] = ()
-        if name == "bearing":
-            places, takes = self.bearings_of(place), f"bearing.SHAFT.KEY with a shaft of {', '.join(shafts)}"
-        elif name == "shaft":
-            places = [number for number, each in enumerate(shafts) if each == place]
-            takes = f"shaft.SHAFT.KEY with a shaft of {', '.join(shafts)}"
-        elif name == "mesh":
-            numbers = [str(number) for number in range(1, len(self.mesh) + 1)]
-            places = [number - 1 for number in map(int, numbers) if place in (str(number), "gear")]
-            takes = f"mesh.NUMBER.KEY with one of {', '.join(numbers)} as the number, or mesh.gear.KEY"
-            takes = takes if numbers else "no mesh"
-        elif name == "force":
-            places = [number for number in range(len(self.force)) if place == str(number + 1)]
-            takes = f"force.NUMBER.KEY, from 1 to {len(self.force)}" if self.force else "no force"
-        else:
-            links = [*enumerate(self.link)]
-            places = [number for number, link in links if place in (str(number + 1), link.kind)]
-            kinds = ", ".join(dict.fromkeys(link.kind for link in self.link))
-            takes = f"link.NUMBER.KEY, or link.KIND.KEY with a kind of {kinds}" if links else "no link"
-        if not places or not rest:
+        kind, place, rest = (*key.split(".", 2), "", "")[:3]
+        named: dict[str, list[int]] = {}
+        for number, names in enumerate(self._names_in_keys(kind)):
+            for name in names:
+                named.setdefault(name, []).append(number)
+        if place not in named or not rest:
+            takes = f"{kind}.{_PLACES[kind]}.KEY with one of {', '.join(named)}" if named else f"no {kind}"
             raise InputError(key, got=shown(place), takes=takes)
-        return [*places]
+        return named[place]
+
+    def _names_in_keys(self, kind: str) -> Iterator[tuple[str, ...]]:
+        """Names in keys of each bearing, shaft, mesh, link or force, in their order."""
+        entries: Sequence[Any] = getattr(self, kind)
+        for number, entry in enumerate(entries, 1):
+            others = {"mesh": "gear", "link": getattr(entry, "kind", "")}
+            if kind in ("bearing", "shaft"):
+                yield (entry.shaft if kind == "bearing" else entry.name,)
+            else:
+                yield (str(number), others[kind]) if kind in others else (str(number),)
 
     def check_shared(self, key: str) -> None:
         """Raise an InputError for a key of ``bearings`` that each bearing replaces by its own value."""
@@ -747,22 +736,11 @@ class AxleCase(CaseFile, book="axle_file"):
             known = f"bearing.{self.shaft[0].name}.{name}"
             raise InputError.worded(key, f"has no effect, as each bearing has its own; vary {known}")
 
-    def _change_bearings(self, table: dict[str, Any], key: str, change: Mapping[str, Any]) -> None:
-        """Change a key of all bearings of a shaft in the tables of a case."""
+    def _change_entries(self, table: dict[str, Any], key: str, change: Mapping[str, Any]) -> None:
+        """Change a key of all bearings of a shaft, of a shaft or of a force in the tables of a case."""
+        kind = key.partition(".")[0]
         for number in self.places_of(key):
-            mounted = table["bearing"][number]
-            if (name := key.split(".")[2]) in ("lubricant", "discharge"):
-                flat = flattened(change)
-                displace_oil(mounted.get("lubricant", {}), nested(flat, "lubricant"))
-                displace(mounted, flat, {name: ALTERNATIVES[name]})
-                set_keys(mounted, flat)
-            else:
-                _set_in("bearing", mounted, change)
-
-    def _change_shaft(self, table: dict[str, Any], key: str, change: Mapping[str, Any]) -> None:
-        """Change a key of a shaft in the tables of a case."""
-        (number,) = self.places_of(key)
-        _set_in("shaft", table["shaft"][number], change)
+            _set_in(kind, table[kind][number], change)
 
     def _change_mesh(self, table: dict[str, Any], key: str, change: Mapping[str, Any]) -> None:
         """Change a key in the gear file of a mesh, or in all gear files, in the tables of a case."""
@@ -777,11 +755,6 @@ class AxleCase(CaseFile, book="axle_file"):
                 mesh.pop(_CONTACT, None)
             with within("mesh" if of_all else f"mesh.{number + 1}"):
                 mesh["pair"] = GearCase.from_dict(mesh["pair"]).replace(changes).to_dict()
-
-    def _change_force(self, table: dict[str, Any], key: str, change: Mapping[str, Any]) -> None:
-        """Change a key of a force in the tables of a case."""
-        (number,) = self.places_of(key)
-        table["force"][number] |= change
 
     def _change_links(self, table: dict[str, Any], key: str, change: Mapping[str, Any]) -> None:
         """Change a key in a link, or in all links of a kind, in the tables of a case; or remove links."""
@@ -875,10 +848,11 @@ def changed_bearings(case: AxleCase, values: Mapping[int, Mapping[str, float]]) 
 
 
 def _set_in(name: str, table: dict[str, Any], change: Mapping[str, Any]) -> dict[str, Any]:
-    """Set dotted keys of a table with a name, and remove their alternatives from it."""
-    displace(
-        {name: table}, {f"{name}.{key}": value for key, value in change.items()}, {name: ALTERNATIVES[name]}
-    )
+    """Set dotted keys of a table with a name, and remove their alternatives from it and from its own oil."""
+    own = {name: table, **table}
+    flat = {f"{name}.{key}": value for key, value in change.items()} | flattened(change)
+    displace_oil(table.get("lubricant", {}), nested(change, "lubricant"))
+    displace(own, flat, {each: ALTERNATIVES[each] for each in (name, *_OF_OIL) if each in ALTERNATIVES})
     set_keys(table, change)
     return table
 

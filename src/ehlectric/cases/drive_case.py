@@ -52,7 +52,61 @@ class Remedy(Table, book="remedies"):
         return self
 
 
-class DriveCase(CaseFile, book="drive_file"):
+class NetworkCase(CaseFile):
+    """Case of a source, a machine and its films, which is a drive or an axle, with changed copies of it."""
+
+    if TYPE_CHECKING:
+        source: Source
+        circuit: Circuit
+        remedies: tuple[Remedy, ...]
+
+        def replace(self, changes: Mapping[str, Any] | None = None, /, **tables: Any) -> Self:
+            """Return a changed copy."""
+
+    @property
+    def running_speed(self) -> float:
+        """Speed of the rotor [rad/s]."""
+        raise NotImplementedError
+
+    @property
+    def running_source(self) -> Source:
+        """Source at the speed of the rotor, with the frequency and the modulation index that follow it."""
+        return self.source.at_speed(self.running_speed)
+
+    @property
+    def running_circuit(self) -> Circuit:
+        """Circuit at the speed of the rotor, with the resistance that its grounding ring has there."""
+        return self.circuit.at_speed(self.running_speed)
+
+    @property
+    def numbered_remedies(self) -> tuple[tuple[int, Remedy], ...]:
+        """Remedies that apply to the source and are computed, with their numbers in the file, from 1."""
+        return tuple(
+            (number, remedy)
+            for number, remedy in enumerate(self.remedies, 1)
+            if not self.described_changes(remedy)
+        )
+
+    def described_changes(self, remedy: Remedy) -> tuple[str, ...]:
+        """Dotted keys by which a remedy changes a described source, if the source is measured.
+
+        A remedy that also changes ``source.file`` has none: it replaces the source.
+        """
+        changes = flattened(remedy.changes)
+        if not self.source.measured or "source.file" in changes:
+            return ()
+        return tuple(key for name in DESCRIBED if (key := f"source.{name}") in changes)
+
+    def variants(self) -> tuple[Self, ...]:
+        """Return changed copies without remedies, one for each of ``numbered_remedies``."""
+        return tuple(self._changed(number, remedy) for number, remedy in self.numbered_remedies)
+
+    def _changed(self, number: int, remedy: Remedy) -> Self:
+        with within(f"remedies.{number}.changes"):
+            return self.replace({**remedy.changes, "remedies": []})
+
+
+class DriveCase(NetworkCase, book="drive_file"):
     """Drive: inverter, motor and both bearings; all inputs on which discharges over time depend.
 
     A case is made from a file by ``from_toml``, or from nested tables by ``from_dict``. Wrong inputs raise an
@@ -186,48 +240,11 @@ class DriveCase(CaseFile, book="drive_file"):
         speed = self.drive.speed
         return self.drive_end.bearing.inner_speed if speed is None else speed
 
-    @property
-    def running_source(self) -> Source:
-        """Source at the speed of the rotor, with the frequency and the modulation index that follow it."""
-        return self.source.at_speed(self.running_speed)
-
-    @property
-    def running_circuit(self) -> Circuit:
-        """Circuit at the speed of the rotor, with the resistance that its grounding ring has there."""
-        return self.circuit.at_speed(self.running_speed)
-
     @model_validator(mode="after")
     def _check_source(self) -> Self:
         with within("source"):
             self.running_source  # noqa: B018
         return self
-
-    @property
-    def numbered_remedies(self) -> tuple[tuple[int, Remedy], ...]:
-        """Remedies that apply to the source and are computed, with their numbers in the file, from 1."""
-        return tuple(
-            (number, remedy)
-            for number, remedy in enumerate(self.remedies, 1)
-            if not self.described_changes(remedy)
-        )
-
-    def described_changes(self, remedy: Remedy) -> tuple[str, ...]:
-        """Dotted keys by which a remedy changes a described source, if the source of the drive is measured.
-
-        A remedy that also changes ``source.file`` has none: it replaces the source.
-        """
-        changes = flattened(remedy.changes)
-        if not self.source.measured or "source.file" in changes:
-            return ()
-        return tuple(key for name in DESCRIBED if (key := f"source.{name}") in changes)
-
-    def variants(self) -> tuple[Self, ...]:
-        """Return changed copies of the drive, one for each of ``numbered_remedies``."""
-        return tuple(self._changed(number, remedy) for number, remedy in self.numbered_remedies)
-
-    def _changed(self, number: int, remedy: Remedy) -> Self:
-        with within(f"remedies.{number}.changes"):
-            return self.replace(remedy.changes)
 
     def _headline(self) -> str:
         bearing = self.bearings[0].bearing

@@ -85,5 +85,6 @@ from .verdict_rule import drive_verdict as drive_verdict
 from .warnings import bearing_warnings as bearing_warnings
 from .warnings import machine_warnings as machine_warnings
 from .warnings import oscillation_warning as oscillation_warning
+from .warnings import remedy_notes as remedy_notes
 from .warnings import ring_warning as ring_warning
 from .waveform.waveform import Edge as Edge

@@ -10,7 +10,7 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.bearing import BearingResult, conducts, lambda_text
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.drive_case import NOT_IN_DRIVES, NOT_OF_DISCHARGES, DriveCase
+from ehlectric.cases.drive_case import NOT_IN_DRIVES, NOT_OF_DISCHARGES, DriveCase, NetworkCase
 from ehlectric.cases.drive_inputs import Circuit
 from ehlectric.cases.plausibility import unusual_machine
 from ehlectric.discharge.discharge_laws import CURRENT_DENSITY_LIMITS, compared_with_limits
@@ -99,7 +99,7 @@ def machine_warnings(case: DriveCase, bearings: Sequence[BearingElement]) -> Ite
     """Notes about remedies that are not computed, and about capacitances that follow from the geometry of the
     machine; warning about its oscillations.
     """
-    yield from _of_remedies(case)
+    yield from remedy_notes(case)
     circuit = case.circuit
     if circuit.estimated:
         values = ", ".join(
@@ -115,7 +115,7 @@ def machine_warnings(case: DriveCase, bearings: Sequence[BearingElement]) -> Ite
     yield from _of_conduction(case, bearings)
 
 
-def _of_remedies(case: DriveCase) -> Iterator[ResultWarning]:
+def remedy_notes(case: NetworkCase) -> Iterator[ResultWarning]:
     """Note of each remedy that changes a described source, while the source is measured."""
     for remedy in case.remedies:
         if keys := case.described_changes(remedy):

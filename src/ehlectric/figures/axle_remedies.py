@@ -58,7 +58,7 @@ def _table(result: AxleResult) -> tuple[list[str], list[str], list[list[Mapping[
     tables = [{row["element"]: row for row in axle_summary(each)["elements"]} for each in solutions]
     ranked = [name for name, _ in result.solution.ranking()]
     names = [*ranked, *(name for name in tables[0] if name not in ranked)]
-    titles = ["as it is", *(remedy.title for remedy in result.case.remedies)]
+    titles = ["as it is", *(remedy.title for _, remedy in result.case.numbered_remedies)]
     rows = [[table[name] for table in tables] for name in names]
     return [printable(name) for name in names], [printable(title) for title in titles], rows
 

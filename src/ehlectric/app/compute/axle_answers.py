@@ -95,7 +95,7 @@ def answer_of(result: AxleResult) -> AxleAnswer:
     """Answer of a solved axle."""
     summary, verdict = result.summary(), result.verdict
     simulated = result.discharges is not None
-    remedied = len(result.remedies) == len(result.case.remedies)
+    remedied = len(result.remedies) == len(result.case.numbered_remedies)
     return AxleAnswer(
         title=result.case.title,
         verdict=verdict,
