@@ -22,9 +22,7 @@ from ehlectric.bearing import Path
 from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.drive_inputs import Breakdown
 from ehlectric.drive import (
-    ENERGY,
     HOUSING,
-    VALUES,
     BearingElement,
     NetworkInTime,
     Record,
@@ -34,8 +32,9 @@ from ehlectric.drive import (
     check_extinction,
     event_rows,
     fed_by_arcs,
-    rates,
-    statistics,
+    film_row,
+    shaft_row,
+    whole_row,
 )
 from ehlectric.errors import InputError, printable, within
 from ehlectric.gear import GearSolution, state_at
@@ -47,6 +46,15 @@ _CONSTANT = 0.02
 
 # Positions of a spur mesh over one pitch.
 _PHASES = 8
+
+
+def _name_of(key: str) -> str:
+    """Key of an axle for a key of ``film_row``: its largest current is called a current."""
+    return key.replace("peak_current", "current")
+
+
+# Keys of a shaft over time.
+_OF_SHAFTS = ("rms_voltage", "peak_voltage", "mean_voltage", "lowest_voltage", "highest_voltage")
 
 # Share of time with metallic contact below which it is neglected.
 _NEVER = 1e-6
@@ -72,38 +80,19 @@ class AxleDischarges:
 
     def summary(self) -> dict[str, Any]:
         """Return the table ``simulation`` of summary.json, SI units; None without a discharge."""
-        counts = np.sum(self.record.counts, axis=0)
+        rows = [film_row(self.record, b) for b in range(len(self.names))]
+        shafts = [shaft_row(*row) for row in self.record.shafts.tolist()]
         return {
             "duration": self.record.duration,
-            "events": int(np.sum(counts)),
-            **rates(counts, self.record.duration),
-            "power": float(np.sum(self.record.sums[:, ENERGY])) / self.record.duration,
-            "elements": [self._element(b, name) for b, name in enumerate(self.names)],
-            "shafts": [self._shaft(k, name) for k, name in enumerate(self.shafts)],
-        }
-
-    def _element(self, b: int, name: str) -> dict[str, Any]:
-        record = self.record
-        columns = {"current" if key == "peak_current" else key: column for key, column in VALUES.items()}
-        return {
-            "element": name,
-            "events": int(np.sum(record.counts[b])),
-            **rates(record.counts[b], record.duration),
-            "power": float(record.sums[b, ENERGY]) / record.duration,
-            "peak_voltage": float(record.peak[b]),
-            "rms_voltage": float(record.rms[b]),
-            **statistics(record, b, columns),
-        }
-
-    def _shaft(self, k: int, name: str) -> dict[str, Any]:
-        mean, rms, lowest, highest = self.record.shafts[k].tolist()
-        return {
-            "shaft": name,
-            "rms_voltage": rms,
-            "peak_voltage": max(abs(lowest), abs(highest)),
-            "mean_voltage": mean,
-            "lowest_voltage": lowest,
-            "highest_voltage": highest,
+            **whole_row(self.record),
+            "elements": [
+                {"element": name, **{_name_of(key): value for key, value in row.items()}}
+                for name, row in zip(self.names, rows, strict=True)
+            ],
+            "shafts": [
+                {"shaft": name, **{key: row[key] for key in _OF_SHAFTS}}
+                for name, row in zip(self.shafts, shafts, strict=True)
+            ],
         }
 
     def events(self) -> list[dict[str, Any]]:

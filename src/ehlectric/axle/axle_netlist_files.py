@@ -22,8 +22,9 @@ from ehlectric.drive import (
     about_source,
     check_targets,
     comment,
+    element_lines,
+    element_parameters,
     filled,
-    inductor_lines,
     measured_waveform,
     name_of,
     number,
@@ -96,14 +97,8 @@ class AxleNetlist:
             limit = self._limit(film)
             if film.conducts:
                 continue
-            if film.capacitance:
-                yield Parameter(f"C_{name}", film.capacitance, "F", film.name)
-            if film.inductance:
-                yield Parameter(f"L_{name}", film.inductance, "H", film.name)
-            if film.resistance:
-                yield Parameter(f"RL_{name}", film.resistance, "Ohm", f"in series with {film.name}")
-            if film.conductance:
-                yield Parameter(f"R_{name}", 1.0 / film.conductance, "Ohm", film.name)
+            for each in film.circuit(film.first, film.second):
+                yield from element_parameters(name, each, film.name, f"in series with {film.name}")
             if film.name in self.leaks:
                 yield Parameter(f"R_leak_{name}", 1.0 / self.leaks[film.name], "Ohm", f"leak of {film.name}")
             if limit is not None:
@@ -156,10 +151,9 @@ class AxleNetlist:
         if film.conducts:
             yield f"R_{name} {ends} {{R_metal}}"
             return
-        if film.inductance:
-            yield from inductor_lines(name, ends, damped=bool(film.resistance))
-        if film.conductance:
-            yield f"R_{name} {ends} {{R_{name}}}"
+        for each in film.circuit(film.first, film.second):
+            if each.kind != "capacitor":
+                yield from element_lines(name, each, *ends.split())
         if not film.capacitance:
             return
         leak = f" R_leak={{R_leak_{name}}}" if film.name in self.leaks else ""

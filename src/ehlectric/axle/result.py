@@ -12,13 +12,14 @@ from ehlectric.axle.axle_duty import AxleDuty, check_axle_duty, run_axle_duty
 from ehlectric.axle.axle_verdict import axle_verdict
 from ehlectric.axle.solution import AxleSolution, elements_of, solve_films
 from ehlectric.axle.stored import layout_of
-from ehlectric.axle.summary import ELEMENT_COLUMNS, axle_summary, tables_of_point
+from ehlectric.axle.summary import axle_summary, tables_of_point
 from ehlectric.axle.uncertainty import AxleUncertainty, has_chance, uncertainty_of
 from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.cases.library.estimated_bearings import is_estimated
 from ehlectric.errors import InputError
 from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
+from ehlectric.quantities.results import AXLE_ELEMENT_KEYS
 from ehlectric.quantities.unused_keys import given_keys, unused_note
 from ehlectric.quantities.verdict import Verdict
 from ehlectric.runtime.display import ResultKind, Shown, headline, read_only_property
@@ -229,7 +230,9 @@ class AxleResult(Shown):
         import pandas as pd
 
         frame = pd.DataFrame(axle_summary(self.solution)["elements"])
-        frame.attrs["units"] = {name: unit for name, unit in ELEMENT_COLUMNS.items() if name not in _TEXTS}
+        frame.attrs["units"] = {
+            name: about.unit for name, about in AXLE_ELEMENT_KEYS.items() if name not in _TEXTS
+        }
         return frame
 
     def key_numbers(self) -> tuple[str, ...]:

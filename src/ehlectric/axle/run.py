@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 from ehlectric.axle.result import AxleResult, solve_axle
 from ehlectric.axle.stored import SCHEMA, duty_of, solutions_of
 from ehlectric.axle.stored_discharges import discharges_of
-from ehlectric.axle.summary import ELEMENT_COLUMNS, SHAFT_COLUMNS
 from ehlectric.cases.axle_case import AxleCase
-from ehlectric.quantities.results import EVENT_COLUMNS
+from ehlectric.quantities.quantity import Quantity
+from ehlectric.quantities.results import AXLE_ELEMENT_KEYS, AXLE_SHAFT_KEYS, EVENT_COLUMNS
 from ehlectric.runtime.file_rules import check_format, number_of, refusing, text_of
 from ehlectric.runtime.files import Content, column_head, csv_of, json_of, plain, write_together
 from ehlectric.runtime.folders import RESULT_LOCK, alone_in
@@ -50,8 +50,8 @@ def save(result: AxleResult, folder: str | Path, *, replaced: Sequence[str] = ()
     summary = result.summary()
     contents: dict[str, Content] = {
         SUMMARY: json_of(plain(summary)),
-        ELEMENTS: _csv(summary["elements"], ELEMENT_COLUMNS),
-        SHAFTS: _csv(summary["shafts"], SHAFT_COLUMNS),
+        ELEMENTS: _csv(summary["elements"], AXLE_ELEMENT_KEYS),
+        SHAFTS: _csv(summary["shafts"], AXLE_SHAFT_KEYS),
         NETCDF: content_of(layout := result.layout()),
     }
     if result.duty is not None:
@@ -79,7 +79,7 @@ def result_of(dataset: xr.Dataset, path: Path) -> AxleResult:
     return AxleResult(solution, tuple(remedies), seconds, version, probable, duty, simulated)
 
 
-def _csv(rows: Sequence[Mapping[str, Any]], columns: Mapping[str, str]) -> Content:
+def _csv(rows: Sequence[Mapping[str, Any]], columns: Mapping[str, Quantity]) -> Content:
     """Rows as CSV, with the units of the columns in their heads."""
-    heads = [column_head(key, unit) for key, unit in columns.items()]
+    heads = [column_head(key, about.unit) for key, about in columns.items()]
     return csv_of(heads, ([row[key] for key in columns] for row in rows))

@@ -3,48 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from types import MappingProxyType
 from typing import Any
 
 from ehlectric.axle.solution import CONDUCTIONS, AxleSolution
 from ehlectric.cases.gear_inputs import Conduction
 from ehlectric.quantities.lubrication_states import word_without_ratio
-
-# Columns of elements.csv with their units: load and film, voltages after the edge, and the rank.
-ELEMENT_COLUMNS: Mapping[str, str] = MappingProxyType(
-    {
-        "element": "",
-        "state": "",
-        "touching": "",
-        "radial_load": "N",
-        "axial_load": "N",
-        "lambda_ratio": "",
-        "contact_time_share": "",
-        "capacitance": "F",
-        "breakdown_voltage": "V",
-        "voltage": "V",
-        "voltage_ratio": "",
-        "voltage_ratio_always": "",
-        "voltage_ratio_never": "",
-        "rank": "",
-        "rank_always": "",
-        "rank_never": "",
-        "energy": "J",
-    }
-)
-
-# Columns of shafts.csv with their units.
-SHAFT_COLUMNS: Mapping[str, str] = MappingProxyType(
-    {
-        "shaft": "",
-        "speed": "rad/s",
-        "torque": "N*m",
-        "voltage": "V",
-        "voltage_always": "V",
-        "voltage_never": "V",
-        "voltage_per_100_volt": "V",
-    }
-)
 
 
 def axle_summary(solution: AxleSolution) -> dict[str, Any]:
@@ -87,10 +50,8 @@ def tables_of_point(solution: AxleSolution) -> dict[str, Any]:
     and ``shafts`` by their keys, without their names.
     """
     case, tables = solution.case, axle_summary(solution)
-    elements = [{key: row[key] for key in ELEMENT_COLUMNS if key != "element"} for row in tables["elements"]]
-    shafts = {
-        row["shaft"]: {key: row[key] for key in SHAFT_COLUMNS if key != "shaft"} for row in tables["shafts"]
-    }
+    elements = [{key: row[key] for key in row if key != "element"} for row in tables["elements"]]
+    shafts = {row.pop("shaft"): row for row in tables["shafts"]}
     return {
         "edge": tables["edge"],
         "first": tables["first"],
@@ -119,39 +80,35 @@ def _ranked(solution: AxleSolution, conduction: Conduction) -> list[str]:
     return [name for name, _ in solution.ranking(conduction)]
 
 
+# Ends of keys by the assumption about the meshes.
+_ENDS = {conduction: "" if conduction == "by-film" else f"_{conduction}" for conduction in CONDUCTIONS}
+
+# Keys of an element in its row.
+_OF_ELEMENT = (
+    *("state", "touching", "radial_load", "axial_load", "lambda_ratio", "contact_time_share", "capacitance"),
+    "breakdown_voltage",
+)
+
+
 def _elements(solution: AxleSolution) -> list[dict[str, Any]]:
     """Rows of elements.csv."""
     voltages, energies = solution.voltages(), solution.energies()
     ranks = {conduction: _ranked(solution, conduction) for conduction in CONDUCTIONS}
     ratios = {conduction: solution.ratios(conduction) for conduction in CONDUCTIONS}
-    rows = []
-    for element in solution.elements:
-        places = {
-            conduction: names.index(element.name) + 1 if element.name in names else None
-            for conduction, names in ranks.items()
+    return [
+        {
+            "element": (name := element.name),
+            **{key: getattr(element, key) for key in _OF_ELEMENT},
+            "voltage": voltages[name],
+            **{f"voltage_ratio{end}": ratios[each].get(name) for each, end in _ENDS.items()},
+            **{
+                f"rank{end}": ranks[each].index(name) + 1 if name in ranks[each] else None
+                for each, end in _ENDS.items()
+            },
+            "energy": energies.get(name),
         }
-        rows.append(
-            {
-                "element": element.name,
-                "state": element.state,
-                "touching": element.touching,
-                "radial_load": element.radial_load,
-                "axial_load": element.axial_load,
-                "lambda_ratio": element.lambda_ratio,
-                "contact_time_share": element.contact_time_share,
-                "capacitance": element.capacitance,
-                "breakdown_voltage": element.breakdown_voltage,
-                "voltage": voltages[element.name],
-                "voltage_ratio": ratios["by-film"].get(element.name),
-                "voltage_ratio_always": ratios["always"].get(element.name),
-                "voltage_ratio_never": ratios["never"].get(element.name),
-                "rank": places["by-film"],
-                "rank_always": places["always"],
-                "rank_never": places["never"],
-                "energy": energies.get(element.name),
-            }
-        )
-    return rows
+        for element in solution.elements
+    ]
 
 
 def _shafts(solution: AxleSolution) -> list[dict[str, Any]]:
@@ -163,9 +120,7 @@ def _shafts(solution: AxleSolution) -> list[dict[str, Any]]:
             "shaft": shaft.name,
             "speed": solution.turning[shaft.name].speed,
             "torque": solution.turning[shaft.name].torque,
-            "voltage": voltages["by-film"][shaft.name],
-            "voltage_always": voltages["always"][shaft.name],
-            "voltage_never": voltages["never"][shaft.name],
+            **{f"voltage{end}": voltages[each][shaft.name] for each, end in _ENDS.items()},
             "voltage_per_100_volt": per_100[shaft.name],
         }
         for shaft in solution.case.shaft

@@ -12,7 +12,8 @@ from .drive_cycle import DriveDuty as DriveDuty
 from .drive_cycle import DriveDutyRows as DriveDutyRows
 from .drive_netlist_files import about_source as about_source
 from .drive_netlist_files import drive_netlist as drive_netlist
-from .drive_netlist_files import inductor_lines as inductor_lines
+from .drive_netlist_files import element_lines as element_lines
+from .drive_netlist_files import element_parameters as element_parameters
 from .drive_netlist_files import point_lines as point_lines
 from .drive_netlist_files import source_points as source_points
 from .drive_netlist_files import write_drive_netlist as write_drive_netlist
@@ -26,8 +27,9 @@ from .drive_record import VALUES as VALUES
 from .drive_record import VOLTAGE as VOLTAGE
 from .drive_record import Record as Record
 from .drive_record import event_rows as event_rows
-from .drive_record import rates as rates
-from .drive_record import statistics as statistics
+from .drive_record import film_row as film_row
+from .drive_record import shaft_row as shaft_row
+from .drive_record import whole_row as whole_row
 from .films_in_time import NetworkInTime as NetworkInTime
 from .films_in_time import TimedFilm as TimedFilm
 from .measurable import DriveModel as DriveModel
@@ -78,7 +80,6 @@ from .shaft_record import measured_shaft as measured_shaft
 from .source_in_time import SourceInTime as SourceInTime
 from .stored import SCHEMA as SCHEMA
 from .stored_record import StoredRecord as StoredRecord
-from .summary import both_summary as both_summary
 from .summary import checked_summary as checked_summary
 from .summary import end_summary as end_summary
 from .verdict_rule import drive_verdict as drive_verdict

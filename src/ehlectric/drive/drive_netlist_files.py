@@ -92,11 +92,11 @@ class DriveNetlist:
             signature=f"{SIGNATURE}test bench of a drive; ehlectric {__version__}",
             comments=[line for part in about for line in comment(part)],
             library=library,
-            parameters=[line for name, element in elements for line in _parameters(name, element)],
+            parameters=[line for name, each in elements for line in _parameters(name, each)],
             positive=positive,
             negative=negative,
             points=list(point_lines(points)),
-            elements=[line for name, element in elements for line in _element(name, element)],
+            elements=[line for name, each in elements for line in _lines(name, each)],
             step=number(step),
             duration=f"{points[-1][0]:.12g}",
             **{end: bearing.name for end, bearing in zip(ENDS, self.bearings, strict=True)},
@@ -234,38 +234,40 @@ def point_lines(points: Sequence[tuple[float, float]]) -> Iterator[str]:
 
 
 def _named(elements: Iterator[Element]) -> Iterator[tuple[str, Element]]:
-    """Elements with names after their nodes; a second one between two nodes has a number."""
-    seen: Counter[str] = Counter()
+    """Elements with names after their nodes; a second one of a kind between two nodes has a number."""
+    seen: Counter[tuple[str, str]] = Counter()
     for element in elements:
         first, second = (node.removeprefix("shaft ") for node in (element.first, element.second))
-        name = f"{_KINDS[element.kind][0]}_{first}_{second}"
-        seen[name] += 1
+        name = f"{first}_{second}"
+        seen[element.kind, name] += 1
+        number_of_name = seen[element.kind, name]
         named = replace(element, first=first, second=second)
-        yield name if seen[name] == 1 else f"{name}_{seen[name]}", named
+        yield name if number_of_name == 1 else f"{name}_{number_of_name}", named
 
 
 def _parameters(name: str, element: Element) -> Iterator[str]:
+    between = f"{element.first} to {element.second}"
+    for parameter in element_parameters(name, element, between, "in series with it"):
+        yield f".param {parameter.line}"
+
+
+def _lines(name: str, element: Element) -> Iterator[str]:
+    return element_lines(name, element, _NODES[element.first], _NODES[element.second])
+
+
+def element_parameters(name: str, element: Element, meaning: str, series: str) -> Iterator[Parameter]:
+    """Parameters of an element with a name: its value, and a resistance in ``series`` with an inductance."""
     letter, unit = _KINDS[element.kind]
     value = 1.0 / element.value if letter == "R" else element.value
-    yield f".param {Parameter(name, value, unit, f'{element.first} to {element.second}').line}"
-    if element.kind == "inductor" and element.resistance:
-        yield f".param {Parameter(f'R{name}', element.resistance, 'Ohm', 'in series with it').line}"
+    yield Parameter(f"{letter}_{name}", value, unit, meaning)
+    if element.resistance:
+        yield Parameter(f"RL_{name}", element.resistance, "Ohm", series)
 
 
-def _element(name: str, element: Element) -> Iterator[str]:
-    """Lines of an element; an inductor has its resistance behind it."""
-    first, second = _NODES[element.first], _NODES[element.second]
-    if element.kind == "inductor":
-        ends = f"{first} {second}"
-        yield from inductor_lines(name.removeprefix("L_"), ends, damped=bool(element.resistance))
-    else:
-        yield f"{name} {first} {second} {{{name}}}"
-
-
-def inductor_lines(name: str, ends: str, *, damped: bool) -> Iterator[str]:
-    """Lines of an inductor between two nodes, with the resistance behind it if it is ``damped``."""
-    first, second = ends.split()
-    inner = f"inner_L_{name}" if damped else second
-    yield f"L_{name} {first} {inner} {{L_{name}}}"
-    if damped:
+def element_lines(name: str, element: Element, first: str, second: str) -> Iterator[str]:
+    """Lines of an element between two nodes; an inductor has its resistance behind it."""
+    letter, _ = _KINDS[element.kind]
+    inner = f"inner_L_{name}" if element.resistance else second
+    yield f"{letter}_{name} {first} {inner} {{{letter}_{name}}}"
+    if element.resistance:
         yield f"RL_{name} {inner} {second} {{RL_{name}}}"

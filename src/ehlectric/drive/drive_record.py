@@ -171,6 +171,39 @@ def statistics(record: Record, b: int, columns: Mapping[str, int]) -> dict[str, 
     return values
 
 
+def film_row(record: Record, b: int) -> dict[str, Any]:
+    """Row of a film: rate of its discharges with bounds, their power and statistics, and its voltages."""
+    counts, duration = record.counts[b], record.duration
+    return {
+        **_rate_row(counts, float(record.sums[b, ENERGY]), duration),
+        "peak_voltage": float(record.peak[b]),
+        "rms_voltage": float(record.rms[b]),
+        **statistics(record, b, VALUES),
+    }
+
+
+def whole_row(record: Record) -> dict[str, Any]:
+    """Row of all films together: rate of their discharges with bounds, and their power."""
+    total = float(np.sum(record.sums[:, ENERGY]))
+    return _rate_row(np.sum(record.counts, axis=0), total, record.duration)
+
+
+def shaft_row(mean: float, rms: float, lowest: float, highest: float) -> dict[str, float]:
+    """Row of a shaft from its voltages against the housing [V]."""
+    return {
+        "rms_voltage": rms,
+        "mean_voltage": mean,
+        "lowest_voltage": lowest,
+        "highest_voltage": highest,
+        "peak_voltage": max(abs(lowest), abs(highest)),
+        "peak_to_peak": highest - lowest,
+    }
+
+
+def _rate_row(counts: Array, energy: float, duration: float) -> dict[str, Any]:
+    return {"events": int(np.sum(counts)), **rates(counts, duration), "power": energy / duration}
+
+
 # Columns of a record by the names of the table of events.
 _RECORDED = {"time": ON, "duration": OFF, **VALUES}
 

@@ -59,6 +59,15 @@ class Film:
     inductance: float = 0.0  # [H]
     resistance: float = 0.0  # in series with the inductance [Ohm]
 
+    def circuit(self, first: str, second: str) -> Iterator[Element]:
+        """Capacitor, conductor or inductor between two nodes of a circuit, for an element that insulates."""
+        if self.inductance:
+            yield Element("inductor", first, second, self.inductance, self.resistance)
+        elif self.capacitance or not self.conductance:
+            yield Element("capacitor", first, second, self.capacitance)
+        if self.conductance:
+            yield Element("conductor", first, second, self.conductance)
+
 
 @dataclass(frozen=True)
 class Breakdown:
@@ -153,14 +162,8 @@ class Network:
         """Capacitors, conductors and inductors of all elements that do not conduct, between their nodes."""
         for element in self.elements:
             first, second = self.nodes[element.first], self.nodes[element.second]
-            if first == second:
-                continue
-            if element.inductance:
-                yield Element("inductor", first, second, element.inductance, element.resistance)
-            elif element.capacitance or not element.conductance:
-                yield Element("capacitor", first, second, element.capacitance)
-            if element.conductance:
-                yield Element("conductor", first, second, element.conductance)
+            if first != second:
+                yield from element.circuit(first, second)
 
     @property
     def equations(self) -> StateSpace:

@@ -16,16 +16,15 @@ from ehlectric.discharge.discharge_laws import CURRENT_DENSITY_LIMITS
 from ehlectric.drive.drive_bearings import BearingElement
 from ehlectric.drive.drive_record import (
     BOUNDS,
-    ENERGY,
     FILM,
     OFF,
     ON,
-    VALUES,
     DriveSolution,
     Record,
-    rates,
+    film_row,
+    shaft_row,
     spread,
-    statistics,
+    whole_row,
 )
 from ehlectric.drive.inverter import edge_rate
 from ehlectric.drive.verdict_rule import drive_verdict
@@ -51,18 +50,16 @@ def drive_summary(solution: DriveSolution) -> dict[str, Any]:
         "duration": record.duration,
         "periods": None if fundamental is None else record.duration * fundamental,
         "seed": case.drive.seed,
-        **both_summary(solution),
+        **whole_row(record),
     }
     tables = _tables(case, solution.highest_source, drive, ends)
     tables["source"] |= plain({"peak_to_peak": record.source_highest - record.source_lowest})
-    shaft = {
-        "rms_voltage": record.shaft_rms,
-        "mean_voltage": record.shaft_mean,
-        "highest_voltage": record.shaft_highest,
-        "lowest_voltage": record.shaft_lowest,
-        "peak_to_peak": record.shaft_highest - record.shaft_lowest,
-    }
-    return {**tables, "shaft": plain(shaft)}
+    row = shaft_row(record.shaft_mean, record.shaft_rms, record.shaft_lowest, record.shaft_highest)
+    return {**tables, "shaft": plain({key: row[key] for key in _OF_SHAFT})}
+
+
+# Keys of the shaft.
+_OF_SHAFT = ("rms_voltage", "mean_voltage", "highest_voltage", "lowest_voltage", "peak_to_peak")
 
 
 def _tables(
@@ -95,17 +92,6 @@ def edges_per_second(case: DriveCase) -> float | None:
     return None if source.measured else edge_rate(source)
 
 
-def both_summary(solution: DriveSolution) -> dict[str, Any]:
-    """Return the discharges of both bearings together: number, rate with its bounds, and power."""
-    record = solution.record
-    counts = np.sum(record.counts, axis=0)
-    return {
-        "events": int(np.sum(counts)),
-        **rates(counts, record.duration),
-        "power": float(np.sum(record.sums[:, ENERGY])) / record.duration,
-    }
-
-
 def end_summary(solution: DriveSolution, b: int) -> dict[str, Any]:
     """Summary of the bearing at one end: its film, its voltage, and its events."""
     case, record, bearing = solution.case, solution.record, solution.elements[b]
@@ -114,8 +100,6 @@ def end_summary(solution: DriveSolution, b: int) -> dict[str, Any]:
         **_film(case, bearing, ENDS[b]),
         "voltage_ratio": solution.divider[b],
         "waveform_ratio": peak / solution.highest_source,
-        "peak_voltage": peak,
-        "rms_voltage": float(record.rms[b]),
         "burning_time_share": float(record.burning[b]) / record.duration,
         "time_above": {
             f"{limit:g}": float(time) / record.duration
@@ -171,13 +155,10 @@ def _events(record: Record, b: int, edges: float | None) -> dict[str, Any]:
     """Rate and distributions of the events of a film."""
     count, rows = int(np.sum(record.counts[b])), record.events[record.events[:, FILM] == b]
     values: dict[str, Any] = {
-        "events": count,
-        **rates(record.counts[b], record.duration),
+        **film_row(record, b),
         "events_per_second_positive": float(record.positive[b]) / record.duration,
         "events_per_second_negative": (count - float(record.positive[b])) / record.duration,
         "events_per_edge": None if edges is None else count / record.duration / edges,
-        "power": float(record.sums[b, ENERGY]) / record.duration,
-        **statistics(record, b, VALUES),
     }
     lasting = rows[:, OFF] - rows[:, ON]
     mean = float(record.sums[b, OFF] - record.sums[b, ON]) / count if count else None

@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
 from ehlectric.arrays import Array
-from ehlectric.drive import CHARGE, ENERGY, FILM, ON, PEAK, VOLTAGE, DriveResult, both_summary, end_summary
+from ehlectric.drive import CHARGE, ENERGY, FILM, ON, PEAK, VOLTAGE, DriveResult, end_summary, whole_row
 from ehlectric.figures.bearing_figures import prefixed
 from ehlectric.figures.data import Along, Area, Curve, Panel, Upright, is_wide
 from ehlectric.figures.draw import draw_panel, line_look
@@ -383,7 +383,7 @@ def variants(result: DriveResult) -> Iterator[Variant]:
     """Yield the name and the summaries of the unchanged drive and each remedy: per bearing, and sums."""
     solutions = [(AS_IT_IS, result.solution), *((title, remedied) for title, _, remedied in result.remedies)]
     for name, solution in solutions:
-        yield name, [*(end_summary(solution, b) for b in range(len(ENDS))), both_summary(solution)]
+        yield name, [*(end_summary(solution, b) for b in range(len(ENDS))), whole_row(solution.record)]
 
 
 def rates_of(variants: Sequence[Variant]) -> tuple[Along, Panel]:
