@@ -465,9 +465,12 @@ class AxleCase(NetworkCase, book="axle_file"):
             table = tables[kind][number]
             tables = {"axle": {kind: table}}
             if kind == "bearing":
-                own = {"bearing": self.tables_of_bearings[number], "lubricant": self.oil_of(number)}
-                own["discharge"] = self.strength_of(number)
-                tables = {table: values.model_dump(mode="json") for table, values in own.items()}
+                solved = {
+                    "bearing": self.tables_of_bearings[number],
+                    "lubricant": self.oil_of(number),
+                    "discharge": self.strength_of(number),
+                }
+                tables = {table: values.model_dump(mode="json") for table, values in solved.items()}
             elif kind == "mesh":
                 tables = table["pair"]
         return given_value(tables, inner)
@@ -737,7 +740,7 @@ class AxleCase(NetworkCase, book="axle_file"):
             raise InputError.worded(key, f"has no effect, as each bearing has its own; vary {known}")
 
     def _change_entries(self, table: dict[str, Any], key: str, change: Mapping[str, Any]) -> None:
-        """Change a key of all bearings of a shaft, of a shaft or of a force in the tables of a case."""
+        """Change a key of a shaft, its bearings or a force in the tables of a case."""
         kind = key.partition(".")[0]
         for number in self.places_of(key):
             _set_in(kind, table[kind][number], change)
@@ -849,10 +852,10 @@ def changed_bearings(case: AxleCase, values: Mapping[int, Mapping[str, float]]) 
 
 def _set_in(name: str, table: dict[str, Any], change: Mapping[str, Any]) -> dict[str, Any]:
     """Set dotted keys of a table with a name, and remove their alternatives from it and from its own oil."""
-    own = {name: table, **table}
+    tables = {name: table, **table}
     flat = {f"{name}.{key}": value for key, value in change.items()} | flattened(change)
     displace_oil(table.get("lubricant", {}), nested(change, "lubricant"))
-    displace(own, flat, {each: ALTERNATIVES[each] for each in (name, *_OF_OIL) if each in ALTERNATIVES})
+    displace(tables, flat, {each: ALTERNATIVES[each] for each in (name, *_OF_OIL) if each in ALTERNATIVES})
     set_keys(table, change)
     return table
 

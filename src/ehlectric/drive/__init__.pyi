@@ -23,7 +23,6 @@ from .drive_record import FILM as FILM
 from .drive_record import ON as ON
 from .drive_record import PEAK as PEAK
 from .drive_record import SIMULATING as SIMULATING
-from .drive_record import VALUES as VALUES
 from .drive_record import VOLTAGE as VOLTAGE
 from .drive_record import Record as Record
 from .drive_record import event_rows as event_rows

@@ -71,7 +71,7 @@ class StoredRecord:
         )
 
     def _part(self, kind: type[Any], prefix: str = "", **changed: Mapping[str, Any]) -> Part:
-        """Variables of the fields of a class, of an axle with names and dimensions of this record."""
+        """Variables for the fields of a class; in an axle, names begin with this record."""
         if not self.name:
             return Part(kind, self.over, prefix)
         entries = arrays_of(kind)
@@ -92,7 +92,7 @@ class StoredRecord:
 
     @property
     def others(self) -> dict[str, tuple[str, tuple[str, ...]]]:
-        """Names and dimensions of the variables of fields that the part of the record does not contain."""
+        """Names and dimensions of variables for the fields that the part of the record does not contain."""
         if not self.name:
             return {"limits": ("limit", ("limit",))}
         limit, shaft, value = map(self.dimension, ("limit", "shaft", "value"))
