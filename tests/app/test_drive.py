@@ -1,10 +1,12 @@
 """Page of a drive: its first answer, its simulation, its remedies, and what is told of wrong values."""
 
+import math
 import tomllib
 import zipfile
 
 import pytest
 
+from ehlectric import DriveCase
 from tests.app.driving import (
     complete,
     field,
@@ -233,3 +235,31 @@ def test_remedies_of_a_bearing_follow_its_inputs_on_a_phone(open_page, app_serve
     page.get_by_test_id("choose-hybrid").wait_for(state="hidden")
     page.get_by_test_id("helps-effect").wait_for(state="hidden")
     assert page.get_by_test_id("verdict").get_attribute("data-level") == "green"
+
+
+@pytest.mark.slow
+def test_the_rotor_gives_the_loads_of_both_bearings(open_page, app_server, tmp_path):
+    """Its weight and a force replace the given loads, which come back without it."""
+    page = open_page(app_server, "/drive")
+    wait_for_number(page, "end.voltage_at_peak", AT_PEAK)
+    page.get_by_test_id("group-weight-and-forces-of-the-rotor").locator("summary").first.click()
+    page.get_by_test_id("switch-weight-and-forces-of-the-rotor").check()
+    page.wait_for_function("location.search.includes('rotor.mass')")
+    assert "radial_load" not in page.url
+    assert field(page, "rotor.mass").is_visible()
+    assert page.get_by_test_id("field-drive_end-bearing-radial_load").count() == 0
+    page.get_by_test_id("add-force").click()
+    page.wait_for_function("location.search.includes('force')")
+    type_into(page, "force.1.x", "800")
+    page.wait_for_function("location.search.includes('800')")
+    path = downloaded(page, "download-toml", tmp_path)
+    # 20 kg in the middle, and 800 N at a lever of 230 mm over 180 mm.
+    case = DriveCase.from_toml(path)
+    expected = math.hypot(10.0 * 9.80665, 800.0 * 230.0 / 180.0)
+    assert case.bearings[0].bearing.radial_load == pytest.approx(expected, rel=1e-12)
+    page.get_by_test_id("remove-force-1").click()
+    page.wait_for_function("!location.search.includes('force')")
+    page.get_by_test_id("switch-weight-and-forces-of-the-rotor").uncheck()
+    page.wait_for_function("location.search.includes('radial_load')")
+    assert field(page, "drive_end.bearing.radial_load").input_value() == "1000 N"
+    assert fits(page)

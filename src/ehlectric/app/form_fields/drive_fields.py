@@ -204,6 +204,7 @@ _SHOWN = {
     "circuit.grounding_ring_resistance": {"when": equal("circuit.grounding_ring_table", None)},
     "breakdown.extinction_current": {"when": given("breakdown.extinction_current")},
     "breakdown.extinction_voltage": {"when": equal("breakdown.extinction_current", None)},
+    **dict.fromkeys(("rotor.mass", "rotor.mass_at"), {"optional": False}),
 }
 _LISTS = {
     "source.pole_pairs": _described,
