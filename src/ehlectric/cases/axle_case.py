@@ -32,7 +32,7 @@ from ehlectric.cases.bearing_inputs import Bearing, base_of, typed_base
 from ehlectric.cases.bearing_kinds import KINDS_OF_BEARINGS
 from ehlectric.cases.case_oil import Lubricant
 from ehlectric.cases.discharge_inputs import AxleDischarge
-from ehlectric.cases.drive_case import NetworkCase, Remedy
+from ehlectric.cases.drive_case import NetworkCase, Remedy, with_files
 from ehlectric.cases.drive_inputs import Breakdown, Circuit, ShaftForce, Source
 from ehlectric.cases.duty_inputs import Duty
 from ehlectric.cases.gear_case import GearCase
@@ -916,12 +916,14 @@ def _divided(name: str, driven: Mapping[str, str]) -> InputError:
 
 
 def with_gear_files(table: Mapping[str, Any], folder: Path) -> dict[str, Any]:
-    """Tables of an axle with the tables of its gear files, and the path of its duty cycle; file names are
-    relative to a folder.
+    """Tables of a case of any kind with the tables of its bearing files and gear files, and with the paths of
+    all other files.
+
+    Names are relative to a folder. Raises InputError if a file cannot be read or is not valid.
     """
-    tables = deepcopy(dict(table))
+    tables = with_files(table, folder)
     mounted = tables.get("bearing")
-    for each in (tables, *(mounted if isinstance(mounted, list) else ())):
+    for each in mounted if isinstance(mounted, list) else ():
         if isinstance(each, dict):
             find_files(each, folder)
     meshes = tables.get("mesh")

@@ -29,7 +29,7 @@ from ehlectric.bearing import (
 from ehlectric.cases.axle_case import AxleCase, changed_axle
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.gear_case import GearCase, changed_pair
-from ehlectric.cases.solved_case import SolvedCase
+from ehlectric.cases.solved_case import SolvedCase, model_of
 from ehlectric.cases.table import by_table
 from ehlectric.gear import GearResult, solve_gear_pairs
 from ehlectric.quantities.result_warnings import CODES, CODES_OF_TEXTS, TEXTS
@@ -59,7 +59,7 @@ class Batch:
     def table_of(self, place: int) -> dict[str, Any]:
         """Tables of the case of a point."""
         values = {key: float(column[place]) for key, column in self.values.items()}
-        if "shaft" in self.table:
+        if model_of(self.table) is AxleCase:
             # Keys of an axle name shafts and numbers of meshes.
             return AxleCase.from_dict(self.table).replace(values).to_dict()
         return {**_with_values(self.table, values)}
@@ -164,10 +164,9 @@ def solve_batch(batch: Batch) -> list[Outcome] | None:
 
     Points without a result are solved one by one here, for the reason.
     """
-    if "shaft" in batch.table:
-        return _outcomes(batch, _axle_summaries)
-    if "gear" in batch.table:
-        return _outcomes(batch, _gear_summaries)
+    of_tables = _SUMMARIES.get(model_of(batch.table))
+    if of_tables is not None:
+        return _outcomes(batch, of_tables)
     started = time.perf_counter()
     try:
         case = BearingCase.from_dict(batch.table).with_arrays(batch.values)
@@ -217,6 +216,13 @@ def _axle_summaries(batch: Batch) -> Iterator[_Summary]:
             if isinstance(solution, Exception)
             else AxleResult(solution, probable=False).point_summary()
         )
+
+
+# Summaries of the points of a batch that are solved together, by the class of its case.
+_SUMMARIES: Mapping[type[Any] | None, Callable[[Batch], Iterator[_Summary]]] = {
+    AxleCase: _axle_summaries,
+    GearCase: _gear_summaries,
+}
 
 
 def _outcomes(batch: Batch, summaries: Callable[[Batch], Iterator[_Summary]]) -> list[Outcome] | None:

@@ -18,13 +18,13 @@ from pydantic.fields import FieldInfo
 from ehlectric.arrays import Array
 from ehlectric.bearing import LEAST_SAMPLES, MOST_SAMPLES
 from ehlectric.cases.amounts import INFINITE, WRITTEN, Amount, AmountOrWord, Count
-from ehlectric.cases.axle_case import AxleCase
+from ehlectric.cases.axle_case import AxleCase, with_gear_files
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case, check_changes
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.gear_case import GearCase
 from ehlectric.cases.input_keys import input_field, is_of_axle, is_of_drive, key_of_names, kind_of
-from ehlectric.cases.solved_case import SolvedCase, solved_case_of_dict, solved_case_of_file, with_files_of
+from ehlectric.cases.solved_case import SolvedCase, solved_case_of_dict, solved_case_of_file
 from ehlectric.cases.table import (
     Table,
     Title,
@@ -456,7 +456,7 @@ class Sweep(Tabled, Table):
             case str(name):
                 table["case"] = str(folder / name)
             case dict(inner):
-                table["case"] = with_files_of(inner, folder)
+                table["case"] = with_gear_files(inner, folder)
         if isinstance(table.get("vary"), dict):
             _locate(table["vary"], folder)
         return cls.from_written(table)

@@ -190,7 +190,7 @@ _measured = given("source.file")
 _described = equal("source.file", None)
 _capacitances = equal("circuit.machine", None)
 _RINGING = ("overshoot", "ringing_frequency", "ringing_time")
-_SHOWN = {
+_SHOWN: dict[str, dict[str, Any]] = {
     **{f"source.{key}": {"when": _described} for key in DESCRIBED},
     **{f"source.{key}": {"when": _measured} for key in MEASURED},
     **{
@@ -204,7 +204,7 @@ _SHOWN = {
     "circuit.grounding_ring_resistance": {"when": equal("circuit.grounding_ring_table", None)},
     "breakdown.extinction_current": {"when": given("breakdown.extinction_current")},
     "breakdown.extinction_voltage": {"when": equal("breakdown.extinction_current", None)},
-    **dict.fromkeys(("rotor.mass", "rotor.mass_at"), {"optional": False}),
+    **{key: {"optional": False} for key in ("rotor.mass", "rotor.mass_at")},
 }
 _LISTS = {
     "source.pole_pairs": _described,
