@@ -916,8 +916,7 @@ def _divided(name: str, driven: Mapping[str, str]) -> InputError:
 
 
 def with_gear_files(table: Mapping[str, Any], folder: Path) -> dict[str, Any]:
-    """Tables of a case of any kind with the tables of its bearing files and gear files, and with the paths of
-    all other files.
+    """Tables of any case with the tables of its bearing and gear files, and the paths of all other files.
 
     Names are relative to a folder. Raises InputError if a file cannot be read or is not valid.
     """
