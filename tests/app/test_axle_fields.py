@@ -131,7 +131,9 @@ def refusal(inputs):
 def test_numbers_in_remedies_follow_a_removed_mesh():
     changes = [{"mesh.1.gear.flank_ra": "1 um"}, {"mesh.2.gear.flank_ra": "1 um"}]
     remedies = [{"title": str(n), "changes": each} for n, each in enumerate(changes)]
-    after = without_table(AXLE.changed({"remedies": remedies}), "mesh", 1)
+    ranges = {"mesh.1.gear.flank_ra": ["1 um", "2 um"], "mesh.2.gear.flank_ra": ["1 um", "3 um"]}
+    after = without_table(AXLE.changed({"remedies": remedies, "ranges": ranges}), "mesh", 1)
+    assert after.value("ranges") == {"mesh.1.gear.flank_ra": ["1 um", "3 um"]}
     assert after.value("remedies") == [{"title": "1", "changes": {"mesh.1.gear.flank_ra": "1 um"}}]
 
 

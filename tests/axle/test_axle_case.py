@@ -321,3 +321,38 @@ def test_a_mesh_that_raises_the_speed_has_a_note():
     (note,) = (warning for warning in swapped.warnings if warning.code == "speed-raised")
     assert "shaft output" in note.text
     assert "speed-raised" not in [warning.code for warning in usual.warnings]
+
+
+def test_all_wrong_tables_are_named_at_once():
+    """Each with its key, and with the names of shafts; also ranges and remedies."""
+    tables = two_stages(remedies=[]).to_dict()
+    force = [{"at": 0.0, "x": "1 N"}, {"shaft": "nope", "at": "0 mm"}]
+    link = [{"between": ["rotor", "x"], "kind": "ring", "resistance": "1 ohm"}]
+    ranges = {"force.1.x": ["1 N", "2 N"], "shaft.nope.mass": ["1 kg", "2 kg"]}
+    changes = [{"title": key, "changes": {key: "3 N"}} for key in ("force.1.x", "shaft.nope.mass")]
+    alone = {**ALONE, "bearing": [{"shaft": "rotor", "at": at, "base": "6208"} for at in ("0 mm", "80 mm")]}
+    expected = {
+        ("force.1.shaft", "force.2.shaft", "link.1.between"): lambda: AxleCase.from_dict(
+            tables | {"force": force, "link": link}
+        ),
+        ("force.1.x", "shaft.nope.mass"): lambda: AxleCase.from_dict(tables | {"ranges": ranges}),
+        ("remedies.1.changes.force.1.x", "remedies.2.changes.shaft.nope.mass"): lambda: AxleCase.from_dict(
+            tables | {"remedies": changes}
+        ).variants(),
+        ("bearing.1.radial_load", "bearing.2.radial_load"): lambda: AxleCase.from_dict(alone),
+    }
+    for keys, make in expected.items():
+        with pytest.raises(InputError) as refused:
+            make()
+        assert tuple(error.key for error in refused.value.several) == keys
+        if keys[0] == "force.1.shaft":
+            assert "'rotor', 'intermediate', 'output'" in str(refused.value)
+
+
+def test_an_uncertainty_of_one_bearing_names_its_shaft():
+    """A range holds for both bearings of a shaft."""
+    tables = two_stages().to_dict()
+    tables["bearing"][1]["composite_rq"] = "0.1 um +- 0.02 um"
+    with pytest.raises(InputError, match=r"bearing\.rotor\.composite_rq' in \[ranges\]") as refused:
+        AxleCase.from_dict(tables)
+    assert refused.value.key == "bearing.2.composite_rq"

@@ -211,7 +211,7 @@ def _films_in_time(solved: SolvedFilms, breakdown: Breakdown, conducting: set[st
     if missing:
         raise InputError.together(missing)
     for each in films:
-        check_extinction(breakdown, each.film, each.name)
+        check_extinction(breakdown, each.film.breakdown, each.name)
     return films
 
 

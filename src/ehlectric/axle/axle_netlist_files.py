@@ -9,7 +9,6 @@ from pathlib import Path
 from ehlectric.axle.solution import AxleSolution, Element, SolvedFilms, elements_of, solve_films
 from ehlectric.bearing import oil_conductance, oil_relaxation_time, shaft_path
 from ehlectric.cases.axle_case import AxleCase
-from ehlectric.cases.drive_inputs import Breakdown
 from ehlectric.drive import (
     EARTH,
     HOUSING,
@@ -20,6 +19,7 @@ from ehlectric.drive import (
     Film,
     Parameter,
     about_source,
+    check_extinction,
     check_targets,
     comment,
     element_lines,
@@ -32,7 +32,6 @@ from ehlectric.drive import (
     source_points,
     write_files,
 )
-from ehlectric.errors import InputError
 from ehlectric.quantities.formats import amount, operating_point
 from ehlectric.quantities.quantity import data_file
 from ehlectric.runtime.progress import Progress, silent
@@ -224,7 +223,8 @@ def axle_netlist(case: AxleCase, progress: Progress = silent) -> AxleNetlist:
     films = solve_films(case, progress)
     solution = elements_of(films)
     if case.breakdown is not None:
-        _check_arc(case.breakdown, solution)
+        for name, limit in solution.breakdown_voltages.items():
+            check_extinction(case.breakdown, limit, name)
     return AxleNetlist(solution, dict(leaks_of(films)))
 
 
@@ -241,17 +241,6 @@ def leaks_of(films: SolvedFilms) -> Iterator[tuple[str, float]]:
     for name, gears in zip(films.case.names_of_meshes(), films.meshes, strict=True):
         if gears.relaxation_time is not None:
             yield name, float(gears.loads.mean(gears.capacitance)) / gears.relaxation_time
-
-
-def _check_arc(breakdown: Breakdown, solution: AxleSolution) -> None:
-    """Refuse an arc that would go out above the breakdown voltage of an element."""
-    for name, limit in solution.breakdown_voltages.items():
-        if breakdown.lowest_voltage >= limit:
-            raise InputError(
-                f"breakdown.{breakdown.extinction_key}",
-                got=f"an arc that goes out at {breakdown.lowest_voltage:.4g} V",
-                takes=f"less than {limit:.4g} V, the breakdown voltage of {name}",
-            )
 
 
 def write_axle_netlist(

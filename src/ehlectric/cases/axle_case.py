@@ -53,7 +53,7 @@ from ehlectric.cases.roughness_inputs import find_files
 from ehlectric.cases.stated_ranges import with_stated_ranges
 from ehlectric.cases.table import Table, Title, number_of
 from ehlectric.cases.table_edits import displace, flattened, given_value, nested, set_keys
-from ehlectric.errors import InputError, shown, within
+from ehlectric.errors import InputError, for_all, shown, within
 from ehlectric.quantities.alternatives import ALTERNATIVES
 from ehlectric.quantities.formats import amount, operating_point, speed_text
 from ehlectric.quantities.inputs import end_and_key
@@ -427,33 +427,30 @@ class AxleCase(NetworkCase, book="axle_file"):
     @model_validator(mode="after")
     def _check(self) -> Self:
         self._check_names()
-        self._check_bearings()
+        for_all(self._check_bearings, self.shaft)
         if self.mesh and not (self.force or any(shaft.mass is not None for shaft in self.shaft)):
             with within("drive"):
                 self.drive.check_not_zero("torque", "no mesh carries a load")
         turning = self.turning()
         self._check_gears()
-        self._check_loads()
-        for number in range(len(self.mesh)):
-            self.gear_case(number, turning)
-        for number in range(len(self.bearing)):
-            kind = self._kind_of(number)
-            if kind in KINDS_OF_BEARINGS and not KINDS_OF_BEARINGS[kind].radial:
-                raise InputError(
-                    f"bearing.{number + 1}.base",
-                    got=f"a {kind} bearing",
-                    takes="one that carries radial loads",
-                )
+        for_all(self._check_load, range(len(self.bearing)))
+        for_all(lambda number: self.gear_case(number, turning), range(len(self.mesh)))
+        for_all(self._check_kind, range(len(self.bearing)))
         axial = {name for mesh in self.mesh if mesh.pair.gear.helix_angle for name in mesh.gears}
         axial |= {shaft for shaft, force in self.placed_forces if force.z}
-        for shaft in self.shaft:
+
+        def check_axial(shaft: Shaft) -> None:
             if self._check_adjusted(shaft) is None:
                 self._check_locating(shaft, axial=shaft.name in axial)
+
+        for_all(check_axial, self.shaft)
         self._check_measured()
-        for span in self.ranges or ():
-            self.check_shared(span.key)
-            check_range(span, self.value_of(span.key))
+        for_all(self._check_span, self.ranges or ())
         return self
+
+    def _check_span(self, span: InputRange) -> None:
+        self.check_shared(span.key)
+        check_range(span, self.value_of(span.key))
 
     def value_of(self, key: str) -> Any:
         """Return the value of a dotted key as ``replace`` takes it, of several parts the first."""
@@ -511,26 +508,29 @@ class AxleCase(NetworkCase, book="axle_file"):
                 for name in link.between
             ),
         )
-        for key, name, housing in places:
+
+        def check_place(place: tuple[str, str, bool]) -> None:
+            key, name, housing = place
             if name not in names and not (housing and name == HOUSING):
                 takes = ", ".join(map(repr, [*names, HOUSING] if housing else names))
                 raise InputError(key, got=repr(name) if name else None, takes=f"one of {takes}")
 
-    def _check_bearings(self) -> None:
-        """Check that each shaft has two bearings."""
-        for place, shaft in enumerate(self.shaft, 1):
-            numbers = self.bearings_of(shaft.name)
-            if not numbers:
-                raise InputError.worded(
-                    f"shaft.{place}.name",
-                    f"shaft {shaft.name!r} has no path to the housing; give it two bearings",
-                )
-            if len(numbers) != 2:
-                raise InputError(
-                    f"bearing.{numbers[-1] + 1}.shaft",
-                    got=f"{len(numbers)} on shaft {shaft.name!r}",
-                    takes="two: the loads of more bearings do not follow from statics",
-                )
+        for_all(check_place, places)
+
+    def _check_bearings(self, shaft: Shaft) -> None:
+        """Check that a shaft has two bearings."""
+        numbers = self.bearings_of(shaft.name)
+        if not numbers:
+            raise InputError.worded(
+                f"shaft.{self.shaft.index(shaft) + 1}.name",
+                f"shaft {shaft.name!r} has no path to the housing; give it two bearings",
+            )
+        if len(numbers) != 2:
+            raise InputError(
+                f"bearing.{numbers[-1] + 1}.shaft",
+                got=f"{len(numbers)} on shaft {shaft.name!r}",
+                takes="two: the loads of more bearings do not follow from statics",
+            )
 
     def _check_locating(self, shaft: Shaft, *, axial: bool) -> None:
         """Check that one bearing carries the axial force of a shaft."""
@@ -639,18 +639,24 @@ class AxleCase(NetworkCase, book="axle_file"):
                     takes="places at least half of both face widths apart, or one gear with two meshes",
                 )
 
-    def _check_loads(self) -> None:
-        """Check that bearings have no load if it follows from statics, and all others have one."""
-        loaded = self.loaded_shafts
-        for number, bearing in enumerate(self.bearing, 1):
-            load = "axial" if "axial_load" in bearing.keys and "radial_load" not in bearing.keys else "radial"
-            key, name = f"bearing.{number}.{load}_load", bearing.shaft
-            if name in loaded and bearing.loaded:
-                text = f"shaft {name!r} has gears, a mass or a force, from which its loads follow"
-                raise InputError.worded(key, text)
-            if name not in loaded and not bearing.loaded:
-                text = f"missing; shaft {name!r} has no gears, no mass and no force that load its bearings"
-                raise InputError.worded(key, text)
+    def _check_load(self, number: int) -> None:
+        """Check that a bearing has no load if it follows from statics, and otherwise has one."""
+        bearing, loaded = self.bearing[number], self.loaded_shafts
+        load = "axial" if "axial_load" in bearing.keys and "radial_load" not in bearing.keys else "radial"
+        key, name = f"bearing.{number + 1}.{load}_load", bearing.shaft
+        if name in loaded and bearing.loaded:
+            text = f"shaft {name!r} has gears, a mass or a force, from which its loads follow"
+            raise InputError.worded(key, text)
+        if name not in loaded and not bearing.loaded:
+            text = f"missing; shaft {name!r} has no gears, no mass and no force that load its bearings"
+            raise InputError.worded(key, text)
+
+    def _check_kind(self, number: int) -> None:
+        """Check that a bearing carries radial loads."""
+        kind = self._kind_of(number)
+        if kind in KINDS_OF_BEARINGS and not KINDS_OF_BEARINGS[kind].radial:
+            takes = "one that carries radial loads"
+            raise InputError(f"bearing.{number + 1}.base", got=f"a {kind} bearing", takes=takes)
 
     def _speeds(self, table: dict[str, Any]) -> Iterator[tuple[dict[str, Any], str]]:
         yield table["drive"], "speed"
@@ -718,7 +724,8 @@ class AxleCase(NetworkCase, book="axle_file"):
             for name in names:
                 named.setdefault(name, []).append(number)
         if place not in named or not rest:
-            takes = f"{kind}.{_PLACES[kind]}.KEY with one of {', '.join(named)}" if named else f"no {kind}"
+            takes = f"{kind}.{_PLACES[kind]}.KEY with one of {', '.join(named)}"
+            takes = takes if named else f"another key, as the axle has no {kind}"
             raise InputError(key, got=shown(place), takes=takes)
         return named[place]
 
@@ -775,6 +782,8 @@ class AxleCase(NetworkCase, book="axle_file"):
 def _named(key: str, tables: Mapping[str, Any]) -> str:
     """Key of a shaft with its name instead of its number, from 1, in the list of shafts; or any other key.
 
+    Raises InputError for a key of one bearing by its number: a range holds for both bearings of a shaft.
+
     Examples
     --------
     >>> _named("shaft.2.mass", {"shaft": [{"name": "rotor"}, {"name": "wheel"}]})
@@ -782,12 +791,19 @@ def _named(key: str, tables: Mapping[str, Any]) -> str:
     """
     kind, _, rest = key.partition(".")
     number, _, inner = rest.partition(".")
-    shafts = tables.get("shaft")
-    if kind != "shaft" or not number.isdecimal() or not isinstance(shafts, list | tuple):
+    entries = tables.get(kind)
+    if kind not in ("shaft", "bearing") or not number.isdecimal() or not isinstance(entries, list | tuple):
         return key
-    names = [each.get("name") for each in shafts if isinstance(each, Mapping)]
-    known = number not in names and 1 <= int(number) <= len(names)
-    return f"shaft.{names[int(number) - 1]}.{inner}" if known else key
+    names = [
+        each.get("name" if kind == "shaft" else "shaft") for each in entries if isinstance(each, Mapping)
+    ]
+    if number in names or not 1 <= int(number) <= len(names):
+        return key
+    named = f"{kind}.{names[int(number) - 1]}.{inner}"
+    if kind == "bearing":
+        got = f"a range of one bearing of shaft {names[int(number) - 1]!r}"
+        raise InputError(key, got=got, takes=f"a range of both, {named!r} in [ranges]")
+    return named
 
 
 def _field_of(key: str) -> FieldInfo:

@@ -99,9 +99,10 @@ class NetworkCase(CaseFile):
 
     def variants(self) -> tuple[Self, ...]:
         """Return changed copies without remedies, one for each of ``numbered_remedies``."""
-        return tuple(self._changed(number, remedy) for number, remedy in self.numbered_remedies)
+        return tuple(for_all(self._changed, self.numbered_remedies))
 
-    def _changed(self, number: int, remedy: Remedy) -> Self:
+    def _changed(self, numbered: tuple[int, Remedy]) -> Self:
+        number, remedy = numbered
         with within(f"remedies.{number}.changes"):
             return self.replace({**remedy.changes, "remedies": []})
 

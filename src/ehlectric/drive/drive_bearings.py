@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array
 from ehlectric.bearing import (
@@ -139,9 +140,12 @@ def fed_by_arcs(smooth: Array, rough: Array, lowest: float) -> Array:
     return np.where(smooth > least, np.maximum(rough, least), rough)
 
 
-def check_extinction(breakdown: Breakdown, element: BearingElement, name: str) -> None:
-    """Refuse arcs that go out at a voltage at which the films of a bearing or a mesh break down."""
-    lowest, least = breakdown.lowest_voltage, float(np.min(element.breakdown))
+def check_extinction(breakdown: Breakdown, limits: ArrayLike, name: str) -> None:
+    """Refuse arcs that go out at a voltage at which the films of a bearing or a mesh break down.
+
+    ``limits`` are its breakdown voltages [V].
+    """
+    lowest, least = breakdown.lowest_voltage, float(np.min(limits))
     if lowest < least:
         return
     takes = f"less than {readable(least)} V, at which the films of {name} break down"

@@ -73,7 +73,7 @@ def prepare(case: DriveCase, *, workers: int | None = None) -> PreparedDrive:
         _element(results[1], case, ENDS[1]),
     )
     for end, element in zip(ENDS, elements, strict=True):
-        check_extinction(case.breakdown, element, end)
+        check_extinction(case.breakdown, element.breakdown, end)
     source = SourceInTime.of(case.running_source, case.source, case.breakdown, case.drive.duration)
     return PreparedDrive(case, results, elements, source)
 

@@ -662,23 +662,31 @@ def _refers(remedy: Mapping[str, Any], name: str) -> bool:
 
 
 def without_table(inputs: Inputs, name: str, number: int) -> Inputs:
-    """Inputs without a bearing, mesh, force or link, by its number from 1; numbers of remedies follow."""
-    remedies = []
-    for remedy in _tables(inputs, "remedies"):
-        changes = {}
-        given = remedy.get("changes")
-        for key, value in given.items() if isinstance(given, Mapping) else ():
-            first, _, rest = key.partition(".")
-            place, _, inner = rest.partition(".")
-            if first == name and place.isdecimal() and name in ("mesh", "link", "force"):
-                if int(place) == number:
-                    continue
-                key = f"{name}.{int(place) - (int(place) > number)}.{inner}"
-            changes[key] = value
-        if changes:
-            remedies.append({**remedy, "changes": changes})
-    after = inputs.changed({f"{name}.{number}": None, "remedies": remedies or None})
-    return _with_measured(inputs, after, [(name, number)])
+    """Inputs without a bearing, mesh, force or link, by its number from 1; numbers in keys of remedies and of
+    ranges follow.
+    """
+    remedies = [
+        {**remedy, "changes": changes}
+        for remedy in _tables(inputs, "remedies")
+        if (changes := _renumbered(remedy.get("changes"), name, number))
+    ]
+    changes = {f"{name}.{number}": None, "remedies": remedies or None}
+    changes["ranges"] = _renumbered(inputs.value("ranges"), name, number) or None
+    return _with_measured(inputs, inputs.changed(changes), [(name, number)])
+
+
+def _renumbered(values: Any, name: str, number: int) -> dict[str, Any]:
+    """Values by dotted key after a mesh, a link or a force was removed, without its own keys."""
+    kept = {}
+    for key, value in values.items() if isinstance(values, Mapping) else ():
+        first, _, rest = key.partition(".")
+        place, _, inner = rest.partition(".")
+        if first == name and place.isdecimal() and name in ("mesh", "link", "force"):
+            if int(place) == number:
+                continue
+            key = f"{name}.{int(place) - (int(place) > number)}.{inner}"
+        kept[key] = value
+    return kept
 
 
 def with_bearing(inputs: Inputs, shaft: str) -> Inputs:
