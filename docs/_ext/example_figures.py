@@ -36,6 +36,7 @@ _RUNS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
             *("drive_discharges.png", "drive_remedies.png"),
         ),
     ),
+    "belt_drive": (("drive", "belt_drive.toml"), ("drive_forces.png",)),
     "e_axle": (("drive", "e_axle.toml"), ("axle_network.png", "axle_forces.png", "axle_remedies.png")),
     "oil_contact": (("run", "oil_contact.toml"), ("meter.png",)),
     "hot_contact": (("run", "hot_contact.toml"), ("temperature.png",)),

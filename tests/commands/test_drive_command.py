@@ -6,7 +6,12 @@ import json
 import numpy as np
 import pytest
 
-from ehlectric.figures.figure_names import DRIVE_DUTY_FIGURE, DRIVE_FIGURE_FILES, in_formats
+from ehlectric.figures.figure_names import (
+    DRIVE_DUTY_FIGURE,
+    DRIVE_FIGURE_FILES,
+    DRIVE_FORCES_FIGURE,
+    in_formats,
+)
 from tests.cases.test_drive import FILE
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
@@ -26,7 +31,7 @@ title = "Ceramic"
 """
 
 
-WITHOUT_CYCLE = [file for file in DRIVE_FIGURE_FILES if file != DRIVE_DUTY_FIGURE]
+WITHOUT_CYCLE = [file for file in DRIVE_FIGURE_FILES if file not in (DRIVE_DUTY_FIGURE, DRIVE_FORCES_FIGURE)]
 
 
 @pytest.fixture

@@ -206,6 +206,7 @@ def test_kinds_of_the_examples():
         "duty_wltc": "bearing",
         "duty_drive": "drive",
         "duty_gear": "gear",
+        "belt_drive": "drive",
         "drive": "drive",
         "drive_map": "sweep",
         "e_axle": "axle",

@@ -8,7 +8,7 @@ import math
 from bisect import bisect_right
 from collections.abc import Mapping, Sequence
 from functools import cached_property
-from typing import Any, Literal, Self
+from typing import TYPE_CHECKING, Any, Literal, Self
 
 from pydantic import model_validator
 
@@ -20,6 +20,9 @@ from ehlectric.formulas.capacitances import Machine, MachineCapacitances, machin
 from ehlectric.quantities.alternatives import ALTERNATIVES, DESCRIBED, MEASURED
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.inputs import ENDS
+
+if TYPE_CHECKING:
+    from ehlectric.formulas.shaft_statics import BearingLoads, ForceAt
 
 # What a described source needs; six-step operation switches at the fundamental frequency and has no index.
 _NEEDED = ("dc_link", "modulation", "rise_time")
@@ -71,26 +74,48 @@ class Rotor(Table, book="rotor"):
         self.check_together("mass", "mass_at")
         return self
 
+    @property
+    def places(self) -> tuple[float, float]:
+        """Places of both bearings on the axis [m]."""
+        return self.drive_end_at, self.non_drive_end_at
+
+    def forces_on(
+        self, forces: Sequence[ShaftForce], gravity: float
+    ) -> list[tuple[tuple[Literal["weight", "force"], str], ForceAt]]:
+        """Return the weight and the forces, each with its kind and the number of the force.
+
+        ``gravity`` is the direction of the weight [rad].
+        """
+        from ehlectric.formulas.shaft_statics import on_axis, weight_at
+
+        on_rotor: list[tuple[tuple[Literal["weight", "force"], str], ForceAt]] = [
+            (("force", str(number)), on_axis(each.at, each.x, each.y, each.z))
+            for number, each in enumerate(forces, 1)
+        ]
+        if self.mass is not None and self.mass_at is not None:
+            on_rotor.append((("weight", ""), weight_at(self.mass, self.mass_at, gravity)))
+        return on_rotor
+
+    def carried(self, forces: Sequence[ShaftForce], gravity: float) -> BearingLoads:
+        """Return the loads of both bearings as vectors. Raises InputError for bearings at one place."""
+        from ehlectric.formulas.shaft_statics import bearing_loads
+
+        try:
+            return bearing_loads([force for _, force in self.forces_on(forces, gravity)], self.places)
+        except InputError:
+            raise InputError(
+                "rotor.non_drive_end_at",
+                got=f"{amount(self.non_drive_end_at, 'm')}, the place of the other bearing",
+                takes="another place: two bearings at one place carry no moment",
+            ) from None
+
     def loads(self, forces: Sequence[ShaftForce], gravity: float) -> dict[str, dict[str, float]]:
         """Return the loads of a bearing file by the ends [N]; ``gravity``, direction of the weight [rad].
 
         Raises InputError for bearings at one place, a bearing without a load, and an axial force that no
         bearing locates.
         """
-        from ehlectric.formulas.shaft_statics import bearing_loads, on_axis, weight_at
-
-        places = self.drive_end_at, self.non_drive_end_at
-        on_rotor = [on_axis(each.at, each.x, each.y, each.z) for each in forces]
-        if self.mass is not None and self.mass_at is not None:
-            on_rotor.append(weight_at(self.mass, self.mass_at, gravity))
-        try:
-            carried = bearing_loads(on_rotor, places)
-        except InputError:
-            raise InputError(
-                "rotor.non_drive_end_at",
-                got=f"{amount(places[1], 'm')}, the place of the other bearing",
-                takes="another place: two bearings at one place carry no moment",
-            ) from None
+        carried = self.carried(forces, gravity)
         axial = abs(carried.axial) if abs(carried.axial) > _NO_FORCE else 0.0
         if axial and self.locating is None:
             takes = f"'{ENDS[0]}' or '{ENDS[1]}', the bearing that carries the axial forces"

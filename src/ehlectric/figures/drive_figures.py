@@ -24,6 +24,7 @@ from ehlectric.figures.draw import draw_panel, line_look
 from ehlectric.figures.duty_panels import cycle_lines, drive_duty_panels
 from ehlectric.figures.duty_panels import time_axis as time_axis_of_cycle
 from ehlectric.figures.figure_names import DRIVE_FIGURE_FILES
+from ehlectric.figures.shaft_forces import draw_forces, forces_on_rotor, legend_of_rotor
 from ehlectric.figures.style import (
     drawing_of,
     legend_above,
@@ -503,9 +504,10 @@ def drive_figures_of(result: DriveResult) -> dict[str, _Drawing]:
     """Figures of a drive by the names of their files.
 
     Figures with nothing to show are omitted: a spectrum without lines, distributions without discharges,
-    remedies and a duty cycle where the file lacks them, and voltages over time where no time was recorded.
+    remedies, a duty cycle and a rotor where the file lacks them, and voltages where no time was recorded.
     """
-    voltages_file, over_voltage, over_frequency, of_events, of_remedies, over_cycle = DRIVE_FIGURE_FILES
+    voltages_file, over_voltage, over_frequency, of_events, *others = DRIVE_FIGURE_FILES
+    of_remedies, over_cycle, on_rotor = others
     drawings: dict[str, _Drawing] = {}
     if len(result.solution.record.trace) > 1:
         drawings[voltages_file] = _Drawing(VOLTAGE_PANELS, 3, (6.3, 5.4), voltages, legend_of, shared=True)
@@ -519,6 +521,8 @@ def drive_figures_of(result: DriveResult) -> dict[str, _Drawing]:
         drawings[of_remedies] = _Drawing((rates, energies), 1, (6.9, height), remedies, legend_of_remedies)
     if result.duty is not None:
         drawings[over_cycle] = _Drawing(DUTY_PANELS, 3, (6.3, 5.4), duty_cycle, legend_of_cycle, shared=True)
+    if result.case.rotor is not None:
+        drawings[on_rotor] = _Drawing(FORCE_PANELS, 1, (9.0, 3.1), loads, legend_of_rotor)
     return drawings
 
 
@@ -643,7 +647,20 @@ def legend_of_cycle(axes: list[Axes]) -> None:
     legend_above(axes[0], list(by_label.values()), columns=3)
 
 
+def loads(result: DriveResult) -> str:
+    """Sentence about the loads of both bearings."""
+    pairs = zip(NAMES, result.case.bearings, strict=True)
+    carried = " and ".join(f"{amount(each.bearing.radial_load, 'N')} at the {name}" for name, each in pairs)
+    return f"The bearings carry {carried}"
+
+
+def on_rotor_along(result: DriveResult, ax: Axes, *, way: int) -> None:
+    """Draw the forces on the rotor along x (0) or y (1)."""
+    draw_forces(ax, "rotor", forces_on_rotor(result.case), way)
+
+
 # Panels of the figure, from top to bottom.
+FORCE_PANELS = tuple(partial(on_rotor_along, way=way) for way in range(2))
 DUTY_PANELS = tuple(partial(over_cycle_time, number=number) for number in range(3))
 VOLTAGE_PANELS = tuple(partial(over_time, number=number) for number in range(3))
 

@@ -71,10 +71,10 @@ BEARING_FIGURE_FILES = (
 # Figures of bearings over the speed of the shaft.
 SPEED_FIGURE_FILES = ("capacitance_over_speed.png", "breakdown_over_speed.png")
 
-DRIVE_DUTY_FIGURE = "drive_duty.png"
+DRIVE_DUTY_FIGURE, DRIVE_FORCES_FIGURE = "drive_duty.png", "drive_forces.png"
 
 # Figures of drives: voltages over a short time, how long which voltages last, the spectrum of the shaft
-# voltage, discharges, remedies, and a duty cycle.
+# voltage, discharges, remedies, a duty cycle, and forces on the rotor.
 DRIVE_FIGURE_FILES = (
     "drive_voltages.png",
     "drive_histogram.png",
@@ -82,6 +82,7 @@ DRIVE_FIGURE_FILES = (
     "drive_discharges.png",
     "drive_remedies.png",
     DRIVE_DUTY_FIGURE,
+    DRIVE_FORCES_FIGURE,
 )
 
 # Figures of gear pairs: radii, speeds, loads and pressures along the path of contact, the film along it, map

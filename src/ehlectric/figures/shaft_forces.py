@@ -1,4 +1,4 @@
-"""Figure of an axle: forces of gear meshes and bearings on its shafts, for both signs of the torque."""
+"""Forces on the shafts of an axle, for both signs of the torque, and on the rotor of a drive."""
 
 from __future__ import annotations
 
@@ -12,11 +12,14 @@ from matplotlib.lines import Line2D
 
 from ehlectric.axle import AxleResult, forces_on_shafts, loads_on_shafts
 from ehlectric.cases.axle_case import AxleCase
+from ehlectric.cases.drive_case import DriveCase
 from ehlectric.errors import printable
 from ehlectric.figures.style import legend_above, new_panels, note, text_colour
-from ehlectric.formulas.shaft_statics import BearingLoads
+from ehlectric.formulas.shaft_statics import BearingLoads, ForceAt
 from ehlectric.quantities.formats import amount
+from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.palette import BLACK, BLUE, GREY, ORANGE
+from ehlectric.quantities.results import NAMES_OF_ENDS
 from ehlectric.readable import readable
 
 # Colours of the torque of the case, and of the torque with the other sign.
@@ -90,13 +93,8 @@ def placed_forces(case: AxleCase) -> dict[str, list[PlacedForce]]:
     placed: dict[str, list[PlacedForce]] = {}
     for shaft, of_shaft in forces[0].items():
         rows = [
-            PlacedForce(
-                _WORDS[kind].format(name),
-                kind,
-                float(force.point[2]),
-                tuple(_vector(of_sign[shaft][number][1].force) for of_sign in forces),
-            )
-            for number, ((kind, name), force) in enumerate(of_shaft)
+            _placed(kind, name, [of_sign[shaft][number][1] for of_sign in forces])
+            for number, ((kind, name), _) in enumerate(of_shaft)
         ]
         for place, number in enumerate(case.bearings_of(shaft)):
             bearing = case.bearing[number]
@@ -104,6 +102,25 @@ def placed_forces(case: AxleCase) -> dict[str, list[PlacedForce]]:
             rows.append(PlacedForce(f"bearing {place + 1}", "bearing", bearing.at, tuple(reactions)))
         placed[shaft] = sorted(rows, key=lambda row: row.place)
     return placed
+
+
+def forces_on_rotor(case: DriveCase) -> list[PlacedForce]:
+    """Weight, forces and reactions of both bearings of a drive; none without a rotor."""
+    rotor, given = case.rotor, (case.force, case.drive.gravity_direction)
+    if rotor is None:
+        return []
+    rows = [_placed(kind, name, [force]) for (kind, name), force in rotor.forces_on(*given)]
+    loads = rotor.carried(*given)
+    for place, (end, at) in enumerate(zip(ENDS, rotor.places, strict=True)):
+        reaction = _reaction(loads, place, locating=rotor.locating == end)
+        rows.append(PlacedForce(NAMES_OF_ENDS[end], "bearing", at, (reaction,)))
+    return sorted(rows, key=lambda row: row.place)
+
+
+def _placed(kind: str, name: str, forces: Sequence[ForceAt]) -> PlacedForce:
+    """Force of a kind with a name, for each of some torques."""
+    vectors = tuple(_vector(each.force) for each in forces)
+    return PlacedForce(_WORDS[kind].format(name), kind, float(forces[0].point[2]), vectors)
 
 
 def _vector(force: Iterable[float]) -> tuple[float, float, float]:
@@ -124,11 +141,8 @@ def shaft_forces(result: AxleResult) -> Axes:
     placed = placed_forces(result.case)
     panels = new_panels(len(placed), 2, (_WIDTH, _AROUND + _HEIGHT * len(placed)), exact=True)
     for row, (shaft, forces) in enumerate(placed.items()):
-        most = max(abs(part) for each in forces for force in each.forces for part in force[:2])
         for way, ax in enumerate(panels[2 * row : 2 * row + 2]):
-            _draw(ax, forces, way, _HIGH * most)
-            what = "radial forces below" if way == 0 else "axial forces on the shaft below"
-            note(ax, 0.01, 0.98, f"{printable(shaft)}, along {'xy'[way]}; {what}", va="top", color=GREY)
+            draw_forces(ax, shaft, forces, way)
     handles = [
         *(
             Line2D([], [], color=colour, lw=2.0, label=f"{amount(value, 'N m')} of the rotor")
@@ -144,8 +158,20 @@ def shaft_forces(result: AxleResult) -> Axes:
     return panels[0]
 
 
-def _draw(ax: Axes, forces: Sequence[PlacedForce], way: int, high: float) -> None:
+def legend_of_rotor(axes: Sequence[Axes]) -> None:
+    """Legend of the forces on a rotor."""
+    handles = [
+        Line2D([], [], color=BLACK, ls="none", marker=_MARKERS[kind], label=label)
+        for kind, label in (("bearing", "bearing"), ("force", "weight or force"))
+    ]
+    legend_above(axes[0], handles, columns=2)
+
+
+def draw_forces(ax: Axes, shaft: str, forces: Sequence[PlacedForce], way: int) -> None:
     """Draw forces along x (0) or y (1) as arrows from the shaft, with numbers at their ends."""
+    high = _HIGH * max(abs(part) for each in forces for force in each.forces for part in force[:2])
+    what = "radial forces below" if way == 0 else "axial forces on the shaft below"
+    note(ax, 0.01, 0.98, f"{printable(shaft)}, along {'xy'[way]}; {what}", va="top", color=GREY)
     places = 1e3 * np.array([each.place for each in forces])
     length = float(np.ptp(places))
     ax.axhline(0.0, color=BLACK, lw=1.5, zorder=1.0)

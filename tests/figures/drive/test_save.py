@@ -7,17 +7,25 @@ import pytest
 from matplotlib.colors import to_hex
 from matplotlib.text import Text
 
-from ehlectric import InputError, figure, figure_names, save_figures, solve_drive
+from ehlectric import DriveCase, InputError, example, figure, figure_names, save_figures, solve_drive
 from ehlectric.app.charts.drive_charts import drive_figures
 from ehlectric.drive.drive_record import ENERGY, FILM, ON, VOLTAGE
 from ehlectric.drive.result import DriveResult
 from ehlectric.figures.drive_figures import shares_above
-from ehlectric.figures.figure_names import DRIVE_DUTY_FIGURE, DRIVE_FIGURE_FILES, FORMATS, in_formats
+from ehlectric.figures.figure_names import (
+    DRIVE_DUTY_FIGURE,
+    DRIVE_FIGURE_FILES,
+    DRIVE_FORCES_FIGURE,
+    FORMATS,
+    in_formats,
+)
+from ehlectric.figures.shaft_forces import forces_on_rotor
 from ehlectric.readable import readable
 from tests.helpers.drives import drive_with_remedy
+from tests.helpers.statics import by_vectors
 from tests.helpers.titles import title_of
 
-VOLTAGES, HISTOGRAM, SPECTRUM, DISCHARGES, REMEDIES, DUTY = (
+VOLTAGES, HISTOGRAM, SPECTRUM, DISCHARGES, REMEDIES, DUTY, FORCES = (
     name.removesuffix(".png") for name in DRIVE_FIGURE_FILES
 )
 
@@ -76,7 +84,8 @@ def test_the_spectrum_is_drawn_with_its_largest_lines(drive):
 @pytest.mark.slow
 def test_a_file_of_each_format_is_written(drive, tmp_path):
     files = save_figures(drive, tmp_path, FORMATS)
-    without = [file for file in DRIVE_FIGURE_FILES if file != DRIVE_DUTY_FIGURE]
+    absent = (DRIVE_DUTY_FIGURE, DRIVE_FORCES_FIGURE)
+    without = [file for file in DRIVE_FIGURE_FILES if file not in absent]
     assert [file.name for file in files] == list(in_formats(without, FORMATS))
     assert all(file.is_file() for file in files)
 
@@ -243,3 +252,23 @@ def test_a_notebook_shows_a_drive_and_its_case_as_tables(drive):
     assert "discharges per second" in shown
     assert "peak arc current, mean" in shown
     assert "source.dc_link" in drive.case._repr_html_()
+
+
+def test_the_forces_on_a_rotor_are_in_balance():
+    """Weight, belt and the reactions that a separate program of statics gives."""
+    case = DriveCase.from_toml(example("belt_drive.toml"))
+    changed = case.replace({"force.1.y": "-200 N", "force.1.z": "150 N", "rotor.locating": "drive_end"})
+    placed = {each.name: each.forces[0] for each in forces_on_rotor(changed)}
+    assert np.sum([*placed.values()], axis=0) == pytest.approx(0.0, abs=1e-9)
+    weight = np.array([0.0, -18.0 * 9.80665, 0.0])
+    first, second = np.split(
+        by_vectors([(weight, 0.09), (np.array([800.0, -200.0, 150.0]), -0.06)], (0.0, 0.18)), [3]
+    )
+    assert placed["drive end"] == pytest.approx(first, rel=1e-9)
+    assert placed["non-drive end"][:2] == pytest.approx(second, rel=1e-9)
+    result = solve_drive(changed.replace({"drive.duration": "0.5 ms"}), workers=1)
+    panels = figure(result, FORCES).axes
+    labels = [label.get_text() for label in panels[0].get_xticklabels()]
+    assert labels[0] == "force 1\nat -60 mm\n825 N"
+    assert "at the drive end" in title_of(figure(result, FORCES))[0]
+    assert forces_on_rotor(drive_with_remedy()) == []
