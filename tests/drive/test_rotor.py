@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric import DriveCase, Sweep, evaluate, example, load, run_sweep, save, solve_drive
+from ehlectric import DriveCase, Sweep, calibrate, evaluate, example, load, run_sweep, save, solve_drive
 from ehlectric.drive.drive_cycle import check_drive_cycle
 from ehlectric.errors import InputError
 from tests.helpers.statics import by_vectors
@@ -186,6 +186,17 @@ def test_duty_cycles_vary_no_loads_of_a_rotor(tmp_path):
     with pytest.raises(InputError, match="radial_load, which follow") as refused:
         check_drive_cycle(case)
     assert refused.value.key == "duty.file"
+
+
+def test_a_calibrated_drive_has_given_loads():
+    """The loads are uncertain inputs, and a corrected load follows from no rotor."""
+    measured = {"measured": {"capacitance": "150 pF +- 5 %"}}
+    case = DriveCase.from_dict(tables(ROTOR | {"mass": "180 kg"}) | measured)
+    result = calibrate(case)
+    assert result.case.rotor is None
+    given = DriveCase.from_dict(case.with_given_loads.to_dict())
+    assert loads(given) == loads(case)
+    assert calibrate(given).case == result.case
 
 
 def test_gravity_without_a_mass_is_named():

@@ -211,6 +211,11 @@ class DriveCase(NetworkCase, book="drive_file"):
             check_no_load(key)
 
     @property
+    def with_given_loads(self) -> Self:
+        """Drive whose bearings have their loads as inputs, without a rotor."""
+        return self if self.rotor is None else self.replace({"rotor": None, "force": []})
+
+    @property
     def bearings(self) -> tuple[BearingCase, BearingCase]:
         """Bearings at the drive end and the non-drive end, at the speed and temperature of the drive.
 

@@ -92,6 +92,8 @@ class DriveModel:
     @classmethod
     def of(cls, case: DriveCase) -> DriveModel:
         """Model of a drive file. Raises InputError where its contacts must be solved."""
+        # Loads are uncertain inputs, of the calibrated file too.
+        case = case.with_given_loads
         quick, refused = quick_drive(case.model_copy(update={"remedies": (), "duty": None, "measured": None}))
         if quick is None:
             raise InputError.worded("measured", f"needs contacts from the atlas, but {refused} excludes them")
