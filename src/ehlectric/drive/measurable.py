@@ -92,7 +92,7 @@ class DriveModel:
     @classmethod
     def of(cls, case: DriveCase) -> DriveModel:
         """Model of a drive file. Raises InputError where its contacts must be solved."""
-        # Loads are uncertain inputs, of the calibrated file too.
+        # Loads are uncertain inputs, which the calibrated file contains.
         case = case.with_given_loads
         quick, refused = quick_drive(case.model_copy(update={"remedies": (), "duty": None, "measured": None}))
         if quick is None:
