@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ehlectric.axle.solution import CONDUCTIONS, AxleSolution
@@ -14,12 +14,13 @@ def axle_summary(solution: AxleSolution) -> dict[str, Any]:
     """Tables ``edge``, ``first``, ``elements``, ``shafts`` and ``rank`` of summary.json, SI units; None for a
     value that is not known. ``voltage_ratio`` is the voltage divided by the breakdown voltage.
     """
+    rankings = {conduction: solution.ranking(conduction) for conduction in CONDUCTIONS}
     return {
         "edge": {"voltage": solution.edge.voltage, "rise_time": solution.edge.rise_time},
-        "first": _first(solution),
-        "elements": _elements(solution),
+        "first": _first(solution, rankings["by-film"]),
+        "elements": _elements(solution, rankings),
         "shafts": _shafts(solution),
-        "rank": {conduction: _ranked(solution, conduction) for conduction in CONDUCTIONS},
+        "rank": {conduction: [name for name, _ in ranking] for conduction, ranking in rankings.items()},
         "changed_ranks": list(solution.changed_ranks),
     }
 
@@ -60,10 +61,13 @@ def tables_of_point(solution: AxleSolution) -> dict[str, Any]:
     }
 
 
-def _first(solution: AxleSolution) -> dict[str, Any]:
+# Elements with the ratio of their voltages, the first to discharge first.
+_Ranking = Sequence[tuple[str, float]]
+
+
+def _first(solution: AxleSolution, ranking: _Ranking) -> dict[str, Any]:
     """Table ``first``: the element that discharges first, and its voltages; None without one."""
-    ranking = solution.discharging()
-    if not ranking:
+    if not ranking or not ranking[0][1]:
         return dict.fromkeys(("element", "voltage", "breakdown_voltage", "voltage_ratio", "margin"))
     name, ratio = ranking[0]
     breakdown = solution.breakdown_voltages.get(name)
@@ -76,10 +80,6 @@ def _first(solution: AxleSolution) -> dict[str, Any]:
     }
 
 
-def _ranked(solution: AxleSolution, conduction: Conduction) -> list[str]:
-    return [name for name, _ in solution.ranking(conduction)]
-
-
 # Ends of keys by the assumption about the meshes.
 _ENDS = {conduction: "" if conduction == "by-film" else f"_{conduction}" for conduction in CONDUCTIONS}
 
@@ -90,21 +90,18 @@ _OF_ELEMENT = (
 )
 
 
-def _elements(solution: AxleSolution) -> list[dict[str, Any]]:
+def _elements(solution: AxleSolution, rankings: Mapping[Conduction, _Ranking]) -> list[dict[str, Any]]:
     """Rows of elements.csv."""
-    voltages, energies = solution.voltages(), solution.energies()
-    ranks = {conduction: _ranked(solution, conduction) for conduction in CONDUCTIONS}
-    ratios = {conduction: solution.ratios(conduction) for conduction in CONDUCTIONS}
+    voltages, energies, known = solution.voltages(), solution.energies(), solution.breakdown_voltages
+    ranks = {each: {name: n for n, (name, _) in enumerate(rows, 1)} for each, rows in rankings.items()}
+    ratios = {each: {name: ratio for name, ratio in rows if name in known} for each, rows in rankings.items()}
     return [
         {
             "element": (name := element.name),
             **{key: getattr(element, key) for key in _OF_ELEMENT},
             "voltage": voltages[name],
             **{f"voltage_ratio{end}": ratios[each].get(name) for each, end in _ENDS.items()},
-            **{
-                f"rank{end}": ranks[each].index(name) + 1 if name in ranks[each] else None
-                for each, end in _ENDS.items()
-            },
+            **{f"rank{end}": ranks[each].get(name) for each, end in _ENDS.items()},
             "energy": energies.get(name),
         }
         for element in solution.elements

@@ -868,10 +868,11 @@ def changed_bearings(case: AxleCase, values: Mapping[int, Mapping[str, float]]) 
 
 def _set_in(name: str, table: dict[str, Any], change: Mapping[str, Any]) -> dict[str, Any]:
     """Set dotted keys of a table with a name, and remove their alternatives from it and from its own oil."""
-    tables = {name: table, **table}
-    flat = {f"{name}.{key}": value for key, value in change.items()} | flattened(change)
-    displace_oil(table.get("lubricant", {}), nested(change, "lubricant"))
-    displace(tables, flat, {each: ALTERNATIVES[each] for each in (name, *_OF_OIL) if each in ALTERNATIVES})
+    tables, flat = {name: table}, {f"{name}.{key}": value for key, value in change.items()}
+    if any(key.startswith(_OF_OIL) for key in change):
+        tables, flat = tables | table, flat | flattened(change)
+        displace_oil(table.get("lubricant", {}), nested(change, "lubricant"))
+    displace(tables, flat, {each: ALTERNATIVES[each] for each in tables.keys() & ALTERNATIVES.keys()})
     set_keys(table, change)
     return table
 
