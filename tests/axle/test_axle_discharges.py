@@ -8,8 +8,8 @@ import pytest
 from ehlectric import AxleCase, DriveCase, load, save, solve_axle, solve_drive
 from ehlectric.axle.axle_discharges import _stream_of_bearing, simulate_axle
 from ehlectric.axle.solution import solve_elements
-from ehlectric.drive import source_points
 from ehlectric.drive.discharges.films_and_source import Measuring
+from ehlectric.drive.drive_netlist_files import source_points
 from ehlectric.drive.drive_record import FILM, VOLTAGE
 from ehlectric.drive.films_in_time import NetworkInTime, TimedFilm
 from ehlectric.drive.network import HOUSING, WINDING, Film, Network

@@ -11,8 +11,9 @@ from ehlectric import AxleCase, InputError, write_axle_netlist
 from ehlectric.axle.axle_discharges import _films_in_time
 from ehlectric.axle.axle_netlist_files import AxleNetlist, _distinct, axle_netlist
 from ehlectric.axle.solution import solve_films
-from ehlectric.drive import source_points, write_files
+from ehlectric.drive import write_files
 from ehlectric.drive.discharges.films_and_source import Measuring, Segments
+from ehlectric.drive.drive_netlist_files import source_points
 from ehlectric.drive.films_in_time import NetworkInTime
 from tests.axle.axles import two_stages
 from tests.axle.test_films_in_time import axle

@@ -18,7 +18,7 @@ from ehlectric.drive import (
     WINDING,
     Film,
     Parameter,
-    about_source,
+    bench_lines,
     check_extinction,
     check_targets,
     comment,
@@ -28,8 +28,6 @@ from ehlectric.drive import (
     measured_waveform,
     name_of,
     number,
-    point_lines,
-    source_points,
     write_files,
 )
 from ehlectric.quantities.formats import amount, operating_point
@@ -164,35 +162,23 @@ class AxleNetlist:
 
     def bench(self, library: str) -> Iterator[str]:
         """Lines of a test bench, which includes the file of the subcircuits: the inverter at the winding."""
-        source = self.case.source.at_speed(self.case.drive.speed)
         waveform, _ = measured_waveform(self.case.source, None)
-        points, step = source_points(source, waveform)
         nodes = {name: "0" if name == HOUSING else node for name, node in self.nodes.items()}
-        shafts = [nodes[shaft.name] for shaft in self.case.shaft]
-        positive, negative = (nodes[name] for name in self.solution.network().source)
-        about = (
-            f"title: {self.case.title or '(none)'}",
-            f"common-mode voltage: {about_source(source)}, as points over time",
-        )
         measures = (
-            f".meas tran {shaft}_{word} {kind} V({shaft})"
-            for shaft in shafts
+            f".meas tran {nodes[shaft.name]}_{word} {kind} V({nodes[shaft.name]})"
+            for shaft in self.case.shaft
             for word, kind in (("peak_to_peak", "PP"), ("highest", "MAX"), ("lowest", "MIN"))
         )
-        text = filled(
+        yield from bench_lines(
+            self.case,
+            "axle",
             _TEXTS["bench"],
-            signature=f"{SIGNATURE}test bench of an axle; ehlectric {__version__}",
-            comments=[line for part in about for line in comment(part)],
+            waveform,
+            ends=[nodes[name] for name in self.solution.network().source],
             library=library,
-            points=list(point_lines(points)),
-            positive=positive,
-            negative=negative,
             pins=" ".join(nodes.values()),
-            step=number(step),
-            duration=f"{points[-1][0]:.12g}",
             measures=list(measures),
         )
-        yield from text.split("\n")
 
 
 def _distinct(texts: Iterable[str], other: str, taken: Iterable[str]) -> list[str]:

@@ -56,6 +56,7 @@ class NetworkCase(CaseFile):
     """Case of a source, a machine and its films, which is a drive or an axle, with changed copies of it."""
 
     if TYPE_CHECKING:
+        title: Title
         source: Source
         circuit: Circuit
         remedies: tuple[Remedy, ...]

@@ -10,12 +10,10 @@ from .drive_bearings import check_extinction as check_extinction
 from .drive_bearings import fed_by_arcs as fed_by_arcs
 from .drive_cycle import DriveDuty as DriveDuty
 from .drive_cycle import DriveDutyRows as DriveDutyRows
-from .drive_netlist_files import about_source as about_source
+from .drive_netlist_files import bench_lines as bench_lines
 from .drive_netlist_files import drive_netlist as drive_netlist
 from .drive_netlist_files import element_lines as element_lines
 from .drive_netlist_files import element_parameters as element_parameters
-from .drive_netlist_files import point_lines as point_lines
-from .drive_netlist_files import source_points as source_points
 from .drive_netlist_files import write_drive_netlist as write_drive_netlist
 from .drive_record import CHARGE as CHARGE
 from .drive_record import ENERGY as ENERGY

@@ -6,12 +6,13 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.bearing import BearingResult, solve_bearing
-from ehlectric.cases.drive_case import DriveCase
+from ehlectric.cases.drive_case import DriveCase, NetworkCase
 from ehlectric.cases.drive_inputs import Source
 from ehlectric.drive.circuit_equations import FRAME, Element
 from ehlectric.drive.inverter import steps_of
@@ -76,32 +77,57 @@ class DriveNetlist:
     def bench(self, library: str) -> Iterator[str]:
         """Lines of the test bench, which includes the file of the subcircuits."""
         case, bench = self.case, TEXTS["drive_bench"]
-        circuit, source = case.running_circuit, case.running_source
-        points, step = source_points(source, self.waveform)
-        network = machine(circuit, _ROTOR)
+        network = machine(case.running_circuit, _ROTOR)
         elements = tuple(_named(network.circuit()))
-        positive, negative = (_NODES[node] for node in network.ends)
-        about = (
-            f"title: {case.title or '(none)'}",
-            f"common-mode voltage: {about_source(source)}, as points over time",
-            *([] if case.circuit.grounding_ring_table is None else [_about_ring(case)]),
-            bench["left_out"],
-        )
-        text = filled(
+        ring = [] if case.circuit.grounding_ring_table is None else [_about_ring(case)]
+        yield from bench_lines(
+            case,
+            "drive",
             bench["lines"],
-            signature=f"{SIGNATURE}test bench of a drive; ehlectric {__version__}",
-            comments=[line for part in about for line in comment(part)],
+            self.waveform,
+            (*ring, bench["left_out"]),
+            ends=tuple(_NODES[node] for node in network.ends),
             library=library,
             parameters=[line for name, each in elements for line in _parameters(name, each)],
-            positive=positive,
-            negative=negative,
-            points=list(point_lines(points)),
             elements=[line for name, each in elements for line in _lines(name, each)],
-            step=number(step),
-            duration=f"{points[-1][0]:.12g}",
             **{end: bearing.name for end, bearing in zip(ENDS, self.bearings, strict=True)},
         )
-        yield from text.split("\n")
+
+
+def bench_lines(
+    case: NetworkCase,
+    kind: Literal["drive", "axle"],
+    lines: str,
+    waveform: Waveform | None,
+    notes: Sequence[str] = (),
+    *,
+    ends: Sequence[str],
+    **parts: object,
+) -> Iterator[str]:
+    """Lines of the test bench of a drive or an axle, from a text with parts.
+
+    The voltage of the source lies between two ``ends``; it is a ``waveform`` of a measured source.
+    """
+    source = case.running_source
+    points, step = source_points(source, waveform)
+    about = (
+        f"title: {case.title or '(none)'}",
+        f"common-mode voltage: {about_source(source)}, as points over time",
+        *notes,
+    )
+    article = "an" if kind == "axle" else "a"
+    text = filled(
+        lines,
+        signature=f"{SIGNATURE}test bench of {article} {kind}; ehlectric {__version__}",
+        comments=[line for part in about for line in comment(part)],
+        points=list(point_lines(points)),
+        positive=ends[0],
+        negative=ends[1],
+        step=number(step),
+        duration=f"{points[-1][0]:.12g}",
+        **parts,
+    )
+    yield from text.split("\n")
 
 
 def write_drive_netlist(
