@@ -107,7 +107,7 @@ class DriveModel:
         )
         inputs = (*_of_bearings(quick, models), *_of_circuit(quick))
         divided = all(value is None for value in led)
-        return cls(case, quick, models, inputs, prepare(quick).highest_source, divided)
+        return cls(case, quick, models, inputs, prepare(quick).source.highest, divided)
 
     @property
     def quantities(self) -> tuple[str, ...]:

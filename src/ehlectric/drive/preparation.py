@@ -15,7 +15,6 @@ from ehlectric.drive.films_in_time import NetworkInTime, rotor_network
 from ehlectric.drive.source_in_time import SourceInTime
 from ehlectric.errors import InputError, within
 from ehlectric.quantities.inputs import ENDS
-from ehlectric.quantities.result_warnings import ResultWarning
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,21 +25,6 @@ class PreparedDrive:
     bearings: tuple[BearingResult, BearingResult]
     elements: tuple[BearingElement, BearingElement]
     source: SourceInTime
-
-    @property
-    def highest_source(self) -> float:
-        """Largest absolute voltage of the source [V]."""
-        return self.source.highest
-
-    @property
-    def prior_warnings(self) -> tuple[ResultWarning, ...]:
-        """Warnings about the file of a measured source."""
-        return self.source.prior_warnings
-
-    @property
-    def duration(self) -> float:
-        """Time that is measured [s]."""
-        return self.source.duration
 
     @cached_property
     def network(self) -> NetworkInTime:

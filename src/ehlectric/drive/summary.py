@@ -129,7 +129,7 @@ def _film(case: DriveCase, bearing: BearingElement, end: str) -> dict[str, Any]:
 
 def checked_summary(ready: PreparedDrive) -> dict[str, Any]:
     """Summary of a drive that is not simulated, with the kind of its contacts and the error of its films."""
-    case, highest = ready.case, ready.highest_source
+    case, highest = ready.case, ready.source.highest
     ends = {
         end: with_former_keys(
             {
@@ -147,7 +147,7 @@ def checked_summary(ready: PreparedDrive) -> dict[str, Any]:
             ENDS, ready.elements, ready.divider, ready.bearings, strict=True
         )
     }
-    drive = {"duration": ready.duration, "remedies": len(case.numbered_remedies)}
+    drive = {"duration": ready.source.duration, "remedies": len(case.numbered_remedies)}
     return {**_tables(case, highest, drive, ends), "inputs": case.all_inputs()}
 
 

@@ -10,9 +10,6 @@ from ehlectric.tables.axle_tables import axle_rows
 
 def preview(case: AxleCase) -> Preview:
     """Preview of an axle, whose films are not solved."""
-    solved = case.drive.contacts == "solved"
-    result = solve_axle(
-        case.replace({"drive.contacts": "atlas"}) if solved else case, remedies=False, probable=False
-    )
+    result = solve_axle(case.quick, remedies=False, probable=False)
     summary = result.summary()
     return Preview(case.title, tuple(axle_rows(summary)), summary, result.warnings, result.verdict)

@@ -30,7 +30,7 @@ def preview(case: DriveCase) -> Preview:
     ready = prepare(quick, workers=1)
     summary = {**checked_summary(ready), "inputs": case.all_inputs()}
     warnings = (
-        *ready.prior_warnings,
+        *ready.source.prior_warnings,
         *bearing_warnings(ready.bearings),
         *machine_warnings(case, ready.elements),
     )

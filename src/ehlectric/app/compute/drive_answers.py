@@ -189,7 +189,7 @@ def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> Drive
     ready = prepare(quick, workers=1)
     summary = checked_summary(ready)
     raised = (
-        *ready.prior_warnings,
+        *ready.source.prior_warnings,
         *bearing_warnings(ready.bearings),
         *machine_warnings(case, ready.elements),
     )
