@@ -29,6 +29,7 @@ from ehlectric.drive.drive_bearings import bearing_element
 from ehlectric.drive.network import HOUSING, WINDING, Film, Network
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable
+from ehlectric.runs.axle_preview import preview
 from ehlectric.tables.axle_tables import remedy_cells
 from tests.axle.axles import ALONE, two_stages
 from tests.helpers.drives import capacitive_divider
@@ -444,3 +445,14 @@ def test_the_oil_of_a_bearing_is_changed_by_its_shaft():
     with pytest.raises(InputError, match=r"lubricant\.viscosity") as refused:
         case.replace({"bearing.rotor.lubricant.visc": 1.0})
     assert {each.key for each in refused.value.several} == {f"bearing.{n}.lubricant.visc" for n in (1, 2)}
+
+
+def test_a_check_solves_no_films():
+    """Also where a gear file asks for solved contacts; its films are those of the atlas."""
+    solved, atlas = (
+        preview(two_stages(**{"mesh.1.contacts": way, "remedies": []})).summary for way in ("solved", "atlas")
+    )
+    assert solved["inputs"]["drive"]["contacts"] == "atlas"
+    assert [row["capacitance"] for row in solved["elements"]] == [
+        row["capacitance"] for row in atlas["elements"]
+    ]
