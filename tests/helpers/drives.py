@@ -9,7 +9,8 @@ from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.drive_inputs import Breakdown, Circuit
 from ehlectric.drive.discharges.films_and_source import Measuring, Segments
 from ehlectric.drive.drive_bearings import BearingElement
-from ehlectric.drive.films_in_time import rotor_network
+from ehlectric.drive.films_in_time import NetworkInTime, films_of_ends
+from ehlectric.drive.network import machine
 from tests.helpers.places import EXAMPLES
 
 MOTOR = {
@@ -92,6 +93,11 @@ def march(
     duration = float(sum(np.sum(one.duration) for one in chunks))
     measuring = Measuring(0.0, duration, highest, limits, trace, at_event)
     return rotor_network(circuit, bearings, breakdown, ring).march(iter(chunks), measuring, seed)
+
+
+def rotor_network(circuit, bearings, breakdown, ring=None):
+    """Network of the rotor of a machine with both bearings as elements."""
+    return NetworkInTime(machine(circuit, "rotor"), films_of_ends(bearings), breakdown, ring)
 
 
 def capacitive_divider(circuit, bearings):

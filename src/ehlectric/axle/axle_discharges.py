@@ -36,7 +36,7 @@ from ehlectric.drive import (
     shaft_row,
     whole_row,
 )
-from ehlectric.errors import InputError, printable, within
+from ehlectric.errors import InputError, printable
 from ehlectric.gear import GearSolution, state_at
 from ehlectric.quantities.lubrication_states import INSULATES
 from ehlectric.runtime.progress import Progress, silent
@@ -123,9 +123,7 @@ def simulate_axle(
     breakdown = case.breakdown
     if breakdown is None:
         raise InputError.missing("breakdown", _NO_ARC)
-    with within("source"):
-        running = case.running_source
-    source = SourceInTime.of(running, case.source, breakdown, case.drive.duration)
+    source = SourceInTime.of(case, breakdown)
     solved = solve_films(case) if films is None else films
     timed = _films_in_time(solved, breakdown, _conducting(solution))
     names = {each.name for each in timed}
@@ -233,7 +231,7 @@ def _stream_of_bearing(case: AxleCase, number: int) -> int | str:
     """
     shaft = case.bearing[number].shaft
     place = sorted(case.bearings_of(shaft), key=lambda each: case.bearing[each].at).index(number)
-    return place if shaft == case.rotor else f"bearing {place} of {shaft}"
+    return place if shaft == case.rotor_name else f"bearing {place} of {shaft}"
 
 
 def _few_positions(film: BearingElement) -> BearingElement:

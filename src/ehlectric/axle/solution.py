@@ -32,7 +32,7 @@ from ehlectric.bearing import (
     solve_bearing,
 )
 from ehlectric.cases.axle_case import AxleCase, Turning
-from ehlectric.cases.axle_inputs import CONDUCTING, Shaft
+from ehlectric.cases.axle_inputs import Shaft
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.gear_inputs import Conduction
 from ehlectric.drive import (
@@ -40,8 +40,8 @@ from ehlectric.drive import (
     Edge,
     Film,
     Network,
-    machine,
     measured_edge,
+    network_of,
     oscillation_warning,
     rank,
     remedy_notes,
@@ -181,28 +181,8 @@ class AxleSolution:
             yield weight, self._network(films)
 
     def _network(self, of_elements: Iterable[Film]) -> Network:
-        case = self.case
-        of_machine, inductive = machine(case.running_circuit, case.rotor), case.circuit.inductive
-        # Without inductances, the inverter's voltage lies across all elements that are not at the rotor.
-        films = [each for each in of_machine.elements if inductive or case.rotor in (each.first, each.second)]
-        for shaft in case.shaft:
-            if shaft.housing_capacitance is not None:
-                films.append(
-                    Film(f"{shaft.name} and housing", shaft.name, HOUSING, shaft.housing_capacitance)
-                )
-        for number, link in enumerate(case.link, 1):
-            films.append(
-                Film(
-                    f"link {number}",
-                    link.between[0],
-                    link.between[1],
-                    link.capacitance or 0.0,
-                    link.kind in CONDUCTING,
-                    0.0 if link.resistance is None else 1.0 / link.resistance,
-                )
-            )
-        shafts = tuple(shaft.name for shaft in case.shaft)
-        return Network(shafts, (*films, *of_elements), of_machine.source)
+        base = network_of(self.case)
+        return replace(base, elements=(*base.elements, *of_elements))
 
     def films(self, conduction: Conduction = "by-film") -> tuple[Film, ...]:
         """Bearings and meshes as elements of the network."""

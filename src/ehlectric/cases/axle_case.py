@@ -18,6 +18,7 @@ from pydantic.fields import FieldInfo
 
 from ehlectric.cases.amounts import Amount
 from ehlectric.cases.axle_inputs import (
+    CONDUCTING,
     Adjustment,
     AxleMesh,
     AxleOperation,
@@ -32,7 +33,7 @@ from ehlectric.cases.bearing_inputs import Bearing, base_of, typed_base
 from ehlectric.cases.bearing_kinds import KINDS_OF_BEARINGS
 from ehlectric.cases.case_oil import Lubricant
 from ehlectric.cases.discharge_inputs import AxleDischarge
-from ehlectric.cases.drive_case import NetworkCase, Remedy, with_files
+from ehlectric.cases.drive_case import Connection, NetworkCase, Remedy, with_files
 from ehlectric.cases.drive_inputs import Breakdown, Circuit, ShaftForce, Source
 from ehlectric.cases.duty_inputs import Duty
 from ehlectric.cases.gear_case import GearCase
@@ -198,9 +199,25 @@ class AxleCase(NetworkCase, book="axle_file"):
         return "; or file, the path of a gear file" if key == "mesh.pair" else ""
 
     @property
-    def rotor(self) -> str:
+    def rotor_name(self) -> str:
         """Name of the shaft of the rotor."""
         return next(shaft.name for shaft in self.shaft if shaft.rotor)
+
+    @property
+    def shaft_names(self) -> tuple[str, ...]:
+        """Names of all shafts."""
+        return tuple(shaft.name for shaft in self.shaft)
+
+    def connections(self) -> Iterator[Connection]:
+        """Yield capacitances of shafts to the housing, and links."""
+        for shaft in self.shaft:
+            if shaft.housing_capacitance is not None:
+                yield Connection(f"{shaft.name} and housing", shaft.name, HOUSING, shaft.housing_capacitance)
+        for number, link in enumerate(self.link, 1):
+            conductance = 0.0 if link.resistance is None else 1.0 / link.resistance
+            first, second = link.between
+            conducts = link.kind in CONDUCTING
+            yield Connection(f"link {number}", first, second, link.capacitance or 0.0, conducts, conductance)
 
     @property
     def geared_shafts(self) -> set[str]:
@@ -378,7 +395,7 @@ class AxleCase(NetworkCase, book="axle_file"):
         InputError for ratios that contradict each other, for a shaft that nothing turns, and for torques
         that take two paths.
         """
-        done = {self.rotor: Turning(self.drive.speed, self.drive.torque)}
+        done = {self.rotor_name: Turning(self.drive.speed, self.drive.torque)}
         used: set[int] = set()
         divided: list[InputError] = []
         joints = [*self._joints()]
@@ -414,7 +431,7 @@ class AxleCase(NetworkCase, book="axle_file"):
         if name is not None and name not in speeds:
             takes = " or ".join(repr(shaft) for shaft in speeds)
             raise InputError("duty.vehicle.shaft", got=shown(name), takes=takes)
-        return speeds[self.rotor] / (min(speeds.values()) if name is None else speeds[name])
+        return speeds[self.rotor_name] / (min(speeds.values()) if name is None else speeds[name])
 
     def _joints(self) -> Iterator[tuple[str, str, str, float]]:
         """Joints that turn shafts: key, first and second shaft, torque of the second over the first."""

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from copy import deepcopy
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Self
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self
 
 from pydantic import Field, model_validator
 
@@ -52,17 +52,46 @@ class Remedy(Table, book="remedies"):
         return self
 
 
+class Connection(NamedTuple):
+    """Connection of two nodes of a network that is no film."""
+
+    name: str
+    first: str
+    second: str
+    capacitance: float = 0.0  # [F]
+    conducts: bool = False
+    conductance: float = 0.0  # [S]
+
+
 class NetworkCase(CaseFile):
-    """Case of a source, a machine and its films, which is a drive or an axle, with changed copies of it."""
+    """Case of a source, a machine and its films, which is a drive or an axle, with changed copies of it.
+
+    Its network has the nodes of the machine and the shafts, and connections between them.
+    """
 
     if TYPE_CHECKING:
         title: Title
+        drive: Any
         source: Source
         circuit: Circuit
         remedies: tuple[Remedy, ...]
 
         def replace(self, changes: Mapping[str, Any] | None = None, /, **tables: Any) -> Self:
             """Return a changed copy."""
+
+    @property
+    def rotor_name(self) -> str:
+        """Name of the shaft of the rotor."""
+        return "rotor"
+
+    @property
+    def shaft_names(self) -> tuple[str, ...]:
+        """Names of all shafts."""
+        return (self.rotor_name,)
+
+    def connections(self) -> Iterator[Connection]:
+        """Yield connections of shafts with each other and with the housing, in addition to the machine."""
+        yield from ()
 
     @property
     def running_speed(self) -> float:

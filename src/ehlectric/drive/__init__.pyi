@@ -58,7 +58,7 @@ from .network import WINDING as WINDING
 from .network import Film as Film
 from .network import Network as Network
 from .network import firsts as firsts
-from .network import machine as machine
+from .network import network_of as network_of
 from .network import rank as rank
 from .network import times_strength as times_strength
 from .network import touches as touches

@@ -12,13 +12,14 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from ehlectric.cases.drive_inputs import Breakdown, Circuit
+from ehlectric.cases.drive_case import DriveCase
+from ehlectric.cases.drive_inputs import Breakdown
 from ehlectric.drive.circuit_equations import FRAME, StateSpace
 from ehlectric.drive.circuit_states import CircuitStates
 from ehlectric.drive.discharges.films_and_source import Films, Measuring, Segments, films_of
 from ehlectric.drive.drive_bearings import BearingElement
 from ehlectric.drive.drive_record import SIMULATING, Record
-from ehlectric.drive.network import HOUSING, Film, Network, machine
+from ehlectric.drive.network import HOUSING, Film, Network, network_of
 from ehlectric.drive.source_in_time import SourceInTime
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.runtime.progress import Progress
@@ -154,16 +155,14 @@ class NetworkInTime:
         )
 
 
-# Name of the shaft of a drive.
-_ROTOR = "rotor"
-
-
-def rotor_network(
-    circuit: Circuit, elements: Sequence[BearingElement], breakdown: Breakdown, ring: complex | None = None
+def network_of_ends(
+    case: DriveCase, elements: Sequence[BearingElement], ring: complex | None = None
 ) -> NetworkInTime:
     """Network of a drive with both bearings as elements; ``ring``, rate at which its source rings [1/s]."""
-    films = (
-        TimedFilm(end, _ROTOR, HOUSING, element, b)
-        for b, (end, element) in enumerate(zip(ENDS, elements, strict=True))
-    )
-    return NetworkInTime(machine(circuit, _ROTOR), tuple(films), breakdown, ring)
+    return NetworkInTime(network_of(case), films_of_ends(elements, case.rotor_name), case.breakdown, ring)
+
+
+def films_of_ends(elements: Sequence[BearingElement], rotor: str = "rotor") -> tuple[TimedFilm, ...]:
+    """Films of both bearings of a drive between the rotor and the housing."""
+    bearings = enumerate(zip(ENDS, elements, strict=True))
+    return tuple(TimedFilm(end, rotor, HOUSING, element, b) for b, (end, element) in bearings)

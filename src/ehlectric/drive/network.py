@@ -33,6 +33,7 @@ import scipy
 
 from ehlectric.arrays import Array, IntArray, Mask
 from ehlectric.cases.axle_keys import HOUSING as HOUSING
+from ehlectric.cases.drive_case import NetworkCase
 from ehlectric.cases.drive_inputs import Circuit
 from ehlectric.drive.circuit_equations import FRAME, Element, StateSpace, state_space
 from ehlectric.errors import InputError
@@ -245,6 +246,17 @@ def machine(circuit: Circuit, rotor: str) -> Network:
     if parted and earthed is not None:
         elements.append(Film("frame and earth", HOUSING, EARTH, earthed))
     return Network((rotor,), tuple(elements), (SOURCE if series else WINDING, negative))
+
+
+def network_of(case: NetworkCase) -> Network:
+    """Network of a drive or an axle without its films: its machine, and the connections of its shafts."""
+    of_machine, rotor = machine(case.running_circuit, case.rotor_name), case.rotor_name
+    # Without inductances, the inverter's voltage lies across all elements that are not at the rotor.
+    kept = [
+        each for each in of_machine.elements if case.circuit.inductive or rotor in (each.first, each.second)
+    ]
+    connections = (Film(*each) for each in case.connections())
+    return Network(case.shaft_names, (*kept, *connections), of_machine.source)
 
 
 def rank(voltages: Mapping[str, float], limits: Mapping[str, float]) -> list[tuple[str, float]]:

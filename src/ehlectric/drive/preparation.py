@@ -11,7 +11,7 @@ from ehlectric.bearing import BearingResult, solve_bearing
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.drive.drive_bearings import BearingElement, bearing_element, check_extinction
 from ehlectric.drive.drive_cycle import check_drive_cycle
-from ehlectric.drive.films_in_time import NetworkInTime, rotor_network
+from ehlectric.drive.films_in_time import NetworkInTime, network_of_ends
 from ehlectric.drive.source_in_time import SourceInTime
 from ehlectric.errors import InputError, within
 from ehlectric.quantities.inputs import ENDS
@@ -29,8 +29,7 @@ class PreparedDrive:
     @cached_property
     def network(self) -> NetworkInTime:
         """Rotor with both bearings."""
-        circuit, breakdown = self.case.running_circuit, self.case.breakdown
-        return rotor_network(circuit, self.elements, breakdown, self.source.ring_rate)
+        return network_of_ends(self.case, self.elements, self.source.ring_rate)
 
     @property
     def divider(self) -> tuple[float, float]:
@@ -58,7 +57,7 @@ def prepare(case: DriveCase, *, workers: int | None = None) -> PreparedDrive:
     )
     for end, element in zip(ENDS, elements, strict=True):
         check_extinction(case.breakdown, element.breakdown, end)
-    source = SourceInTime.of(case.running_source, case.source, case.breakdown, case.drive.duration)
+    source = SourceInTime.of(case, case.breakdown)
     return PreparedDrive(case, results, elements, source)
 
 

@@ -8,12 +8,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ehlectric.cases.drive_case import NetworkCase
 from ehlectric.cases.drive_inputs import Breakdown, Source
 from ehlectric.drive.discharges.films_and_source import Measuring, Segments
 from ehlectric.drive.inverter import steps_of
 from ehlectric.drive.measured_source import measured_waveform
 from ehlectric.drive.source_pieces import Ringing, edges, ringing_of, sampled
 from ehlectric.drive.waveform.waveform import Waveform
+from ehlectric.errors import within
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.results import LIMITS
 
@@ -46,9 +48,12 @@ class SourceInTime:
     prior_warnings: tuple[ResultWarning, ...] = ()  # warnings about the file of a measured source
 
     @classmethod
-    def of(cls, source: Source, given: Source, breakdown: Breakdown, duration: float | None) -> SourceInTime:
-        """Source at the speed of the rotor, from the ``given`` one; None for the default ``duration`` [s]."""
-        waveform, prior_warnings = measured_waveform(given, duration)
+    def of(cls, case: NetworkCase, breakdown: Breakdown) -> SourceInTime:
+        """Source of a drive or an axle at the speed of its rotor, for the simulated time of the case."""
+        duration = case.drive.duration
+        with within("source"):
+            source = case.running_source
+        waveform, prior_warnings = measured_waveform(case.source, duration)
         if waveform is not None:
             settling = max(_REST, _RECOVERIES * breakdown.recovery_time)
             peak, measured = float(np.max(np.abs(waveform.values))), duration or waveform.duration

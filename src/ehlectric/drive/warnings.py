@@ -16,7 +16,7 @@ from ehlectric.cases.plausibility import unusual_machine
 from ehlectric.discharge.discharge_laws import CURRENT_DENSITY_LIMITS, compared_with_limits
 from ehlectric.drive.drive_bearings import BearingElement
 from ehlectric.drive.drive_record import FEW, FILM, ON, DriveSolution
-from ehlectric.drive.films_in_time import rotor_network
+from ehlectric.drive.films_in_time import network_of_ends
 from ehlectric.drive.network import Network
 from ehlectric.quantities.formats import amount, rpm_text
 from ehlectric.quantities.inputs import ENDS
@@ -110,8 +110,7 @@ def machine_warnings(case: DriveCase, bearings: Sequence[BearingElement]) -> Ite
         yield from active(unusual_machine({f"{table}.{key}": value for key, value in getattr(case, table)}))
     yield from ring_warning(case.circuit, case.running_speed)
     if case.circuit.inductive:
-        rotor = rotor_network(case.running_circuit, bearings, case.breakdown)
-        yield from oscillation_warning(case.circuit, rotor.at_rest)
+        yield from oscillation_warning(case.circuit, network_of_ends(case, bearings).at_rest)
     yield from _of_conduction(case, bearings)
 
 

@@ -68,7 +68,7 @@ def network_picture(result: AxleResult) -> Axes:
     for number, shaft in enumerate(shafts):
         _draw_shaft(ax, _COLUMN * number, level, shaft, potentials[shaft])
         _draw_ladder(ax, _COLUMN * number, level, to_housing[shaft])
-    _draw_winding(ax, _COLUMN * shafts.index(solution.case.rotor), level, solution)
+    _draw_winding(ax, _COLUMN * shafts.index(solution.case.rotor_name), level, solution)
     for each, lane in between:
         _draw_between(
             ax, each, lane, level, [shafts.index(end) for end in (each.film.first, each.film.second)]

@@ -8,8 +8,7 @@ from scipy.linalg import expm
 
 from ehlectric.drive.circuit_equations import INVERSE, RATE_ROW, SHAPES, Element, modes_of, state_space
 from ehlectric.drive.circuit_states import MOVED
-from ehlectric.drive.films_in_time import rotor_network
-from tests.helpers.drives import arc, element, motor
+from tests.helpers.drives import arc, element, motor, rotor_network
 
 
 def test_capacitive_divider():

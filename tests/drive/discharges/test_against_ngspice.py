@@ -7,8 +7,7 @@ import pytest
 
 from ehlectric.bearing.circuit import Path
 from ehlectric.drive.drive_record import CHARGE, ENERGY, FILM, ON, VOLTAGE
-from ehlectric.drive.films_in_time import rotor_network
-from tests.helpers.drives import arc, element, from_rest, march, motor, square
+from tests.helpers.drives import arc, element, from_rest, march, motor, rotor_network, square
 from tests.helpers.ngspice import waveform
 
 # Ten periods of a 10 kHz carrier whose edges take 1 us: ngspice places their corners within 0.2 ns.
