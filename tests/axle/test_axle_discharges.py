@@ -167,6 +167,21 @@ def test_edges_of_noisy_and_coarse_records(tmp_path, step, noise, error):
     assert half == pytest.approx((0.5 * edge.voltage, edge.rise_time), rel=1e-12)
 
 
+def test_a_measure_with_a_measured_source_is_stored(tmp_path):
+    """The axle itself has a described one."""
+    case = two_stages()
+    source = scope(tmp_path / "scope.csv", case) | {"scale": 0.5}
+    remedied = case.replace(remedies=[{"title": "A", "changes": {"source": source}}])
+    result = solve_axle(remedied, probable=False)
+    save(result, tmp_path / "out")
+    (tmp_path / "scope.csv").unlink()
+    loaded = load(tmp_path / "out")
+    assert loaded.solution.measured_edge is None
+    assert loaded.remedies[0].edge == result.remedies[0].edge
+    assert loaded.remedies[0].edge.voltage == pytest.approx(0.5 * case.edge, rel=1e-9)
+    assert loaded.summary()["remedies"] == result.summary()["remedies"]
+
+
 def test_a_missing_record_of_an_axle_is_named(tmp_path):
     case = two_stages(source={"file": str(tmp_path / "lost.csv")})
     with pytest.raises(InputError, match=r"lost\.csv") as refused:

@@ -456,3 +456,41 @@ def test_a_check_solves_no_films():
     assert [row["capacitance"] for row in solved["elements"]] == [
         row["capacitance"] for row in atlas["elements"]
     ]
+
+
+def test_strengths_of_single_bearings_in_probabilities():
+    """A range of the axle's strength does not change a bearing with its own strength; its own range does."""
+    key = "bearing.rotor.discharge.dielectric_strength"
+    base = two_stages(remedies=[], **{key: "15 V/um", "discharge.dielectric_strength": "80 V/um"})
+    exact = {key: ["15 V/um", "15.001 V/um"]}
+    spread = {key: ["15 V/um", "150 V/um"]}
+    wide = {"discharge.dielectric_strength": ["15 V/um", "150 V/um"]}
+
+    def chances(**ranges):
+        result = solve_axle(base.replace(ranges=ranges)).summary()["uncertainty"]["elements"]
+        return {row["element"]: row["breakdown_probability"] for row in result}
+
+    known, widened, own = chances(**exact), chances(**exact, **wide), chances(**spread)
+    name = "bearing 1 of rotor"
+    assert widened[name] == pytest.approx(known[name], abs=0.05)
+    assert own[name] < known[name] - 0.3
+
+
+def test_a_new_strength_of_one_bearing_keeps_the_other_keys():
+    """They begin with the keys of the axle."""
+    case = two_stages(remedies=[], **{"discharge.conductivity": "1 nS/m"})
+    changed = case.replace({"bearing.rotor.discharge.dielectric_strength": "30 V/um"})
+    assert changed.bearing[0].discharge.conductivity == case.discharge.conductivity
+    other = case.replace({"bearing.rotor.lubricant.base": "fva-3"})
+    assert (other.bearing[0].lubricant.base, other.bearing[2].lubricant) == ("fva-3", None)
+    assert other.replace({"bearing.rotor.lubricant": None}) == case
+
+
+def test_strengths_of_bearings_are_a_strength():
+    """The axle itself has none."""
+    strength = {"bearing.rotor.discharge": {"dielectric_strength": "15 V/um"}}
+    case = two_stages(remedies=[], discharge={"dielectric_strength": None}, **strength)
+    result = solve_axle(case)
+    assert result.verdict.level != "grey"
+    assert result.summary()["first"]["element"].endswith("of rotor")
+    assert result.uncertainty is not None

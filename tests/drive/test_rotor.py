@@ -8,9 +8,21 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric import DriveCase, Sweep, calibrate, evaluate, example, load, run_sweep, save, solve_drive
+from ehlectric import (
+    BearingCase,
+    DriveCase,
+    Sweep,
+    calibrate,
+    evaluate,
+    example,
+    load,
+    run_sweep,
+    save,
+    solve_drive,
+)
 from ehlectric.drive.drive_cycle import check_drive_cycle
 from ehlectric.errors import InputError
+from ehlectric.tables.drive_tables import end_cells
 from tests.helpers.statics import by_vectors
 
 ENDS = ("drive_end", "non_drive_end")
@@ -206,3 +218,73 @@ def test_gravity_without_a_mass_is_named():
     assert ["drive.gravity_direction" in note.text for note in notes] == [True]
     turned = DriveCase.from_dict(tables(gravity_direction="0 deg"))
     assert "key-unused" not in [warning.code for warning in solve_drive(turned).warnings]
+
+
+@pytest.mark.parametrize(
+    "ranges",
+    [{"bearing": {"radial_load": [1.0, 2000.0]}}, {"bearing.radial_load": [1.0, 2000.0]}],
+    ids=["nested", "dotted"],
+)
+def test_ranges_of_loads_are_refused(ranges):
+    """In tables, and in changes of them."""
+    given_loads = tables()
+    given_loads["drive_end"]["ranges"] = ranges
+    for make in (
+        lambda: DriveCase.from_dict(given_loads),
+        lambda: DriveCase.from_dict(tables()).replace({"drive_end.ranges": ranges}),
+    ):
+        with pytest.raises(InputError, match="follows from") as refused:
+            make()
+        assert refused.value.key == "drive_end.ranges.bearing.radial_load"
+
+
+def test_loads_next_to_the_name_of_a_bearing_file_are_refused(tmp_path):
+    (tmp_path / "bearing.toml").write_text(DriveCase.from_toml(example("drive.toml")).drive_end.to_toml())
+    text = DriveCase.from_dict(tables()).to_toml()
+    head = text[: text.index("[drive_end]")] + '[drive_end]\nfile = "bearing.toml"\n'
+    path = tmp_path / "drive.toml"
+    path.write_text(head + '[drive_end.bearing]\nradial_load = "5 kN"\n')
+    with pytest.raises(InputError, match="follows from") as refused:
+        DriveCase.from_toml(path)
+    assert refused.value.key == "drive_end.bearing.radial_load"
+
+
+def test_errors_of_one_bearing_are_named_once():
+    """The other end is equal, and is not in the file."""
+    given_loads = tables()
+    del given_loads["non_drive_end"]
+    given_loads["drive_end"]["bearing"]["composite_rq"] = "-1 um"
+    with pytest.raises(InputError) as refused:
+        DriveCase.from_dict(given_loads)
+    assert "non_drive_end" not in str(refused.value)
+    thrust = {"base": "51208", "axial_load": "1 kN", "composite_rq": "0.05 um"}
+    table = {**tables()["drive_end"], "bearing": {**thrust, "inner_speed": 100.0, "temperature": 350.0}}
+    given_loads["drive_end"] = BearingCase.from_dict(table)
+    with pytest.raises(InputError, match="radial") as refused:
+        DriveCase.from_dict(given_loads)
+    assert refused.value.key == "drive_end.bearing.radial_load"
+
+
+def test_a_calibrated_drive_drops_measures_of_its_rotor():
+    changes = ({"rotor.mass": "9 kg"}, {"drive.speed": "1000 rpm"})
+    remedies = [{"title": str(n), "changes": change} for n, change in enumerate(changes)]
+    case = DriveCase.from_dict(tables() | {"remedies": remedies})
+    kept = case.with_given_loads
+    assert [remedy.title for remedy in kept.remedies] == ["1"]
+    assert len(kept.variants()) == 1
+
+
+def test_numbers_of_both_ends_have_their_units():
+    """1.07 kN and 281 N stand in one row."""
+    case = DriveCase.from_dict(tables(force=[{"at": "-60 mm", "x": "800 N"}]))
+    blocks = (block for _, block in end_cells(solve_drive(case).summary()))
+    rows = {row[0]: row[1:] for block in blocks for row in block}
+    assert rows["radial load"] == ("1.07 kN", "281 N", "")
+    assert rows["axial load"] == ("0", "0", "N")
+
+
+def test_forces_are_no_keys_of_points():
+    case = DriveCase.from_dict(tables(force=[{"at": "-60 mm", "x": "800 N"}]))
+    for key in ("force.1.x", "rotor.mass"):
+        with pytest.raises(InputError, match="a key of the drive itself"):
+            evaluate(case, {key: [18.0, 36.0]})

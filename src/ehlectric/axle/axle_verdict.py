@@ -85,7 +85,7 @@ def axle_verdict(
     capacitance of ceramic elements that is not known. A margin that a change of the strength by 20 % takes
     across 1 is yellow.
     """
-    if not solution.case.discharge.has_strength:
+    if not solution.case.has_strength:
         return no_verdict(Statement.of("no-strength"))
     ranking = solution.discharging()
     if not ranking:

@@ -147,17 +147,22 @@ def solutions_of(dataset: xr.Dataset) -> tuple[AxleSolution, ...]:
 def _edge_attribute(solutions: Sequence[AxleSolution]) -> dict[str, str]:
     """Largest edge of the measured source of each solution; none for a described source."""
     edges = [solution.measured_edge for solution in solutions]
-    return {} if None in edges else {"edges": _text(edges)}
+    return {"edges": _text(edges)} if any(edges) else {}
 
 
 def _edges(dataset: xr.Dataset, variants: int) -> list[Edge | None]:
     """Largest edge of the measured source of each variant; None for a described source."""
     if "edges" not in dataset.attrs:
         return [None] * variants
-    rows = json_of(dataset.attrs, "edges", lambda value: is_list(value, lambda row: is_list(row, is_number)))
-    if len(rows) != variants or any(len(row) != len(Edge._fields) for row in rows):
+    rows = json_of(dataset.attrs, "edges", lambda value: is_list(value, _is_edge))
+    if len(rows) != variants:
         raise UnfitError("edges is not as it was written")
-    return [Edge(*row) for row in rows]
+    return [None if row is None else Edge(*row) for row in rows]
+
+
+def _is_edge(value: Any) -> bool:
+    """Whether a value is the height and the rise time of an edge, or null."""
+    return value is None or (is_list(value, is_number) and len(value) == len(Edge._fields))
 
 
 def _are_warnings(value: Any) -> bool:

@@ -204,18 +204,17 @@ class AxleDesign:
             usual[key] = UncertainKey(change, {} if known is None else known.bearings)
         changes = [*usual.values()]
         left_out = [each.change.key for each in changes if not is_quantity(each.change.key)]
+        # With strengths of single bearings, breakdown voltages are not proportional to that of the axle.
+        factored = not any(bearing.discharge is not None for bearing in case.bearing)
+        factors = [each for each in changes if factored and proportional_to_strength(each.change.key)]
         errors = tuple(
             max((each.film_error for each in solution.elements if each.kind == kind), default=0.0)
             for kind in ("bearing", "mesh")
         )
         return cls(
             quick,
-            tuple(
-                each
-                for each in changes
-                if is_quantity(each.change.key) and not proportional_to_strength(each.change.key)
-            ),
-            tuple(each.change for each in changes if proportional_to_strength(each.change.key)),
+            tuple(each for each in changes if is_quantity(each.change.key) and each not in factors),
+            tuple(each.change for each in factors),
             (errors[0], errors[1]),
             FilmCapacitances.of(films or solve_films(quick), (errors[0], errors[1])),
             {each.change.key: each.change.reason for each in changes if each.change.key not in stated},
@@ -320,7 +319,7 @@ def _usual(case: AxleCase) -> Iterator[UncertainKey]:
         torque = Change(torque.key, torque.label, case.drive.torque, (-high, -low), torque.reason)
     yield UncertainKey(torque)
     for shaft in case.shaft:
-        yield from _clearances(case, shaft.name)
+        yield from (*_of_oils(case, shaft.name), *_clearances(case, shaft.name))
     yield from _summits(case)
     pairs = [mesh.pair.gear for mesh in case.mesh]
     heights = [gear.summit_height for gear in pairs]
@@ -336,6 +335,22 @@ def _usual(case: AxleCase) -> Iterator[UncertainKey]:
         if name in ("winding_rotor_capacitance", "rotor_frame_capacitance") and value > 0.0:
             ends = ((1.0 - MOTOR) * value, (1.0 + MOTOR) * value)
             yield UncertainKey(Change(key, label_of(key), value, ends, _OF_MOTOR))
+
+
+def _of_oils(case: AxleCase, shaft: str) -> Iterator[UncertainKey]:
+    """Changes of strengths and grades in the oils that bearings of a shaft do not share with the axle."""
+    found: dict[str, dict[int, Change]] = {}
+    for number in case.bearings_of(shaft):
+        mounted = case.bearing[number]
+        discharge, oil = mounted.discharge, mounted.lubricant
+        tables = {} if discharge is None else {"discharge": discharge.model_dump(exclude_none=True)}
+        for change in (*strength_changes(tables), *(() if oil is None else grade_changes(oil))):
+            found.setdefault(change.key, {})[number] = change
+    for key, changes in found.items():
+        first = next(iter(changes.values()))
+        values = {number: {key: change.value} for number, change in changes.items()}
+        named = replace(first, key=f"bearing.{shaft}.{key}", label=f"{first.label}, bearings of {shaft}")
+        yield UncertainKey(named, values)
 
 
 def _clearances(case: AxleCase, shaft: str) -> Iterator[UncertainKey]:
@@ -367,7 +382,7 @@ def _summits(case: AxleCase) -> Iterator[UncertainKey]:
 
 def has_chance(case: AxleCase) -> bool:
     """Whether the elements of an axle have a probability of breakdown: the oil has a strength."""
-    return case.discharge.has_strength
+    return case.has_strength
 
 
 @dataclass

@@ -73,6 +73,7 @@ _CONTACT = "contact_resistance"
 # What stands in a key for the name of one of several tables, and tables of the oil of a bearing.
 _PLACES = {"bearing": "SHAFT", "shaft": "SHAFT"} | dict.fromkeys(("mesh", "link", "force"), "NUMBER")
 _OF_OIL = ("lubricant", "discharge")
+_TABLES_OF_OIL = tuple(f"{name}." for name in _OF_OIL)
 
 # Resistance that removes a link.
 NO_LINK = "none"
@@ -307,6 +308,16 @@ class AxleCase(NetworkCase, book="axle_file"):
                     "has no film that is computed",
                 )
             return BearingCase.from_dict(table | {"discharge": _tables_of(self.strength_of(number))})
+
+    @property
+    def strengths(self) -> tuple[AxleDischarge, ...]:
+        """Tables ``discharge`` of all bearings."""
+        return tuple(self.strength_of(number) for number in range(len(self.bearing)))
+
+    @property
+    def has_strength(self) -> bool:
+        """Whether the oil of the axle, or of a bearing, has a dielectric strength."""
+        return any(each.has_strength for each in (self.discharge, *self.strengths))
 
     def strength_in(self, name: str) -> AxleDischarge:
         """Return the table ``discharge`` of a bearing or a mesh with a name."""
@@ -767,7 +778,16 @@ class AxleCase(NetworkCase, book="axle_file"):
         """Change a key of a shaft, its bearings or a force in the tables of a case."""
         kind = key.partition(".")[0]
         for number in self.places_of(key):
-            _set_in(kind, table[kind][number], change)
+            entry = table[kind][number]
+            for name in _OF_OIL:
+                # A new table of one bearing begins with the table of the axle.
+                if (
+                    kind == "bearing"
+                    and name not in entry
+                    and any(each.startswith(f"{name}.") for each in change)
+                ):
+                    entry[name] = deepcopy(table[name])
+            _set_in(kind, entry, change)
 
     def _change_mesh(self, table: dict[str, Any], key: str, change: Mapping[str, Any]) -> None:
         """Change a key in the gear file of a mesh, or in all gear files, in the tables of a case."""
@@ -876,17 +896,28 @@ def changed_bearings(case: AxleCase, values: Mapping[int, Mapping[str, float]]) 
     """
     bearings = [*case.bearing]
     for number, changes in values.items():
-        keys = _set_in("bearing", dict(bearings[number].keys), changes)
-        mounted = bearings[number].model_copy()
+        of_oil = {key: value for key, value in changes.items() if key.startswith(_TABLES_OF_OIL)}
+        others = {key: value for key, value in changes.items() if key not in of_oil}
+        keys = _set_in("bearing", dict(bearings[number].keys), others)
+        mounted = bearings[number].model_copy(update=_changed_oil(case, number, of_oil) if of_oil else None)
         object.__setattr__(mounted, "__pydantic_extra__", keys)
         bearings[number] = mounted
     return case.model_copy(update={"bearing": tuple(bearings), "ranges": None})
 
 
+def _changed_oil(case: AxleCase, number: int, changes: Mapping[str, float]) -> dict[str, Any]:
+    """Tables of the oil of a bearing with new numbers."""
+    given = {"lubricant": case.oil_of(number), "discharge": case.strength_of(number)}
+    tables = {name: each.model_dump(mode="json", exclude_none=True) for name, each in given.items()}
+    _set_in("bearing", tables, changes)
+    names = {key.partition(".")[0] for key in changes}
+    return {name: type(given[name]).from_dict(tables[name]) for name in names}
+
+
 def _set_in(name: str, table: dict[str, Any], change: Mapping[str, Any]) -> dict[str, Any]:
     """Set dotted keys of a table with a name, and remove their alternatives from it and from its own oil."""
     tables, flat = {name: table}, {f"{name}.{key}": value for key, value in change.items()}
-    if any(key.startswith(_OF_OIL) for key in change):
+    if any(key.startswith(_TABLES_OF_OIL) for key in change):
         tables, flat = tables | table, flat | flattened(change)
         displace_oil(table.get("lubricant", {}), nested(change, "lubricant"))
     displace(tables, flat, {each: ALTERNATIVES[each] for each in tables.keys() & ALTERNATIVES.keys()})

@@ -191,7 +191,7 @@ class DriveCase(NetworkCase, book="drive_file"):
     breakdown: Breakdown
     drive_end: BearingCase
     # If only one bearing is given, it is used at both ends.
-    non_drive_end: BearingCase = Field(default_factory=lambda given: given["drive_end"])
+    non_drive_end: BearingCase = Field(default_factory=lambda given: _other_end(given))
     remedies: tuple[Remedy, ...] = ()
     duty: Duty | None = None
     measured: Measured | None = None
@@ -200,8 +200,11 @@ class DriveCase(NetworkCase, book="drive_file"):
     @classmethod
     def _with_loads(cls, tables: Any) -> Any:
         """Bearings have the loads that follow from the rotor and its forces."""
-        given = isinstance(tables, Mapping) and tables.get("rotor") is not None
-        return with_rotor_loads(tables) if given else tables
+        if not isinstance(tables, Mapping):
+            return tables
+        if tables.get("rotor") is None and tables.get("force"):
+            raise InputError.missing("rotor", "a table with the places of both bearings, for [[force]]")
+        return tables if tables.get("rotor") is None else with_rotor_loads(tables)
 
     @model_validator(mode="after")
     def _check_rotor(self) -> Self:
@@ -212,8 +215,6 @@ class DriveCase(NetworkCase, book="drive_file"):
                     f"force.{number}.shaft", "is not used: a drive has one shaft, its rotor"
                 )
         if self.rotor is None:
-            if self.force:
-                raise InputError.missing("rotor", "a table with the places of both bearings, for [[force]]")
             return self
         self.rotor.loads(self.force, self.drive.gravity_direction)
         for end in ENDS:
@@ -242,8 +243,15 @@ class DriveCase(NetworkCase, book="drive_file"):
 
     @property
     def with_given_loads(self) -> Self:
-        """Drive whose bearings have their loads as inputs, without a rotor."""
-        return self if self.rotor is None else self.replace({"rotor": None, "force": []})
+        """Drive whose bearings have their loads as inputs, without a rotor and its mitigation measures."""
+        if self.rotor is None:
+            return self
+        kept = [
+            each.model_dump()
+            for each in self.remedies
+            if not any(key.startswith(("rotor", "force")) for key in each.changes)
+        ]
+        return self.replace({"rotor": None, "force": [], "remedies": kept})
 
     @property
     def bearings(self) -> tuple[BearingCase, BearingCase]:
@@ -321,7 +329,7 @@ class DriveCase(NetworkCase, book="drive_file"):
         displace(table, of_drive, {name: ALTERNATIVES[name] for name in ("source", "circuit", "breakdown")})
         set_keys(table, of_drive)
         if table.get("rotor") is not None:
-            for_all(check_no_load, flat)
+            for_all(check_no_load, flattened(flat))
         for end, change in ends.items():
             with within(end):
                 table[end] = getattr(self, end).replace(change)
@@ -351,6 +359,8 @@ def with_files(table: Mapping[str, Any], folder: Path) -> dict[str, Any]:
     find_files(tables, folder)
     for end in ENDS:
         if isinstance(tables.get(end), Mapping) and "file" in tables[end]:
+            if tables.get("rotor") is not None:
+                for_all(check_no_load, flattened({end: tables[end]}))
             tables[end] = _bearing_of(tables[end], folder, end)
     return tables
 
@@ -374,8 +384,7 @@ def with_rotor_loads(tables: Mapping[str, Any]) -> dict[str, Any]:
         loads = dict.fromkeys(ENDS, _ANY_LOADS)
     else:
         for_all(lambda key: _check_given(key, tables, loads), [*_given_loads(tables)])
-    ends = {end: _loaded(tables.get(end, tables.get(ENDS[0])), loads[end]) for end in ENDS}
-    return {**tables, **{end: bearing for end, bearing in ends.items() if bearing is not None}}
+    return {**tables, **{end: _loaded(tables[end], end, loads[end]) for end in ENDS if end in tables}}
 
 
 def _loads_of(tables: Mapping[str, Any]) -> dict[str, dict[str, float]]:
@@ -389,6 +398,21 @@ def _loads_of(tables: Mapping[str, Any]) -> dict[str, dict[str, float]]:
     )
 
 
+def _other_end(given: dict[str, Any]) -> BearingCase:
+    """Bearing at the non-drive end of a drive with one bearing: the same, with its load by the rotor."""
+    bearing: BearingCase = given["drive_end"]
+    rotor: Rotor | None = given.get("rotor")
+    if rotor is None:
+        return bearing
+    try:
+        loads = rotor.loads(given["force"], given["drive"].gravity_direction)
+    except InputError:
+        # The case names the error.
+        return bearing
+    other: BearingCase = _loaded(bearing, ENDS[1], loads[ENDS[1]])
+    return other
+
+
 def _given_loads(tables: Mapping[str, Any]) -> Iterator[str]:
     """Dotted keys of loads in the tables of bearings."""
     for end in ENDS:
@@ -396,7 +420,9 @@ def _given_loads(tables: Mapping[str, Any]) -> Iterator[str]:
         if isinstance(table, Mapping):
             of_bearing, ranges = (as_mapping(table.get(name)) for name in ("bearing", "ranges"))
             yield from (f"{end}.bearing.{load}" for load in LOADS if of_bearing.get(load) is not None)
-            yield from (f"{end}.ranges.bearing.{load}" for load in LOADS if f"bearing.{load}" in ranges)
+            yield from (
+                f"{end}.ranges.bearing.{load}" for load in LOADS if f"bearing.{load}" in flattened(ranges)
+            )
 
 
 def _check_given(key: str, tables: Mapping[str, Any], loads: Mapping[str, Mapping[str, float]]) -> None:
@@ -420,10 +446,11 @@ def _follows(key: str) -> InputError:
     return InputError.worded(key, "follows from the tables rotor and force; remove it, or these tables")
 
 
-def _loaded(bearing: Any, loads: Mapping[str, float]) -> Any:
+def _loaded(bearing: Any, end: str, loads: Mapping[str, float]) -> Any:
     """Bearing of a drive, a case or its tables, with loads [N]."""
     if isinstance(bearing, BearingCase):
-        return bearing.replace({f"bearing.{load}": value for load, value in loads.items()})
+        with within(end):
+            return bearing.replace({f"bearing.{load}": value for load, value in loads.items()})
     if isinstance(bearing, Mapping) and isinstance(bearing.get("bearing"), Mapping):
         return {**bearing, "bearing": {**bearing["bearing"], **loads}}
     return bearing

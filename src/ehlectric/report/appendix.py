@@ -15,6 +15,7 @@ from typing import Any
 from ehlectric.cases import library
 from ehlectric.cases.amounts import INFINITE, Amount
 from ehlectric.cases.axle_case import AxleCase
+from ehlectric.cases.axle_keys import LOADS
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.drive_case import DriveCase
@@ -77,7 +78,7 @@ def inputs_of(case: SolvedCase, *, apart: bool = False) -> Iterator[Input]:
         for before, table in parts_of(case, apart=apart).items()
         for key, value in _library_values(table).items()
     }
-    for key, value in flattened(_numbered(tables)).items():
+    for key, value in flattened(numbered(tables)).items():
         if end_and_key(key)[1] == "title" or value == {}:
             continue
         name, source, theirs = of_library.get(key, ("", None, None))
@@ -91,6 +92,10 @@ def _tables(case: SolvedCase, *, apart: bool) -> dict[str, Any]:
     """Nested tables of the inputs that are set; two equal bearings of a drive are one."""
     tables = case.model_dump(mode="json", exclude_none=True, exclude_unset=True)
     tables.pop("remedies", None)
+    for end in ENDS if isinstance(case, DriveCase) and case.rotor is not None else ():
+        for load in LOADS if end in tables else ():
+            # It follows from the rotor.
+            tables[end]["bearing"].pop(load, None)
     if isinstance(case, AxleCase):
         tables["mesh"] = [_with_gear_keys(mesh) for mesh in tables.get("mesh", ())]
     if isinstance(case, DriveCase):
@@ -133,7 +138,7 @@ def replaced_by(case: SolvedCase, key: str) -> str:
     return REPLACED[inner] if end and isinstance(case, DriveCase) and inner in case.replaced else ""
 
 
-def _numbered(tables: Mapping[str, Any]) -> dict[str, Any]:
+def numbered(tables: Mapping[str, Any]) -> dict[str, Any]:
     """Tables in which lists of tables, as of rough surfaces, are tables by their numbers from 1."""
     return {
         key: {str(number): item for number, item in enumerate(value, 1)}

@@ -26,7 +26,7 @@ from ehlectric.quantities.rows import Summary
 from ehlectric.quantities.sheets import FIRST_PAGE_OF_DRIVE, SWEEPS, at_ends
 from ehlectric.quantities.units import unit_for
 from ehlectric.readable import readable
-from ehlectric.report.appendix import input_text, inputs_of, named, parts_of, varied_keys
+from ehlectric.report.appendix import input_text, inputs_of, named, numbered, parts_of, varied_keys
 from ehlectric.report.first_page import life_texts, machine_of, measure_first_table, numbers_of, usual_range
 from ehlectric.report.report_content import Block, Named, Numbers, Part, Section, Table, Text
 from ehlectric.report.report_facts import density_tables, part_of, row_tables
@@ -210,7 +210,7 @@ def changed_inputs(
     before: DriveCase, after: DriveCase, changes: Mapping[str, Any]
 ) -> Iterator[tuple[Named, str, str]]:
     """Rows of the changes of a remedy: input, and its values before and after the change."""
-    was, now = flattened(before.to_dict()), flattened(after.to_dict())
+    was, now = (flattened(numbered(case.to_dict())) for case in (before, after))
     for changed in flattened(dict(changes)):
         for key in _leaves(changed, was, now):
             yield named(key), _value_at(before, key, was), _value_at(after, key, now)
@@ -254,7 +254,9 @@ def _ends(results: SweepResults) -> tuple[str, ...]:
     """Ends whose numbers are shown: one where both bearings are equal at all points."""
     assert isinstance(results.case, DriveCase)
     first, second = results.case.bearings
-    alike = first == second and not any(end_and_key(key)[0] in ENDS for key in results.varied)
+    # With a rotor, both bearings carry different loads at some points.
+    alike = first == second and results.case.rotor is None
+    alike = alike and not any(end_and_key(key)[0] in ENDS for key in results.varied)
     return ENDS[:1] if alike else ENDS
 
 

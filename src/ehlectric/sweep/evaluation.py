@@ -138,7 +138,7 @@ def _reason_of_end(case: DriveCase, end: str, reason: str) -> str:
 def _key_of_end(key: str, end: str) -> str | None:
     """Key of a bearing file that a key of a drive stands for at one of its ends; None for the other end."""
     of, inner = end_and_replaced(key)
-    if not of or key == REPLACED["contacts"]:
+    if of not in (*ENDS, BOTH) or key == REPLACED["contacts"]:
         takes = "drive.speed, drive.temperature, or a key of drive_end, non_drive_end or bearings"
         raise InputError(key, got="a key of the drive itself", takes=takes)
     return inner if of in (BOTH, end) else None

@@ -93,8 +93,12 @@ def end_cells(summary: Summary, sheet: Sheet = DRIVE) -> Iterator[tuple[str, lis
 
 
 def _cells(pair: Pair) -> tuple[str, ...]:
-    about = next(row for row in pair if row is not None)
-    return about.name, *map(_cell, pair), about.unit
+    """Cells of a row: name, a value for each bearing, and their unit; a unit at each value if they differ."""
+    known = [row for row in pair if row is not None]
+    units = {row.unit for row in known}
+    if len(units) == 1:
+        return known[0].name, *map(_cell, pair), known[0].unit
+    return known[0].name, *("–" if row is None else f"{row.bounded} {row.unit}" for row in pair), ""
 
 
 def _cell(row: Row | None) -> str:

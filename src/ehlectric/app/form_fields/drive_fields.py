@@ -242,7 +242,9 @@ def forces_of(inputs: Inputs) -> list[Any]:
 
 
 def with_rotor_force(inputs: Inputs) -> Inputs:
-    """Inputs of a drive with a further force on its rotor."""
+    """Inputs of a drive with a further force on its rotor, up to the number that a page shows."""
+    if len(forces_of(inputs)) >= MOST_FORCES:
+        return inputs
     return inputs.changed({"force": [*forces_of(inputs), form_data("first_values")["rotor_force"]]})
 
 
@@ -250,6 +252,10 @@ def _force_group(number: int) -> Group:
     """Group of a force on the rotor of a drive, which belongs to inputs that have this force."""
     _, *fields = force_fields(number)
     return Group(force_title(number), tuple(fields), when=lambda inputs: len(forces_of(inputs)) >= number)
+
+
+# Loads of a bearing in the table of its ranges.
+_RANGED = tuple(f"bearing.{load}" for load in LOADS)
 
 
 def with_loads(before: Inputs, after: Inputs) -> Inputs:
@@ -266,9 +272,13 @@ def with_loads(before: Inputs, after: Inputs) -> Inputs:
     had, has = (inputs.value("rotor") is not None for inputs in (before, after))
     ends = [end for end in (DRIVE_END, NON_DRIVE_END) if after.value(f"{end}.bearing") is not None]
     keys = [f"{end}.bearing.{load}" for end in ends for load in LOADS]
+    ranged = {end: after.value(f"{end}.ranges") for end in ends}
     if has:
-        given = [key for key in keys if after.value(key) is not None]
-        return after.changed(dict.fromkeys(given)) if given else after
+        dropped: dict[str, Any] = dict.fromkeys(key for key in keys if after.value(key) is not None)
+        for end, ranges in ranged.items():
+            kept = {key: each for key, each in (ranges or {}).items() if key not in _RANGED}
+            dropped |= {f"{end}.ranges": kept or None} if ranges and kept != ranges else {}
+        return after.changed(dropped) if dropped else after
     if had:
         first = form_data("first_values")["bearing_load"].items()
         loads = {f"{end}.{key}": load for end in ends for key, load in first}

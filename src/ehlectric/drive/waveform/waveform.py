@@ -9,9 +9,12 @@ import numpy as np
 
 from ehlectric.arrays import Array
 
-# Growth of the largest change in twice the time up to which it is the height of an edge, and the parts of the
-# height between which its slope is measured.
-_GROWS, _LOW, _HIGH = 1.1, 0.1, 0.9
+# Parts of the height of an edge between which its slope is measured, and part at both ends at which a voltage
+# may rest.
+_LOW, _HIGH, _REST = 0.1, 0.9, 0.15
+
+# Levels between the ends, largest and smallest part of the time in two of them, and fewest samples for both.
+_LEVELS, _MOST, _LEAST, _FEW, _MANY = 10, 0.45, 0.02, 4, 20
 
 
 class Edge(NamedTuple):
@@ -44,42 +47,53 @@ class Waveform:
 
     @property
     def largest_edge(self) -> Edge:
-        """Largest change of the voltage within the time of an edge, and its rise time.
+        """Largest change of the voltage by one edge, and its rise time.
 
-        The time of an edge is the shortest one, of 1, 2, 4, ... samples, within which the voltage changes by
-        at most 10 % more than within half of this time. The rise time follows from the slope between 10 and
-        90 % of the height.
+        The largest changes within 1, 2, 4, ... samples are candidates. An edge does not rest between its
+        ends: of the time between 15 and 85 % of its height, at most 45 % and at least 2 % lie within any
+        fifth of this range. Several edges with rests between them are therefore no edge, however large they
+        are together. The rise time follows from the time between 10 and 90 % of the height. Noise adds to
+        the height.
 
         Examples
         --------
         >>> import numpy as np
-        >>> steps = np.interp(np.arange(300.0), [100.0, 110.0, 200.0, 205.0], [0.0, 90.0, 90.0, 60.0])
+        >>> steps = np.interp(np.arange(300.0), [100.0, 110.0, 200.0, 205.0], [0.0, 90.0, 90.0, 150.0])
         >>> height, rise = Waveform(0.0, 1e-8, steps).largest_edge
         >>> height, round(rise, 10)
         (90.0, 1e-07)
         """
-        samples, before = 1, 0.0
-        height, start = self._largest_change(samples)
-        while height > _GROWS * before and 2 * samples < self.values.size:
-            before, twice = height, self._largest_change(2 * samples)
-            if twice[0] > height:
-                samples, (height, start) = 2 * samples, twice
-        within = self.values[start : start + samples + 1]
-        share = (within - within[0]) / (within[-1] - within[0]) if height else np.zeros(2)
-        low, high = (self._crossing(share, part) for part in (_LOW, _HIGH))
-        return Edge(height, self.step * (high - low) / (_HIGH - _LOW))
+        samples, edge = 1, Edge(0.0, 0.0)
+        while samples < self.values.size:
+            changes = np.abs(self.values[samples:] - self.values[:-samples])
+            start = int(np.argmax(changes))
+            height, within = float(changes[start]), self.values[start : start + samples + 1]
+            share = (within - within[0]) / (within[-1] - within[0]) if height else np.zeros(2)
+            if height > edge.voltage and _moves_on(share):
+                edge = Edge(height, self.step * _rise(share))
+            samples *= 2
+        return edge
 
-    def _largest_change(self, samples: int) -> tuple[float, int]:
-        """Largest absolute change of the voltage within a number of samples, and where it begins."""
-        changes = np.abs(self.values[samples:] - self.values[:-samples])
-        place = int(np.argmax(changes))
-        return float(changes[place]), place
 
-    @staticmethod
-    def _crossing(share: Array, part: float) -> float:
-        """Place at which a rising part of an edge first reaches a value, in samples."""
-        above = int(np.argmax(share >= part))
-        if above == 0:
-            return 0.0
-        before, after = share[above - 1], share[above]
-        return float(above - 1 + (part - before) / (after - before))
+def _moves_on(share: Array) -> bool:
+    """Whether a change, from 0 to 1, rests at no voltage between its ends."""
+    counts, _ = np.histogram(share, _LEVELS, (_REST, 1.0 - _REST))
+    between, pairs = int(np.sum(counts)), counts[1:] + counts[:-1]
+    if between < _FEW:
+        return True
+    return bool(np.max(pairs) < _MOST * between and (between < _MANY or np.min(pairs) >= _LEAST * between))
+
+
+def _rise(share: Array) -> float:
+    """Rise time of a change from 0 to 1 in samples, from its last crossing of 10 % before 90 %."""
+    above = int(np.argmax(share >= _HIGH))
+    below = int(np.flatnonzero(share[: above + 1] < _LOW)[-1]) if above else 0
+    ends = [_between(share, below, _LOW), _between(share, max(above - 1, 0), _HIGH)]
+    return (ends[1] - ends[0]) / (_HIGH - _LOW)
+
+
+def _between(share: Array, before: int, part: float) -> float:
+    """Place between a sample and the next one at which a change reaches a part of it."""
+    if before + 1 >= share.size or share[before + 1] == share[before]:
+        return float(before)
+    return before + float((part - share[before]) / (share[before + 1] - share[before]))
