@@ -16,6 +16,9 @@ Path = tuple[str | int, ...]
 # Tables whose keys are dotted keys of the file.
 _DOTTED = ("ranges", "vary", "changes")
 
+# Tables of an axle that one of its bearings may have, too.
+_OF_OIL = ("lubricant", "discharge")
+
 # A number at the beginning of a text with a unit.
 _NUMBER = re.compile(r"[-+]?\d+(\.\d*)?([eE][-+]?\d+)?(?= |$)")
 
@@ -29,6 +32,9 @@ def keys_of(model: type[Table], prefix: str = "") -> dict[str, Any]:
     fields = {name: field.annotation for name, field in model.known_keys().items()}
     if "bearings" in fields:
         fields["bearings"] = Bearing
+    if model is MountedBearing:
+        # The oil of one bearing has the keys of the oil of its axle.
+        fields = {name: annotation for name, annotation in fields.items() if name not in _OF_OIL}
     keys: dict[str, Any] = {}
     for name, annotation in fields.items():
         of_names = get_origin(annotation) is dict
@@ -55,6 +61,8 @@ def key_at(path: Path) -> str:
         if name in _DOTTED:
             break
     of_axle = path[0] == "bearing" and len(path) > 1 and isinstance(path[1], int)
+    if of_axle and names[1] in _OF_OIL:
+        return ".".join(names[1:])
     if of_axle and names[1] not in MountedBearing.model_fields:
         names[0] = "bearings"
     return ".".join(names)

@@ -204,7 +204,7 @@ class AxleDesign:
             usual[key] = UncertainKey(change, {} if known is None else known.bearings)
         changes = [*usual.values()]
         left_out = [each.change.key for each in changes if not is_quantity(each.change.key)]
-        # With strengths of single bearings, breakdown voltages are not proportional to that of the axle.
+        # If single bearings have strengths, the strength of the axle does not scale all breakdown voltages.
         factored = not any(bearing.discharge is not None for bearing in case.bearing)
         factors = [each for each in changes if factored and proportional_to_strength(each.change.key)]
         errors = tuple(
@@ -339,14 +339,14 @@ def _usual(case: AxleCase) -> Iterator[UncertainKey]:
 
 def _of_oils(case: AxleCase, shaft: str) -> Iterator[UncertainKey]:
     """Changes of strengths and grades in the oils that bearings of a shaft do not share with the axle."""
-    found: dict[str, dict[int, Change]] = {}
+    changed: dict[str, dict[int, Change]] = {}
     for number in case.bearings_of(shaft):
         mounted = case.bearing[number]
         discharge, oil = mounted.discharge, mounted.lubricant
         tables = {} if discharge is None else {"discharge": discharge.model_dump(exclude_none=True)}
         for change in (*strength_changes(tables), *(() if oil is None else grade_changes(oil))):
-            found.setdefault(change.key, {})[number] = change
-    for key, changes in found.items():
+            changed.setdefault(change.key, {})[number] = change
+    for key, changes in changed.items():
         first = next(iter(changes.values()))
         values = {number: {key: change.value} for number, change in changes.items()}
         named = replace(first, key=f"bearing.{shaft}.{key}", label=f"{first.label}, bearings of {shaft}")

@@ -202,18 +202,18 @@ class DriveCase(NetworkCase, book="drive_file"):
         """Bearings have the loads that follow from the rotor and its forces."""
         if not isinstance(tables, Mapping):
             return tables
-        if tables.get("rotor") is None and tables.get("force"):
+        forces = tables.get("force") or ()
+        for number, force in enumerate(forces if isinstance(forces, list | tuple) else (), 1):
+            if as_mapping(force).get("shaft") is not None:
+                text = "is not used: a drive has one shaft, its rotor"
+                raise InputError.worded(f"force.{number}.shaft", text)
+        if tables.get("rotor") is None and forces:
             raise InputError.missing("rotor", "a table with the places of both bearings, for [[force]]")
         return tables if tables.get("rotor") is None else with_rotor_loads(tables)
 
     @model_validator(mode="after")
     def _check_rotor(self) -> Self:
         """Check the forces on the rotor, and the kinds of its bearings."""
-        for number, force in enumerate(self.force, 1):
-            if force.shaft is not None:
-                raise InputError.worded(
-                    f"force.{number}.shaft", "is not used: a drive has one shaft, its rotor"
-                )
         if self.rotor is None:
             return self
         self.rotor.loads(self.force, self.drive.gravity_direction)
@@ -399,7 +399,7 @@ def _loads_of(tables: Mapping[str, Any]) -> dict[str, dict[str, float]]:
 
 
 def _other_end(given: dict[str, Any]) -> BearingCase:
-    """Bearing at the non-drive end of a drive with one bearing: the same, with its load by the rotor."""
+    """Bearing at the non-drive end of a drive with one bearing, with its load by the rotor."""
     bearing: BearingCase = given["drive_end"]
     rotor: Rotor | None = given.get("rotor")
     if rotor is None:
