@@ -7,12 +7,15 @@ from ehlectric.app.compute.bearing_answers import bearing_case, solved_quickly
 from ehlectric.app.form_fields.drive_fields import (
     DRIVE_GROUPS,
     HALF,
+    MOST_FORCES,
     OTHER,
+    PAGE_GROUPS,
     PRESETS,
     changes_of,
     remedies_of,
     remedy_at_bearing,
     with_remedy,
+    with_rotor_force,
     without_remedy,
 )
 from ehlectric.app.form_fields.field_defaults import bearing_at, default_of, end_and_key
@@ -232,3 +235,30 @@ def test_an_address_holds_a_drive_with_its_remedies():
     from urllib.parse import parse_qsl
 
     assert Inputs.of_query(parse_qsl(DRIVE.address())) == DRIVE
+
+
+def test_a_rotor_takes_loads_out_of_ranges_and_measures():
+    """And takes its own measures with it."""
+    bearing = {"base": "6208", "radial_load": "2 kN"}
+    ranges = {"bearing.radial_load": ["1 kN", "3 kN"], "bearing.composite_rq": ["1 nm", "2 nm"]}
+    measures = [
+        {"title": key, "changes": {key: "1 kN"}} for key in ("bearings.bearing.radial_load", "drive.speed")
+    ]
+    given = Inputs({"drive_end": {"bearing": bearing, "ranges": ranges}, "remedies": measures})
+    rotor = changed(given, {"rotor": {"mass": "2 kg"}})
+    assert rotor.value("drive_end.bearing") == {"base": "6208"}
+    assert rotor.value("drive_end.ranges") == {"bearing.composite_rq": ["1 nm", "2 nm"]}
+    assert [each["title"] for each in rotor.value("remedies")] == ["drive.speed"]
+    measured = rotor.changed({"remedies": [{"title": "c", "changes": {"rotor.mass": "3 kg"}}]})
+    without = changed(with_rotor_force(measured), {"rotor": None})
+    assert (without.value("force"), without.value("remedies")) == (None, None)
+    assert without.value("drive_end.bearing.radial_load") == "1000 N"
+
+
+def test_a_page_shows_eight_forces():
+    inputs = Inputs({"rotor": {"mass": "2 kg"}})
+    for _ in range(MOST_FORCES + 1):
+        inputs = with_rotor_force(inputs)
+    assert len(inputs.value("force")) == MOST_FORCES
+    titles = [group.title for group in PAGE_GROUPS if group.when(inputs)]
+    assert titles.count(f"Force {MOST_FORCES}") == 1

@@ -639,7 +639,9 @@ class AxleCase(NetworkCase, book="axle_file"):
         """Check that the faces of a mesh overlap, and that gears at one place of a shaft are one gear with
         two meshes.
         """
-        for place, mesh in enumerate(self.mesh, 1):
+
+        def check_overlap(place: int) -> None:
+            mesh = self.mesh[place - 1]
             width = mesh.pair.gear.face_width
             if abs(mesh.at[0] - mesh.at[1]) > 0.5 * width:
                 raise InputError(
@@ -648,6 +650,8 @@ class AxleCase(NetworkCase, book="axle_file"):
                     takes=f"places at most half of the face width, {amount(width, 'm')}, apart, so that the "
                     "faces overlap; z has one origin for all shafts",
                 )
+
+        for_all(check_overlap, range(1, len(self.mesh) + 1))
         placed = [
             (name, at, mesh.pair.gear.face_width, _gear_of(mesh.pair.gear, number), place)
             for place, mesh in enumerate(self.mesh, 1)

@@ -73,17 +73,18 @@ def dataset_of(
     import xarray as xr
 
     solutions = [solution, *(solved for _, _, solved in remedies)]
-    records = [part.record for part in solutions]
     elements = [part.elements for part in solutions]
+    of_records = _RECORDS.variables([part.record for part in solutions])
+    coordinates = {_END: list(ENDS), "limit": of_records.pop("limit")}
     return xr.Dataset(
         {
             **_SOLUTION.written(solutions),
-            **_RECORDS.variables(records),
+            **of_records,
             **_ELEMENT.written(elements),
             **_PATH.written([[part.path for part in pair] for pair in elements]),
             **{key: part for k, duty in enumerate(duties) for key, part in _duty(k).variables(duty).items()},
         },
-        coords={_END: list(ENDS)},
+        coords=coordinates,
         attrs={
             "schema": SCHEMA,
             "version": version,

@@ -111,9 +111,11 @@ class StoredRecord:
         variables: dict[str, Any] = {}
         for part, objects in zip(self.parts, columns, strict=True):
             variables |= part.written(objects if self.over else objects[0])
-        return variables | {
-            name: (dims, getattr(records[0], key)) for key, (name, dims) in self.others.items()
+        of_others = {
+            name: (dims, getattr(records[0], key), {"units": "V"})
+            for key, (name, dims) in self.others.items()
         }
+        return variables | of_others
 
     def check(self, dataset: xr.Dataset, sizes: Mapping[str, int], further: Sequence[Part] = ()) -> None:
         """Check all variables, and the ``sizes`` of dimensions by their names without the name of the record.

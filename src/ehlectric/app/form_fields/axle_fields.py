@@ -645,8 +645,16 @@ def without_shaft(inputs: Inputs, number: int) -> Inputs:
         "bearing": [each for each in _tables(inputs, "bearing") if each.get("shaft") != name] or None,
         "link": [each for each in _tables(inputs, "link") if name not in _pair_of(each, "between")] or None,
         "remedies": [each for each in _tables(inputs, "remedies") if not _refers(each, name)] or None,
+        "ranges": _without_ranges(inputs, name) or None,
     }
     return _with_measured(inputs, inputs.changed(changes), removed)
+
+
+def _without_ranges(inputs: Inputs, name: str) -> dict[str, Any]:
+    """Ranges without those of a shaft and its bearings."""
+    ranges, gone = inputs.value("ranges"), (f"bearing.{name}.", f"shaft.{name}.")
+    kept = ranges.items() if isinstance(ranges, Mapping) else ()
+    return {key: ends for key, ends in kept if not key.startswith(gone)}
 
 
 def _refers(remedy: Mapping[str, Any], name: str) -> bool:

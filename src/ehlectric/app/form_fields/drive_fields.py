@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -278,13 +278,22 @@ def with_loads(before: Inputs, after: Inputs) -> Inputs:
         for end, ranges in ranged.items():
             kept = {key: each for key, each in (ranges or {}).items() if key not in _RANGED}
             dropped |= {f"{end}.ranges": kept or None} if ranges and kept != ranges else {}
+        dropped |= _without_remedies(after, lambda key: key.endswith(_RANGED))
         return after.changed(dropped) if dropped else after
     if had:
         first = form_data("first_values")["bearing_load"].items()
         loads = {f"{end}.{key}": load for end in ends for key, load in first}
         lacking = {key: load for key, load in loads.items() if after.value(key) is None}
-        return after.changed({"force": None} | lacking)
+        gone = _without_remedies(after, lambda key: key.startswith(("rotor.", "force.")))
+        return after.changed({"force": None} | lacking | gone)
     return after
+
+
+def _without_remedies(inputs: Inputs, changes: Callable[[str], bool]) -> dict[str, Any]:
+    """Change of the remedies to those without keys for which a function is true; none if none has one."""
+    remedies = _remedies(inputs)
+    kept = [each for each in remedies if not any(map(changes, each.get("changes", {})))]
+    return {"remedies": kept or None} if len(kept) < len(remedies) else {}
 
 
 def _fields_at(group: Group, end: str) -> Iterator[Field]:
