@@ -651,7 +651,7 @@ def without_shaft(inputs: Inputs, number: int) -> Inputs:
 
 
 def _without_ranges(inputs: Inputs, name: str) -> dict[str, Any]:
-    """Ranges without those of a shaft and its bearings."""
+    """Ranges, except ranges of inputs of a shaft and its bearings."""
     ranges, gone = inputs.value("ranges"), (f"bearing.{name}.", f"shaft.{name}.")
     kept = ranges.items() if isinstance(ranges, Mapping) else ()
     return {key: ends for key, ends in kept if not key.startswith(gone)}

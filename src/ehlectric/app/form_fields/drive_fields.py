@@ -290,7 +290,7 @@ def with_loads(before: Inputs, after: Inputs) -> Inputs:
 
 
 def _without_remedies(inputs: Inputs, changes: Callable[[str], bool]) -> dict[str, Any]:
-    """Change of the remedies to those without keys for which a function is true; none if none has one."""
+    """Change that removes remedies with some keys; empty if no remedy has such a key."""
     remedies = _remedies(inputs)
     kept = [each for each in remedies if not any(map(changes, each.get("changes", {})))]
     return {"remedies": kept or None} if len(kept) < len(remedies) else {}
