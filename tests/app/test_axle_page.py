@@ -6,7 +6,7 @@ import pytest
 
 from ehlectric.readable import readable
 from tests.app.driving import field, type_into, wait_for_address, wait_for_number
-from tests.app.outputs import downloaded, summary_by_command
+from tests.app.outputs import downloaded, fits, summary_by_command
 from tests.helpers.places import EXAMPLES
 from tests.helpers.processes import wait_until
 
@@ -314,3 +314,21 @@ def test_a_gear_file_replaces_the_gears_of_a_mesh(axle):
     page.get_by_test_id("field-mesh-1-pair-gear-hand").select_option("left")
     error.wait_for(state="hidden")
     assert page.get_by_test_id("group-gear-mesh-1").evaluate("box => box.open")
+
+
+@pytest.mark.slow
+def test_a_measured_voltage_takes_the_place_of_the_inverter(axle, tmp_path):
+    """Edges of 280 V of a record, instead of a third of the DC link."""
+    page = axle
+    before = elements(page)
+    wave = tmp_path / "scope.csv"
+    volts = "\n".join(f"{2e-7 * k:.8e},{140 if k // 100 % 2 else -140}" for k in range(2000))
+    wave.write_text(f"time [s],voltage [V]\n{volts}\n", encoding="utf-8")
+    opened(page, "source")
+    page.get_by_test_id("upload-waveform").set_input_files(wave)
+    page.get_by_test_id("waveform-used").filter(has_text="scope.csv").wait_for()
+    assert wait_until(lambda: elements(page) != before)
+    assert "280 V" in page.get_by_test_id("answer").inner_text()
+    assert fits(page)
+    page.get_by_test_id("undo").click()
+    assert wait_until(lambda: elements(page) == before)
