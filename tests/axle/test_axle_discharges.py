@@ -382,5 +382,9 @@ def test_an_arc_that_goes_out_above_a_breakdown_voltage_is_refused(axle):
     with pytest.raises(InputError, match=r"at which the films of bearing \d of \w+ break down") as refused:
         solve_axle(AxleCase.from_dict(axle | {"drive": timed, "breakdown": arc_of}))
     assert refused.value.key == "breakdown.extinction_voltage"
+    hotter = {"title": "hotter", "changes": {"breakdown.extinction_voltage": 10.0 * limit}}
+    arc_of["extinction_voltage"] = 0.5 * limit
+    with pytest.raises(InputError, match=r"^remedies\.1\.changes\.breakdown\.extinction_voltage: "):
+        solve_axle(AxleCase.from_dict(axle | {"drive": timed, "breakdown": arc_of, "remedies": [hotter]}))
     arc_of["extinction_voltage"] = 1.02 * limit
     assert solve_axle(AxleCase.from_dict(axle | {"drive": timed, "breakdown": arc_of})).discharges is not None

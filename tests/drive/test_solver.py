@@ -108,6 +108,9 @@ def test_extinction_above_breakdown_is_refused_at_the_key_that_is_given(case):
         with pytest.raises(InputError, match="drive_end") as error:
             solve(case.replace({f"breakdown.{key}": value}), workers=1)
         assert error.value.key == f"breakdown.{key}"
+    hotter = {"title": "hotter", "changes": {"breakdown.extinction_current": "20 A"}}
+    with pytest.raises(InputError, match=r"^remedies\.1\.changes\.breakdown\.extinction_current: "):
+        solve_drive(case.replace({"drive.duration": "0.1 ms"}, remedies=[hotter]), workers=1)
 
 
 @pytest.mark.slow

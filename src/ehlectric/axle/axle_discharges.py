@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -20,6 +20,7 @@ from ehlectric.arrays import Array
 from ehlectric.axle.solution import AxleSolution, SolvedFilms, solve_films
 from ehlectric.bearing import Path
 from ehlectric.cases.axle_case import AxleCase
+from ehlectric.cases.drive_case import changes_of
 from ehlectric.cases.drive_inputs import Breakdown
 from ehlectric.drive import (
     HOUSING,
@@ -149,10 +150,11 @@ def simulate_axles(
     case, missing = solutions[0].case, list[InputError]()
     if case.breakdown is None:
         missing.append(InputError.missing("breakdown", _NO_ARC))
-    breakdown = case.breakdown or Breakdown.from_dict(_ANY_ARC)
     for number, (solution, solved) in enumerate(zip(solutions, films, strict=True)):
         lacking, known = list[InputError](), {each.key for each in missing}
-        with _collecting(lacking):
+        breakdown = solution.case.breakdown or Breakdown.from_dict(_ANY_ARC)
+        changes = changes_of(case.numbered_remedies[number - 1][0]) if number else nullcontext()
+        with changes, _collecting(lacking):
             _films_in_time(solved, breakdown, _conducting(solution))
         missing += [
             _of_remedy(each, case, number)
@@ -174,7 +176,7 @@ _ANY_ARC = {"arc_resistance": "1 ohm", "extinction_voltage": "1 uV", "recovery_t
 
 
 def _of_remedy(error: InputError, case: AxleCase, number: int) -> InputError:
-    """Error that names the remedy with a number from 1; 0 is the axle itself."""
+    """Error of a missing value that names one of the remedies that apply, from 1; 0 is the axle itself."""
     if not number:
         return error
     title = printable(case.numbered_remedies[number - 1][1].title)

@@ -16,6 +16,7 @@ from ehlectric.axle.summary import axle_summary, tables_of_point
 from ehlectric.axle.uncertainty import AxleUncertainty, has_chance, uncertainty_of
 from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.discharge_inputs import Discharge
+from ehlectric.cases.drive_case import changes_of
 from ehlectric.cases.library.estimated_bearings import is_estimated
 from ehlectric.errors import InputError
 from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
@@ -341,7 +342,10 @@ def solve_axle(
     check_axle_duty(case)
     start = time.perf_counter()
     variants = case.variants()
-    every = [solve_films(each, progress) for each in (case, *(variants if remedies else ()))]
+    every = [solve_films(case, progress)]
+    for (number, _), variant in zip(case.numbered_remedies, variants if remedies else (), strict=False):
+        with changes_of(number):
+            every.append(solve_films(variant, progress))
     solution, *changed = map(elements_of, every)
     timed = probable and case.drive.duration is not None
     simulated = simulate_axles((solution, *changed), every, progress) if timed else ()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from contextlib import AbstractContextManager
 from copy import deepcopy
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self
@@ -61,6 +62,11 @@ class Connection(NamedTuple):
     capacitance: float = 0.0  # [F]
     conducts: bool = False
     conductance: float = 0.0  # [S]
+
+
+def changes_of(number: int) -> AbstractContextManager[None]:
+    """Context in which errors get their key in the changes of a remedy, by its number in the file."""
+    return within(f"remedies.{number}.changes")
 
 
 class NetworkCase(CaseFile):
@@ -133,7 +139,7 @@ class NetworkCase(CaseFile):
 
     def _changed(self, numbered: tuple[int, Remedy]) -> Self:
         number, remedy = numbered
-        with within(f"remedies.{number}.changes"):
+        with changes_of(number):
             return self.replace({**remedy.changes, "remedies": []})
 
 

@@ -11,14 +11,13 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from ehlectric.cases.drive_case import DriveCase
+from ehlectric.cases.drive_case import DriveCase, changes_of
 from ehlectric.drive.drive_cycle import DriveDuty, run_drive_cycle
 from ehlectric.drive.drive_record import DriveSolution, event_rows
 from ehlectric.drive.stored import dataset_of
 from ehlectric.drive.summary import drive_summary, whole_summary, with_cycle
 from ehlectric.drive.verdict_rule import drive_verdict
 from ehlectric.drive.warnings import drive_warnings, unused_keys
-from ehlectric.errors import within
 from ehlectric.quantities.former_keys import warning_tables
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.result_warnings import ResultWarning
@@ -251,10 +250,11 @@ def solve_drive(
     variants = case.variants()
     parts = _parts(report, (1 + len(variants)) * (1 if case.duty is None else 2))
     solution = solve(case, next(parts), workers=workers)
-    remedies = tuple(
-        (remedy.title, dict(remedy.changes), solve(variant, next(parts), workers=workers))
-        for (_, remedy), variant in zip(case.numbered_remedies, variants, strict=True)
-    )
+    remedies = []
+    for (number, remedy), variant in zip(case.numbered_remedies, variants, strict=True):
+        with changes_of(number):
+            solved = solve(variant, next(parts), workers=workers)
+        remedies.append((remedy.title, dict(remedy.changes), solved))
     duty, *others = _duties(
         [
             (0, case, solution),
@@ -268,7 +268,7 @@ def solve_drive(
         partial(solve, workers=workers),
         parts,
     )
-    result = DriveResult(solution, remedies, duty, remedy_duties=tuple(filter(None, others)))
+    result = DriveResult(solution, tuple(remedies), duty, remedy_duties=tuple(filter(None, others)))
     return replace(result, seconds=time.perf_counter() - start)
 
 
@@ -284,5 +284,5 @@ def _duties(
         if case.duty is None:
             yield None
             continue
-        with within(f"remedies.{number}.changes") if number else nullcontext():
+        with changes_of(number) if number else nullcontext():
             yield run_drive_cycle(case, solution.highest_source, solve, next(parts))
