@@ -211,6 +211,15 @@ def test_a_calibrated_drive_has_given_loads():
     assert calibrate(given).case == result.case
 
 
+def test_a_force_is_changed_by_its_keys():
+    case = DriveCase.from_dict(tables(force=[{"at": "50 mm", "y": "200 N"}]))
+    assert case.replace({"force.1.y": "300 N"}).force[0].y == 300.0
+    with pytest.raises(InputError, match=r"^force\.1: is a table; .* as force\.1\.(at|x|y|z)$"):
+        case.replace({"force.1": {"at": "60 mm"}})
+    with pytest.raises(InputError, match=r"^force\.2: .* a number from 1 to 1$"):
+        case.replace({"force.2": {"at": "60 mm"}})
+
+
 def test_gravity_without_a_mass_is_named():
     light = {key: value for key, value in ROTOR.items() if not key.startswith("mass")}
     case = DriveCase.from_dict(tables(light, [{"at": "90 mm", "x": "1 kN"}], gravity_direction="0 deg"))

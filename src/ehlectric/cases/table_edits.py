@@ -37,7 +37,8 @@ def set_keys(table: dict[str, Any], flat: Mapping[str, Any]) -> None:
             target[int(leaf) - 1] = value
             continue
         if isinstance(target, list):
-            raise InputError(key, "is a table", takes=f"one of its keys, as {key}.surface")
+            of_list = _part(target, leaf, key)
+            raise InputError(key, "is a table", takes=f"one of its keys, as {key}.{next(iter(of_list), '...')}")
         # An empty value adds a missing table, but does not change an existing table.
         if not (isinstance(value, dict) and not value and isinstance(target.get(leaf), dict)):
             target[leaf] = value
