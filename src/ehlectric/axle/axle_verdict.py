@@ -16,7 +16,7 @@ from ehlectric.discharge.breakdown_rule import (
     strength_interval,
     touching_rule,
 )
-from ehlectric.discharge.film_verdict import no_verdict, strength_clause, strength_doubt
+from ehlectric.discharge.film_verdict import no_verdict, strength_clause, strength_doubt, unusable
 from ehlectric.quantities.formats import time_share_text
 from ehlectric.quantities.lubrication_states import AT_TIMES, CONDUCTS
 from ehlectric.quantities.statement import Fact, Level, Statement
@@ -81,10 +81,12 @@ def axle_verdict(
     margin is the breakdown voltage divided by the voltage of the first element, 0 if its summits touch.
 
     ``pending``, whether the axle has probabilities that are not computed; the verdict then states this.
-    Grey without a strength, if no element with a voltage breaks down, and if the level depends on a
-    capacitance of ceramic elements that is not known. A margin that a change of the strength by 20 % takes
-    across 1 is yellow.
+    Grey without a strength, if no element with a voltage breaks down, if the films must not be used, and if
+    the level depends on a capacitance of ceramic elements that is not known. A margin that a change of the
+    strength by 20 % takes across 1 is yellow.
     """
+    if (refused := unusable(solution.warnings)) is not None:
+        return refused
     if not solution.case.has_strength:
         return no_verdict(Statement.of("no-strength"))
     ranking = solution.discharging()

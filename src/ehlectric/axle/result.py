@@ -85,6 +85,11 @@ class AxleResult(Shown):
         return self.solution.case
 
     @property
+    def converged(self) -> bool:
+        """Whether the films of all bearings and meshes are converged."""
+        return self.solution.converged
+
+    @property
     def warnings(self) -> tuple[ResultWarning, ...]:
         """Warnings about where the result is unreliable, each with the name of its bearing or mesh, and notes
         about given keys that it does not use.
@@ -170,6 +175,7 @@ class AxleResult(Shown):
         """Return the results nested as in summary.json, SI units."""
         return {
             "schema": SCHEMA,
+            "converged": self.converged,
             **self._heads(self.all_warnings),
             **axle_summary(self.solution),
             **({} if self.uncertainty is None else {"uncertainty": self.uncertainty.summary()}),
@@ -238,8 +244,10 @@ class AxleResult(Shown):
 
     def key_numbers(self) -> tuple[str, ...]:
         """Return the number of elements and the first of them as texts."""
-        ranking = self.solution.discharging()
         count = f"{len(self.solution.elements)} bearings and meshes"
+        if not self.converged:
+            return count, "NOT CONVERGED"
+        ranking = self.solution.discharging()
         return (count, f"{ranking[0][0]} discharges first") if ranking else (count,)
 
     def _headline(self) -> str:

@@ -30,14 +30,17 @@ def solve_to_folder(
 ) -> RunOutcome[AxleResult]:
     """Solve an axle, and write summary.json, axle.nc, elements.csv with bearings and meshes, and shafts.csv.
 
-    Files of an earlier result in the folder are removed when the axle is solved, also the ``others``.
+    Files of an earlier result in the folder are removed when the axle is solved, also the ``others``. The
+    outcome has a ``failure`` where a contact is not converged; its files are written nevertheless.
     """
     load_library()
-    result = solve_axle(case, progress=progress)
-    files = save(result, folder, replaced=(*FILES, *others))
-    return RunOutcome(
-        result, result.summary(), tuple(files), (*result.all_warnings, *result.warnings_of_remedies)
-    )
+    names = (*FILES, *others)
+    with alone_in(folder, names) as folder:
+        result = solve_axle(case, progress=progress)
+        files = save(result, folder, replaced=names)
+    failure = None if result.converged else "not converged: a contact of a bearing"
+    warnings = (*result.all_warnings, *result.warnings_of_remedies)
+    return RunOutcome(result, result.summary(), tuple(files), warnings, failure)
 
 
 def save(result: AxleResult, folder: str | Path, *, replaced: Sequence[str] = ()) -> list[Path]:

@@ -151,6 +151,11 @@ class AxleSolution:
         """Largest edge of the common-mode voltage."""
         return self.measured_edge or Edge(self.case.edge, self.case.source.rise_time or 0.0)
 
+    @property
+    def converged(self) -> bool:
+        """Whether the films of all bearings are converged. Films of meshes are: others raise an error."""
+        return all(warning.code != "not-converged" for warning in self.warnings)
+
     def network(self, conduction: Conduction = "by-film") -> Network:
         """Network of all elements, links and capacitances of the machine."""
         return self._networks[conduction]

@@ -38,7 +38,9 @@ def set_keys(table: dict[str, Any], flat: Mapping[str, Any]) -> None:
             continue
         if isinstance(target, list):
             of_list = _part(target, leaf, key)
-            raise InputError(key, "is a table", takes=f"one of its keys, as {key}.{next(iter(of_list), '...')}")
+            raise InputError(
+                key, "is a table", takes=f"one of its keys, as {key}.{next(iter(of_list), '...')}"
+            )
         # An empty value adds a missing table, but does not change an existing table.
         if not (isinstance(value, dict) and not value and isinstance(target.get(leaf), dict)):
             target[leaf] = value

@@ -287,7 +287,8 @@ def _solve_gear_pair(case: GearCase, _: int | None) -> tuple[bool, dict[str, Any
 
 
 def _solve_axle(case: AxleCase, _: int | None) -> tuple[bool, dict[str, Any], str]:
-    return True, solve_axle(case, remedies=False, probable=False).point_summary(), ""
+    axle = solve_axle(case, remedies=False, probable=False)
+    return axle.converged, axle.point_summary(), "a contact of a bearing is not converged"
 
 
 # Solution of a case of each kind, and of bearings with samples for the probability of breakdown: whether it

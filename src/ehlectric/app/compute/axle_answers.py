@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from ehlectric.app.charts.axle_charts import ratios_figure, simulated_figures
 from ehlectric.app.compute.answer_parts import (
+    UNUSABLE,
     at_operating_point,
     axle_of,
     gauge_text,
@@ -170,7 +172,14 @@ def _meaning_of(verdict: Verdict) -> str:
 
 
 def _numbers(summary: Summary) -> Iterator[Number]:
-    """Main numbers: margin and voltages of the first element, and voltage of the edge."""
+    """Main numbers: margin and voltages of the first element, and voltage of the edge. None may be used, and
+    none is known, where a film is not converged.
+    """
+    for number in _known_numbers(summary):
+        yield number if summary["converged"] else replace(number, note=UNUSABLE, known=False)
+
+
+def _known_numbers(summary: Summary) -> Iterator[Number]:
     labels = _TEXTS["numbers"]
     first = summary["first"]
     if first["element"] is not None:
