@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager, nullcontext
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -20,7 +20,7 @@ from ehlectric.arrays import Array
 from ehlectric.axle.solution import AxleSolution, SolvedFilms, solve_films
 from ehlectric.bearing import Path
 from ehlectric.cases.axle_case import AxleCase
-from ehlectric.cases.drive_case import changes_of
+from ehlectric.cases.drive_case import within_remedy
 from ehlectric.cases.drive_inputs import Breakdown
 from ehlectric.drive import (
     HOUSING,
@@ -148,13 +148,13 @@ def simulate_axles(
     """
     films = [solve_films(solution.case) for solution in solutions] if films is None else films
     case, missing = solutions[0].case, list[InputError]()
+    in_file = [0, *(number for number, _ in case.numbered_remedies)]
     if case.breakdown is None:
         missing.append(InputError.missing("breakdown", _NO_ARC))
     for number, (solution, solved) in enumerate(zip(solutions, films, strict=True)):
         lacking, known = list[InputError](), {each.key for each in missing}
         breakdown = solution.case.breakdown or Breakdown.from_dict(_ANY_ARC)
-        changes = changes_of(case.numbered_remedies[number - 1][0]) if number else nullcontext()
-        with changes, _collecting(lacking):
+        with within_remedy(in_file[number]), _collecting(lacking):
             _films_in_time(solved, breakdown, _conducting(solution))
         missing += [
             _of_remedy(each, case, number)

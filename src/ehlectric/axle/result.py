@@ -16,7 +16,7 @@ from ehlectric.axle.summary import axle_summary, tables_of_point
 from ehlectric.axle.uncertainty import AxleUncertainty, has_chance, uncertainty_of
 from ehlectric.cases.axle_case import AxleCase
 from ehlectric.cases.discharge_inputs import Discharge
-from ehlectric.cases.drive_case import changes_of
+from ehlectric.cases.drive_case import within_remedy
 from ehlectric.cases.library.estimated_bearings import is_estimated
 from ehlectric.errors import InputError
 from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
@@ -352,7 +352,7 @@ def solve_axle(
     variants = case.variants()
     every = [solve_films(case, progress)]
     for (number, _), variant in zip(case.numbered_remedies, variants if remedies else (), strict=False):
-        with changes_of(number):
+        with within_remedy(number):
             every.append(solve_films(variant, progress))
     solution, *changed = map(elements_of, every)
     timed = probable and case.drive.duration is not None

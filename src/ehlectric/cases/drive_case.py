@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from contextlib import AbstractContextManager
+from contextlib import AbstractContextManager, nullcontext
 from copy import deepcopy
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from pydantic import Field, model_validator
 
@@ -53,8 +54,9 @@ class Remedy(Table, book="remedies"):
         return self
 
 
-class Connection(NamedTuple):
-    """Connection of two nodes of a network that is no film."""
+@dataclass(frozen=True)
+class Connection:
+    """Connection of two nodes of a network."""
 
     name: str
     first: str
@@ -64,9 +66,11 @@ class Connection(NamedTuple):
     conductance: float = 0.0  # [S]
 
 
-def changes_of(number: int) -> AbstractContextManager[None]:
-    """Context in which errors get their key in the changes of a remedy, by its number in the file."""
-    return within(f"remedies.{number}.changes")
+def within_remedy(number: int) -> AbstractContextManager[None]:
+    """Context in which errors get their key in the changes of a remedy, by its number in the file; with 0, of
+    the case without a remedy, they keep it.
+    """
+    return within(f"remedies.{number}.changes") if number else nullcontext()
 
 
 class NetworkCase(CaseFile):
@@ -139,7 +143,7 @@ class NetworkCase(CaseFile):
 
     def _changed(self, numbered: tuple[int, Remedy]) -> Self:
         number, remedy = numbered
-        with changes_of(number):
+        with within_remedy(number):
             return self.replace({**remedy.changes, "remedies": []})
 
 

@@ -33,7 +33,7 @@ import scipy
 
 from ehlectric.arrays import Array, IntArray, Mask
 from ehlectric.cases.axle_keys import HOUSING as HOUSING
-from ehlectric.cases.drive_case import NetworkCase
+from ehlectric.cases.drive_case import Connection, NetworkCase
 from ehlectric.cases.drive_inputs import Circuit
 from ehlectric.drive.circuit_equations import FRAME, Element, StateSpace, state_space
 from ehlectric.errors import InputError
@@ -46,17 +46,11 @@ SOURCE, WINDING, EARTH = (f"{_OF_MACHINE}{name}" for name in ("source", "winding
 
 
 @dataclass(frozen=True)
-class Film:
+class Film(Connection):
     """Element between two nodes that insulates or conducts: a bearing, a gear mesh, a link, or an element of
     the machine.
     """
 
-    name: str
-    first: str
-    second: str
-    capacitance: float = 0.0  # [F]
-    conducts: bool = False
-    conductance: float = 0.0  # [S]
     inductance: float = 0.0  # [H]
     resistance: float = 0.0  # in series with the inductance [Ohm]
 
@@ -255,7 +249,7 @@ def network_of(case: NetworkCase) -> Network:
     kept = [
         each for each in of_machine.elements if case.circuit.inductive or rotor in (each.first, each.second)
     ]
-    connections = (Film(*each) for each in case.connections())
+    connections = (Film(**vars(each)) for each in case.connections())
     return Network(case.shaft_names, (*kept, *connections), of_machine.source)
 
 

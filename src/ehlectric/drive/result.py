@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from ehlectric.cases.drive_case import DriveCase, changes_of
+from ehlectric.cases.drive_case import DriveCase, within_remedy
 from ehlectric.drive.drive_cycle import DriveDuty, run_drive_cycle
 from ehlectric.drive.drive_record import DriveSolution, event_rows
 from ehlectric.drive.stored import dataset_of
@@ -252,7 +251,7 @@ def solve_drive(
     solution = solve(case, next(parts), workers=workers)
     remedies = []
     for (number, remedy), variant in zip(case.numbered_remedies, variants, strict=True):
-        with changes_of(number):
+        with within_remedy(number):
             solved = solve(variant, next(parts), workers=workers)
         remedies.append((remedy.title, dict(remedy.changes), solved))
     duty, *others = _duties(
@@ -284,5 +283,5 @@ def _duties(
         if case.duty is None:
             yield None
             continue
-        with changes_of(number) if number else nullcontext():
+        with within_remedy(number):
             yield run_drive_cycle(case, solution.highest_source, solve, next(parts))

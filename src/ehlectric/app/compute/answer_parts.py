@@ -33,6 +33,11 @@ from ehlectric.sweep import Sweep
 UNUSABLE = "not converged: do not use this value"
 
 
+def usable(numbers: Iterable[Number], *, converged: bool) -> list[Number]:
+    """Numbers of an answer, of which none is known if its films are not ``converged``."""
+    return [each if converged else replace(each, note=UNUSABLE, known=False) for each in numbers]
+
+
 def cards(rows: Iterable[Row], keys: Mapping[str, Iterable[str]]) -> list[Number]:
     """Numbers of some keys, in the order of the keys; keys that no row has are skipped.
 

@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from ehlectric.app.charts.axle_charts import ratios_figure, simulated_figures
 from ehlectric.app.compute.answer_parts import (
-    UNUSABLE,
     at_operating_point,
     axle_of,
     gauge_text,
     lines_of,
     page_warnings_of,
     percent_of,
+    usable,
 )
 from ehlectric.app.view_models import (
     AXLE_WITHOUT_PROBABILITY,
@@ -103,7 +102,7 @@ def answer_of(result: AxleResult) -> AxleAnswer:
         verdict=verdict,
         meaning=_meaning_of(verdict),
         how=_simulated_text(summary) if simulated else _TEXTS["how"],
-        shown=tuple(_numbers(summary)),
+        shown=tuple(usable(_numbers(summary), converged=summary["converged"])),
         deciding=_deciding(summary, verdict, probable=result.probable),
         lines=lines_of(axle_rows(summary)),
         warnings=page_warnings_of(result.warnings),
@@ -172,14 +171,7 @@ def _meaning_of(verdict: Verdict) -> str:
 
 
 def _numbers(summary: Summary) -> Iterator[Number]:
-    """Main numbers: margin and voltages of the first element, and voltage of the edge. None may be used, and
-    none is known, where a film is not converged.
-    """
-    for number in _known_numbers(summary):
-        yield number if summary["converged"] else replace(number, note=UNUSABLE, known=False)
-
-
-def _known_numbers(summary: Summary) -> Iterator[Number]:
+    """Main numbers: margin and voltages of the first element, and voltage of the edge."""
     labels = _TEXTS["numbers"]
     first = summary["first"]
     if first["element"] is not None:

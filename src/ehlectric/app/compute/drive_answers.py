@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any
 
 from ehlectric.app.compute.answer_parts import (
-    UNUSABLE,
     at_operating_point,
     card,
     drive_of,
@@ -16,6 +15,7 @@ from ehlectric.app.compute.answer_parts import (
     page_warnings_of,
     percent_of,
     unknown,
+    usable,
 )
 from ehlectric.app.view_models import (
     Deciding,
@@ -71,8 +71,7 @@ def drive_numbers(summary: Summary, sheet: Sheet, warnings: tuple[PageWarning, .
     if _BREAKDOWN not in ends:  # Ceramic elements insulate.
         keys.remove(_BREAKDOWN)
     numbers = [_of_ends(key, ends) if key.startswith("end.") else _of_drive(key, whole) for key in keys]
-    if not summary.get("converged", True):
-        numbers = [replace(number, note=UNUSABLE, known=False) for number in numbers]
+    numbers = usable(numbers, converged=summary.get("converged", True))
     return tuple(replace(number, warnings=concerning(warnings, number.key)) for number in numbers)
 
 
